@@ -1,0 +1,29 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The default traits: the fast CPU engine.
+#ifndef CGAL_POWER_RTF_TRAITS_3_H
+#define CGAL_POWER_RTF_TRAITS_3_H
+
+#include <CGAL/PowerRTF/engines/Cpu_engine.h>
+
+#include <CGAL/tags.h>
+
+namespace CGAL {
+
+/// \cgalModels `PowerRTFTraits_3`
+///
+/// \tparam Kernel_ a CGAL kernel; the points of the input and the output are its `Point_3`.
+/// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`.
+template <class Kernel_, class ConcurrencyTag = Parallel_if_available_tag>
+struct PowerRTF_traits_3 {
+  using Kernel = Kernel_;
+  using Concurrency_tag = ConcurrencyTag;
+  using Engine = PowerRTF::Cpu_engine<ConcurrencyTag>;
+  /// The traits' name in reports.
+  static const char* name() { return "cpu"; }
+};
+
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_TRAITS_3_H

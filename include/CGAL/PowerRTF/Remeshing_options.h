@@ -1,0 +1,89 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every parameter of the remesher: its symbol in the paper, its unit, its default.
+#ifndef CGAL_POWER_RTF_REMESHING_OPTIONS_H
+#define CGAL_POWER_RTF_REMESHING_OPTIONS_H
+
+#include <cstddef>
+
+namespace CGAL {
+namespace PowerRTF {
+
+enum class Preset { quality, paper };
+enum class Density { uniform, curvature };             ///< rho = 1, or rho = kappa^p
+enum class Sampling { elimination, random };           ///< how the first samples are chosen
+enum class Attributes { facet, nearest_vertices };     ///< where a sample's normal and density come from
+enum class Projection { nearest_facet, nearest_vertices };
+enum class Position_method { lbfgs, lloyd };
+enum class Weight_method { none, multiplicative, newton }; ///< none: RTF, the paper's rule, Newton
+enum class Weight_operator { ceiling, floor };         ///< rounding of alpha; floor: as printed
+enum class Extraction_method { insertion, restricted_delaunay };
+
+/// Parameters of `PowerRTF_remesher`. The defaults are those of the preset `quality`;
+/// `paper_preset()` gives those of the paper. Lengths are relative, so no parameter depends on the
+/// input's size or position.
+struct Remeshing_options {
+  Preset preset = Preset::quality;
+  std::size_t number_of_samples = 3000; ///< n
+  unsigned random_seed = 0;
+
+  // Density (Section 4.3, "Initial Sampling")
+  Density density = Density::curvature;
+  double density_power = 1; ///< p of rho = kappa^p: 1, 2, 3 are f, f^2, f^3 (Figure 9)
+  double gradation = 0.2;   ///< largest growth of the spacing per unit of length; 0: not limited
+
+  // Initial sampling
+  Sampling sampling = Sampling::elimination;
+  double oversampling = 4;       ///< m: candidates per sample
+  int relaxation_iterations = 10; ///< first iterations without weights, by Lloyd's method
+
+  // Samples' attributes
+  Attributes attributes = Attributes::facet;
+  int normal_neighbors = 12;  ///< k_n: vertices averaged for a normal  (Attributes::nearest_vertices)
+  int density_neighbors = 12; ///< k_d: vertices averaged for a density (Attributes::nearest_vertices)
+
+  // Cells (Algorithm 1)
+  int neighbors = 32;        ///< k: samples in the first neighbour search; enlarged until complete
+  double normal_angle = 100; ///< Theta, degrees: larger angles make two samples incompatible (NVISPC)
+
+  // Positions (Algorithm 3)
+  Position_method position_method = Position_method::lbfgs;
+  int max_iterations = 100; ///< N_m: position steps
+  int lbfgs_memory = 5;     ///< pairs kept by L-BFGS
+  Projection projection = Projection::nearest_facet;
+  int projection_neighbors = 16; ///< vertices whose facets are tried (Projection::nearest_vertices)
+  double centroid_density_power = 2; ///< centroids are weighted by rho to this power
+
+  // Weights (Algorithm 2)
+  Weight_method weight_method = Weight_method::newton;
+  double capacity_tolerance = 0.04; ///< gamma: half-width of the capacity interval; 0: CCCPD
+  int max_weight_iterations = 30;   ///< N_m^w
+  double weight_step = 1;           ///< tau: Delta s = tau * gamma * D_i / 4
+  Weight_operator weight_operator = Weight_operator::ceiling;
+
+  // Extraction
+  Extraction_method extraction = Extraction_method::insertion;
+
+  /// The paper's own algorithms and parameter values (Section 5).
+  static Remeshing_options paper_preset()
+  {
+    Remeshing_options o;
+    o.preset = Preset::paper;
+    o.gradation = 0;
+    o.sampling = Sampling::random;
+    o.oversampling = 2;
+    o.attributes = Attributes::nearest_vertices;
+    o.normal_angle = 60;
+    o.position_method = Position_method::lloyd;
+    o.projection = Projection::nearest_vertices;
+    o.centroid_density_power = 0;
+    o.weight_method = Weight_method::multiplicative;
+    return o;
+  }
+};
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_REMESHING_OPTIONS_H

@@ -1,0 +1,110 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a remeshing run did and what its result is worth.
+#ifndef CGAL_POWER_RTF_REMESHING_REPORT_H
+#define CGAL_POWER_RTF_REMESHING_REPORT_H
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// Counts of the cells by status, after one construction (Algorithm 1).
+struct Cell_counts {
+  std::size_t ok = 0;
+  std::size_t guarded = 0;    ///< bounded by the guard square (NVISPC left too few neighbours)
+  std::size_t empty = 0;      ///< the power cell does not meet the tangent plane
+  std::size_t incomplete = 0; ///< not certified: more polygon vertices than a cell can hold
+};
+
+/// How equal the capacities m_i = rho_i A(F_i) are (Section 4.2).
+struct Capacity_statistics {
+  double inside_interval = 0;   ///< share of cells with |m_i - mean| <= gamma * mean
+  double rms = 0;               ///< RMS of m_i / mean - 1
+  double largest_deviation = 0; ///< max |m_i / mean - 1|
+};
+
+/// Triangle quality (Khan et al. 2020; the columns of the paper's Tables 1 and 2).
+struct Quality_statistics {
+  double q_min = 0, q_avg = 0;             ///< Q_t = 6/sqrt(3) * A_t / (S_t E_t)
+  double theta_min = 0, theta_min_avg = 0; ///< degrees
+  double below_30 = 0, above_90 = 0;       ///< share of triangles with such an angle
+};
+
+/// Combinatorics of a triangle mesh given as a soup of triangles.
+struct Topology_statistics {
+  std::size_t vertices = 0, edges = 0, faces = 0;
+  std::size_t components = 0, border_edges = 0, border_loops = 0;
+  std::size_t non_manifold_edges = 0, non_manifold_vertices = 0;
+  long euler_characteristic = 0;
+  bool oriented = true; ///< no edge is traversed twice in the same direction
+};
+
+/// Two-sided distance between input and output, times 100 / bounding-box diagonal of the input.
+struct Distance_statistics {
+  double rms = 0, mean = 0, max = 0;
+};
+
+/// What was mended in the input before it was used.
+struct Repair_counts {
+  std::size_t duplicate_vertices = 0, unused_vertices = 0, degenerate_facets = 0,
+              triangulated_polygons = 0, duplicate_facets = 0, reoriented_facets = 0;
+};
+
+struct Stage_seconds {
+  double load = 0, surface = 0, sampling = 0, optimization = 0, extraction = 0, improvement = 0,
+         quality = 0, write = 0, total = 0;
+};
+
+/// One outer iteration (one pass of Algorithm 3's loop).
+struct Iteration_report {
+  std::size_t constructions = 0; ///< so far
+  Cell_counts cells;
+  Capacity_statistics capacity;
+  double displacement = 0; ///< RMS of |s_i - c_i|, in units of h = sqrt(area / n)
+};
+
+/// The result of `power_rtf_remeshing()` beside the mesh.
+struct Remeshing_report {
+  std::size_t samples_asked = 0; ///< n
+  bool cancelled = false;        ///< the visitor stopped the optimisation
+  std::size_t constructions = 0; ///< of all cells, in all (Algorithm 1)
+  std::size_t outer_iterations = 0;
+  std::vector<Iteration_report> iterations;
+  Cell_counts cells;            ///< at the end
+  Capacity_statistics capacity; ///< at the end
+  Repair_counts repairs;
+  Topology_statistics input_topology, topology;
+  std::size_t self_intersections = 0; ///< pairs of facets
+  Quality_statistics quality;
+  Distance_statistics distance;
+  Stage_seconds seconds;
+
+  /// The guarantees that the result misses, in words; empty: all are met.
+  std::vector<std::string> missed_guarantees() const;
+};
+
+inline std::vector<std::string> Remeshing_report::missed_guarantees() const
+{
+  std::vector<std::string> missed;
+  const auto expect = [&missed](bool met, const std::string& text) { if (!met) missed.push_back(text); };
+  const auto same = [&expect](auto is, auto asked, const std::string& what)
+  { expect(is == asked, what + ": " + std::to_string(is) + " instead of " + std::to_string(asked)); };
+  same(topology.vertices, samples_asked, "vertices");
+  same(topology.non_manifold_edges, std::size_t(0), "non-manifold edges");
+  same(topology.non_manifold_vertices, std::size_t(0), "non-manifold vertices");
+  expect(topology.oriented, "the facets are not consistently oriented");
+  same(topology.euler_characteristic, input_topology.euler_characteristic, "Euler characteristic");
+  same(topology.components, input_topology.components, "components");
+  same(topology.border_loops, input_topology.border_loops, "border loops");
+  same(self_intersections, std::size_t(0), "self-intersecting pairs of facets");
+  return missed;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_REMESHING_REPORT_H

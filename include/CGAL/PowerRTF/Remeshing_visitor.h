@@ -1,0 +1,27 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Hooks into a remeshing run.
+#ifndef CGAL_POWER_RTF_REMESHING_VISITOR_H
+#define CGAL_POWER_RTF_REMESHING_VISITOR_H
+
+#include <CGAL/PowerRTF/Remeshing_report.h>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// The default visitor: does nothing and never stops. Derive from it, or give any class with these
+/// members; pass it through `std::ref` to keep its state.
+struct Remeshing_default_visitor {
+  /// A stage begins: "surface", "sampling", "optimization", "extraction" or "quality".
+  void on_stage(const char* /*name*/) {}
+  /// An outer iteration ended. `progress` in [0, 1] is the share of the optimisation done.
+  void on_iteration(const Iteration_report& /*iteration*/, double /*progress*/) {}
+  /// `false` stops the optimisation after the current iteration; no mesh is made.
+  bool go_further() { return true; }
+};
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_REMESHING_VISITOR_H

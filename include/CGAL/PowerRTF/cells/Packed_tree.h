@@ -1,0 +1,118 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A packed R-tree over items that are already in spatial order: node k of level 0 covers the items
+// 8k .. 8k+7, node k of a level above the nodes 8k .. 8k+7 of the level below. There are no
+// pointers; to refit after the items have moved is to recompute the boxes level by level. The
+// order of the items only affects speed, never a result. (Kamel and Faloutsos, "On packing
+// R-trees", 1993.)
+#ifndef CGAL_POWER_RTF_CELLS_PACKED_TREE_H
+#define CGAL_POWER_RTF_CELLS_PACKED_TREE_H
+
+#include <CGAL/PowerRTF/cells/vector.h>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// An axis-aligned box.
+template <class FT>
+struct Box3 {
+  Vec3<FT> lo, hi;
+
+  CGAL_POWER_RTF_HD void add(const Vec3<FT>& p) { add(Box3{p, p}); }
+  CGAL_POWER_RTF_HD void add(const Box3& b)
+  {
+    if (b.lo.x < lo.x) lo.x = b.lo.x;
+    if (b.lo.y < lo.y) lo.y = b.lo.y;
+    if (b.lo.z < lo.z) lo.z = b.lo.z;
+    if (b.hi.x > hi.x) hi.x = b.hi.x;
+    if (b.hi.y > hi.y) hi.y = b.hi.y;
+    if (b.hi.z > hi.z) hi.z = b.hi.z;
+  }
+};
+
+namespace internal {
+template <class FT>
+CGAL_POWER_RTF_HD inline FT gap(FT alo, FT ahi, FT blo, FT bhi)
+{
+  const FT below = blo - ahi, above = alo - bhi;
+  const FT g = below > above ? below : above;
+  return g > 0 ? g : FT(0);
+}
+} // namespace internal
+
+/// Squared distance of two boxes; 0 where they overlap.
+template <class FT>
+CGAL_POWER_RTF_HD inline FT squared_distance(const Box3<FT>& a, const Box3<FT>& b)
+{
+  const FT dx = internal::gap(a.lo.x, a.hi.x, b.lo.x, b.hi.x);
+  const FT dy = internal::gap(a.lo.y, a.hi.y, b.lo.y, b.hi.y);
+  const FT dz = internal::gap(a.lo.z, a.hi.z, b.lo.z, b.hi.z);
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/// Squared distance of a box and a point; 0 inside.
+template <class FT>
+CGAL_POWER_RTF_HD inline FT squared_distance(const Box3<FT>& a, const Vec3<FT>& p)
+{ return squared_distance(a, Box3<FT>{p, p}); }
+
+/// The shape of a packed tree over `items` items: how its nodes lie in one array.
+struct Packed_tree_layout {
+  static constexpr int arity = 8;
+  static constexpr int max_levels = 11; // 8^11 > 2^32 items
+  /// Nodes that wait in a depth-first traversal: at most 7 siblings per level, and the last 8.
+  static constexpr int stack_size = 7 * max_levels + 1;
+
+  int items = 0;
+  int levels = 0;                     ///< level `levels - 1` holds the root alone
+  int first[max_levels + 1] = {};     ///< first node of each level; first[levels]: number of nodes
+
+  CGAL_POWER_RTF_HD explicit Packed_tree_layout(int number_of_items = 0) : items(number_of_items)
+  {
+    int below = items;
+    while (below > 1 || (levels == 0 && below > 0)) {
+      below = (below + arity - 1) / arity;
+      first[levels + 1] = first[levels] + below;
+      ++levels;
+    }
+  }
+
+  CGAL_POWER_RTF_HD int nodes() const { return first[levels]; }
+  CGAL_POWER_RTF_HD int nodes(int level) const { return first[level + 1] - first[level]; }
+
+  /// Children of node `k` of `level`: items (level 0), or nodes of the level below.
+  CGAL_POWER_RTF_HD int children_begin(int k) const { return k * arity; }
+  CGAL_POWER_RTF_HD int children_end(int level, int k) const
+  {
+    const int below = level == 0 ? items : nodes(level - 1);
+    return (k + 1) * arity < below ? (k + 1) * arity : below;
+  }
+};
+
+/// Visits the tree's leaves depth first. `enter(node)` tells whether a node (its position in the
+/// array of nodes) is worth visiting; `leaf(begin, end)` receives the items of a leaf.
+template <class Enter, class Leaf>
+CGAL_POWER_RTF_HD inline void traverse(const Packed_tree_layout& tree, Enter&& enter, Leaf&& leaf)
+{
+  if (tree.items == 0) return;
+  struct Pending { int level, node; };
+  Pending stack[Packed_tree_layout::stack_size];
+  int size = 0;
+  stack[size++] = {tree.levels - 1, 0};
+  while (size > 0) {
+    const Pending top = stack[--size];
+    const int begin = tree.children_begin(top.node), end = tree.children_end(top.level, top.node);
+    if (top.level == 0) {
+      leaf(begin, end);
+      continue;
+    }
+    const int first = tree.first[top.level - 1];
+    for (int child = end - 1; child >= begin; --child)
+      if (enter(first + child)) stack[size++] = {top.level - 1, child};
+  }
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CELLS_PACKED_TREE_H

@@ -1,0 +1,147 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The convex polygon of a cell F_i in the frame of its tangent plane, with the site at the origin.
+// Because (intersection of half-spaces) with a plane = intersection of (half-spaces with the
+// plane), the cell is clipped directly in 2D and no 3D power cell is ever built (Section 4.1).
+#ifndef CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
+#define CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
+
+#include <CGAL/PowerRTF/cells/vector.h>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// An orthonormal frame (u, v) of the plane with unit normal `n`; u x v = n. (Duff et al.,
+/// "Building an orthonormal basis, revisited", 2017.)
+template <class FT>
+struct Tangent_frame {
+  Vec3<FT> u, v;
+
+  CGAL_POWER_RTF_HD explicit Tangent_frame(const Vec3<FT>& n)
+  {
+    const FT sign = n.z < 0 ? FT(-1) : FT(1);
+    const FT a = -1 / (sign + n.z), b = n.x * n.y * a;
+    u = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+    v = {b, sign + n.y * n.y * a, -n.y};
+  }
+};
+
+/// A convex polygon, counter-clockwise; edge k runs from vertex k to vertex k + 1 and carries the
+/// neighbour that made it, or -1 .. -4 for a side of the initial square.
+template <class FT>
+struct Tangent_polygon {
+  static constexpr int capacity = 64;
+
+  int size = 0;
+  bool overflow = false; ///< a cut was lost because the polygon was full
+  FT x[capacity], y[capacity];
+  int neighbor[capacity];
+
+  /// The square [-half, half]^2.
+  CGAL_POWER_RTF_HD void set_square(FT half)
+  {
+    size = 4;
+    overflow = false;
+    const FT sx[4] = {half, half, -half, -half}, sy[4] = {-half, half, half, -half};
+    for (int k = 0; k < 4; ++k) {
+      x[k] = sx[k];
+      y[k] = sy[k];
+      neighbor[k] = -1 - k;
+    }
+  }
+
+  /// Squared distance of the farthest vertex from the site: the squared security radius R^2.
+  CGAL_POWER_RTF_HD FT squared_radius() const
+  {
+    FT r = 0;
+    for (int k = 0; k < size; ++k) {
+      const FT d = x[k] * x[k] + y[k] * y[k];
+      if (d > r) r = d;
+    }
+    return r;
+  }
+
+  CGAL_POWER_RTF_HD bool touches_square() const
+  {
+    for (int k = 0; k < size; ++k)
+      if (neighbor[k] < 0) return true;
+    return false;
+  }
+
+  CGAL_POWER_RTF_HD int next(int k) const { return k + 1 < size ? k + 1 : 0; }
+  CGAL_POWER_RTF_HD int previous(int k) const { return k > 0 ? k - 1 : size - 1; }
+
+  /// Keeps a x + b y <= c; the new edge belongs to neighbour `j`. Returns whether it cut.
+  CGAL_POWER_RTF_HD bool clip(FT a, FT b, FT c, int j);
+};
+
+template <class FT>
+CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
+{
+  FT s[capacity]; // > 0: outside
+  int worst = 0;
+  for (int k = 0; k < size; ++k) {
+    s[k] = a * x[k] + b * y[k] - c;
+    if (s[k] > s[worst]) worst = k;
+  }
+  if (size == 0 || !(s[worst] > 0)) return false;
+
+  // The removed vertices form one chain around the worst one (taken so even where rounding says
+  // otherwise: the polygon stays a polygon).
+  int begin = worst, end = worst, removed = 1;
+  while (removed < size && s[previous(begin)] > 0) { begin = previous(begin); ++removed; }
+  while (removed < size && s[next(end)] > 0) { end = next(end); ++removed; }
+  if (removed == size) {
+    size = 0;
+    return true;
+  }
+  if (size - removed + 2 > capacity) {
+    overflow = true;
+    return false;
+  }
+
+  const int in = previous(begin), out = next(end);
+  const FT ti = s[in] / (s[in] - s[begin]), to = s[out] / (s[out] - s[end]);
+  const FT px = x[in] + ti * (x[begin] - x[in]), py = y[in] + ti * (y[begin] - y[in]);
+  const FT qx = x[out] + to * (x[end] - x[out]), qy = y[out] + to * (y[end] - y[out]);
+  const int exit_neighbor = neighbor[end];
+
+  // New polygon: the kept vertices out .. in, then p (edge j), then q (the edge that q lies on).
+  const int kept = size - removed;
+  if (out <= in) { // the kept chain does not wrap around: move it to the front
+    if (out > 0)
+      for (int k = 0; k < kept; ++k) {
+        x[k] = x[out + k];
+        y[k] = y[out + k];
+        neighbor[k] = neighbor[out + k];
+      }
+    x[kept] = px; y[kept] = py; neighbor[kept] = j;
+    x[kept + 1] = qx; y[kept + 1] = qy; neighbor[kept + 1] = exit_neighbor;
+    size = kept + 2;
+    return true;
+  }
+  // The removed chain lies inside the array: close (or open) the gap to two places.
+  const int tail = size - out, to_place = begin + 2;
+  if (to_place < out)
+    for (int k = 0; k < tail; ++k) {
+      x[to_place + k] = x[out + k];
+      y[to_place + k] = y[out + k];
+      neighbor[to_place + k] = neighbor[out + k];
+    }
+  else if (to_place > out)
+    for (int k = tail - 1; k >= 0; --k) {
+      x[to_place + k] = x[out + k];
+      y[to_place + k] = y[out + k];
+      neighbor[to_place + k] = neighbor[out + k];
+    }
+  x[begin] = px; y[begin] = py; neighbor[begin] = j;
+  x[begin + 1] = qx; y[begin + 1] = qy; neighbor[begin + 1] = exit_neighbor;
+  size = kept + 2;
+  return true;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H

@@ -1,0 +1,167 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Algorithm 1: the restricted tangent face F_i of one sample, with a certificate that no sample was
+// missed. The half-planes are clipped by increasing distance from the site; a cell is complete when
+// its security radius R is no larger than the radius for which the candidates were gathered.
+#ifndef CGAL_POWER_RTF_CELLS_CONSTRUCT_CELL_H
+#define CGAL_POWER_RTF_CELLS_CONSTRUCT_CELL_H
+
+#include <CGAL/PowerRTF/cells/Sites_view.h>
+#include <CGAL/PowerRTF/cells/Tangent_polygon.h>
+
+namespace CGAL {
+namespace PowerRTF {
+
+enum class Cell_status : unsigned char {
+  ok,        ///< complete, proved
+  guarded,   ///< too few compatible neighbours: cut by all neighbours and by the guard square
+  empty,     ///< the power cell does not meet the tangent plane
+  incomplete ///< more vertices than a polygon can hold
+};
+
+/// Gathers half-planes and clips them by increasing distance.
+template <class FT>
+class Cell_clipper {
+public:
+  /// Starts cell `i` from a square of half-size `radius`. `cos_angle`: cosine of Theta; neighbours
+  /// whose normals differ by more are skipped (NVISPC); -2 or less: none is.
+  CGAL_POWER_RTF_HD Cell_clipper(const Sites_view<FT>& view, int i, FT radius, FT cos_angle)
+      : m_view(view), m_i(i), m_site(view.sites[i]), m_normal(view.normals[i]), m_frame(m_normal),
+        m_radius(radius), m_cos_angle(cos_angle)
+  { m_polygon.set_square(radius); }
+
+  /// Starts again from the square of half-size `half` <= radius.
+  CGAL_POWER_RTF_HD void set_square(FT half) { m_polygon.set_square(half); }
+
+  /// Offers site `j`; cuts at once only when the buffer is full.
+  CGAL_POWER_RTF_HD void add(int j)
+  {
+    if (j == m_i) return;
+    const Site<FT> other = m_view.sites[j];
+    const Vec3<FT> offset = other.point - m_site.point;
+    const FT d2 = squared_length(offset);
+    if (d2 < m_nearest2) m_nearest2 = d2;
+    const FT power = d2 + m_site.weight - other.weight;
+    // (power / 2d > R): the plane passes outside the radius.
+    if (power > 0 && power * power > 4 * d2 * m_radius * m_radius) return;
+    if (m_cos_angle > -1 && !(dot(m_normal, m_view.normals[j]) > m_cos_angle)) return;
+    const FT a = dot(offset, m_frame.u), b = dot(offset, m_frame.v), t2 = a * a + b * b;
+    if (!(t2 > 0)) { // a plane parallel to the tangent plane, or a duplicate: the first one stays
+      if (power < 0 || (power == 0 && d2 == 0 && j < m_i)) m_polygon.size = 0;
+      return;
+    }
+    if (m_size == buffer_capacity) flush();
+    m_buffer[m_size++] = {power / (2 * std::sqrt(t2)), a, b, power / 2, j};
+  }
+
+  /// Clips what is left; the polygon is final.
+  CGAL_POWER_RTF_HD const Tangent_polygon<FT>& finish()
+  {
+    flush();
+    return m_polygon;
+  }
+
+  /// Whether no site outside the gathered ones can cut: R <= radius and no side of the square left.
+  CGAL_POWER_RTF_HD bool is_complete() const
+  {
+    return m_polygon.size == 0 ||
+           (m_polygon.squared_radius() <= m_radius * m_radius && !m_polygon.touches_square());
+  }
+
+  CGAL_POWER_RTF_HD const Tangent_polygon<FT>& polygon() const { return m_polygon; }
+  CGAL_POWER_RTF_HD const Tangent_frame<FT>& frame() const { return m_frame; }
+  /// Squared distance of the nearest site offered.
+  CGAL_POWER_RTF_HD FT squared_nearest() const { return m_nearest2; }
+
+private:
+  /// a x + b y <= c, at signed distance `distance` from the site.
+  struct Half_plane {
+    FT distance, a, b, c;
+    int neighbor;
+  };
+  static constexpr int buffer_capacity = 64;
+
+  CGAL_POWER_RTF_HD void flush()
+  {
+    for (int k = 1; k < m_size; ++k) { // insertion sort; ties by index
+      const Half_plane h = m_buffer[k];
+      int place = k;
+      for (; place > 0 && before(h, m_buffer[place - 1]); --place)
+        m_buffer[place] = m_buffer[place - 1];
+      m_buffer[place] = h;
+    }
+    FT radius2 = m_polygon.squared_radius();
+    for (int k = 0; k < m_size && m_polygon.size > 0; ++k) {
+      const Half_plane& h = m_buffer[k];
+      if (h.distance > 0 && h.distance * h.distance > radius2) break;
+      if (m_polygon.clip(h.a, h.b, h.c, h.neighbor)) radius2 = m_polygon.squared_radius();
+    }
+    m_size = 0;
+  }
+
+  CGAL_POWER_RTF_HD static bool before(const Half_plane& g, const Half_plane& h)
+  { return g.distance < h.distance || (g.distance == h.distance && g.neighbor < h.neighbor); }
+
+  const Sites_view<FT>& m_view;
+  int m_i;
+  Site<FT> m_site;
+  Vec3<FT> m_normal;
+  Tangent_frame<FT> m_frame;
+  FT m_radius, m_cos_angle;
+  FT m_nearest2 = FT(1e30);
+  Tangent_polygon<FT> m_polygon;
+  Half_plane m_buffer[buffer_capacity];
+  int m_size = 0;
+};
+
+/// A cell whose farthest vertex lies beyond this many distances to the 6th neighbour is guarded.
+template <class FT> CGAL_POWER_RTF_HD constexpr FT guard_factor() { return 3; }
+
+/// Constructs cell `i` and hands it to `sink(i, status, polygon, frame)`.
+///
+/// `radius` is the first guess of R; `candidates(radius, f)` calls `f(j)` for a superset of the
+/// sites that can cut a cell of that radius. The result does not depend on the guess: the radius
+/// grows until the cell is complete or is known to exceed the guard radius.
+template <class FT, class Candidates, class Sink>
+CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, FT radius,
+                                             FT cos_angle, Candidates&& candidates, Sink&& sink)
+{
+  FT guard = -1; // not computed yet: needed only for suspicious cells
+  const auto guard_radius = [&]() {
+    if (guard < 0) guard = guard_factor<FT>() * distance_to_neighbor(view, i, 6);
+    return guard;
+  };
+  for (;;) {
+    Cell_clipper<FT> clipper(view, i, radius, cos_angle);
+    candidates(radius, [&](int j) { clipper.add(j); });
+    const Tangent_polygon<FT>& polygon = clipper.finish();
+    if (polygon.size == 0) return sink(i, Cell_status::empty, polygon, clipper.frame());
+    if (polygon.overflow) return sink(i, Cell_status::incomplete, polygon, clipper.frame());
+    const FT r2 = polygon.squared_radius();
+    if (clipper.is_complete()) {
+      const FT f = guard_factor<FT>();
+      // The 6th neighbour is no nearer than the nearest one.
+      if (r2 <= f * f * clipper.squared_nearest() || r2 <= guard_radius() * guard_radius())
+        return sink(i, Cell_status::ok, polygon, clipper.frame());
+      break;
+    }
+    if (radius >= guard_radius()) break; // R > guard radius
+    radius = 2 * radius < guard_radius() ? 2 * radius : guard_radius();
+  }
+
+  // Guarded: all neighbours count, whatever their normals, within the square of the guard radius.
+  const FT half = guard_radius();
+  Cell_clipper<FT> clipper(view, i, half * FT(1.41421357), FT(-2));
+  clipper.set_square(half);
+  candidates(half * FT(1.41421357), [&](int j) { clipper.add(j); });
+  const Tangent_polygon<FT>& polygon = clipper.finish();
+  sink(i, polygon.size == 0 ? Cell_status::empty
+          : polygon.overflow ? Cell_status::incomplete : Cell_status::guarded,
+       polygon, clipper.frame());
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CELLS_CONSTRUCT_CELL_H

@@ -1,0 +1,154 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Projection of a point onto the surface: the nearest point of the facets whose normals agree with
+// a given one, by a packed tree of boxes (Section 4.2.2, with all facets as candidates instead of
+// those at the nearest vertices; NVISPC as in Section 4.3).
+#ifndef CGAL_POWER_RTF_CELLS_NEAREST_FACET_H
+#define CGAL_POWER_RTF_CELLS_NEAREST_FACET_H
+
+#include <CGAL/PowerRTF/cells/Packed_tree.h>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// A point of a surface and the facet that carries it.
+template <class FT>
+struct Surface_point {
+  Vec3<FT> point;
+  int facet = -1;
+  FT squared_distance = 0; ///< to the query
+};
+
+/// Nearest point of the triangle (a, b, c). (Ericson, "Real-Time Collision Detection", 5.1.5.)
+template <class FT>
+CGAL_POWER_RTF_HD inline Vec3<FT> nearest_point_on_triangle(const Vec3<FT>& p, const Vec3<FT>& a,
+                                                            const Vec3<FT>& b, const Vec3<FT>& c)
+{
+  const Vec3<FT> ab = b - a, ac = c - a, ap = p - a;
+  const FT d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3<FT> bp = p - b;
+  const FT d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const FT vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return d1 - d3 > 0 ? a + ab * (d1 / (d1 - d3)) : a;
+  const Vec3<FT> cp = p - c;
+  const FT d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const FT vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return d2 - d6 > 0 ? a + ac * (d2 / (d2 - d6)) : a;
+  const FT va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const FT s = (d4 - d3) + (d5 - d6);
+    return s > 0 ? b + (c - b) * ((d4 - d3) / s) : b;
+  }
+  const FT denominator = 1 / (va + vb + vc);
+  return a + ab * (vb * denominator) + ac * (vc * denominator);
+}
+
+/// Non-owning view of a triangulated surface with its facets in spatial order.
+template <class FT>
+struct Facets_view {
+  /// The corners of a facet side by side, and its number in the surface.
+  struct Facet {
+    Vec3<FT> a, b, c;
+    int id;
+  };
+  const Facet* facets = nullptr;      ///< #F, in the order of the tree
+  const Vec3<FT>* normals = nullptr;  ///< #F unit normals, in the order of the tree
+  const int* places = nullptr;        ///< #F, place in the tree of each facet of the surface
+  const Box3<FT>* boxes = nullptr;
+  Packed_tree_layout tree;
+};
+
+/// Computes the box of node `k` of `level`; the levels are done in ascending order.
+template <class FT>
+CGAL_POWER_RTF_HD inline void fit_facets_node(const Packed_tree_layout& tree, int level, int k,
+                                              const typename Facets_view<FT>::Facet* facets,
+                                              Box3<FT>* boxes)
+{
+  const int begin = tree.children_begin(k), end = tree.children_end(level, k);
+  const auto child = [&](int c) {
+    if (level > 0) return boxes[tree.first[level - 1] + c];
+    Box3<FT> box{facets[c].a, facets[c].a};
+    box.add(facets[c].b);
+    box.add(facets[c].c);
+    return box;
+  };
+  Box3<FT> box = child(begin);
+  for (int c = begin + 1; c < end; ++c) box.add(child(c));
+  boxes[tree.first[level] + k] = box;
+}
+
+/// The nearest point to `p` on the facets whose normals make less than Theta with `normal`
+/// (`cos_angle`: its cosine; -2: all facets). `hint` is a facet of the surface that is probably
+/// near, or -1. When no facet agrees, `facet` is -1. Ties go to the facet first in the tree.
+template <class FT>
+CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& view,
+                                                         const Vec3<FT>& p, const Vec3<FT>& normal,
+                                                         FT cos_angle, int hint)
+{
+  Surface_point<FT> best;
+  int best_place = -1;
+  const auto test = [&](int place) {
+    if (cos_angle > -1 && !(dot(view.normals[place], normal) > cos_angle)) return;
+    const auto& f = view.facets[place];
+    const Vec3<FT> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
+    const FT d = squared_length(q - p);
+    if (best.facet < 0 || d < best.squared_distance ||
+        (d == best.squared_distance && place < best_place)) {
+      best = {q, f.id, d};
+      best_place = place;
+    }
+  };
+  const int first = hint >= 0 ? view.places[hint] : -1;
+  if (first >= 0) test(first);
+
+  if (view.tree.items == 0) return best;
+  struct Pending { int level, node; FT squared_distance; };
+  Pending stack[Packed_tree_layout::stack_size];
+  int size = 0;
+  stack[size++] = {view.tree.levels - 1, 0, 0};
+  while (size > 0) {
+    const Pending top = stack[--size];
+    if (best.facet >= 0 && top.squared_distance > best.squared_distance) continue;
+    const int begin = view.tree.children_begin(top.node);
+    const int end = view.tree.children_end(top.level, top.node);
+    if (top.level == 0) {
+      for (int place = begin; place < end; ++place)
+        if (place != first) test(place);
+      continue;
+    }
+    const int bottom = size, offset = view.tree.first[top.level - 1];
+    for (int child = begin; child < end; ++child) { // the nearest child ends on top of the stack
+      const FT d = squared_distance(view.boxes[offset + child], p);
+      if (best.facet >= 0 && d > best.squared_distance) continue;
+      int place = size++;
+      for (; place > bottom && stack[place - 1].squared_distance < d; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = {top.level - 1, child, d};
+    }
+  }
+  return best;
+}
+
+/// Barycentric coordinates (of b and c) of a point of the triangle, clamped to it.
+template <class FT>
+CGAL_POWER_RTF_HD inline void barycentric_coordinates(const Vec3<FT>& p, const Vec3<FT>& a,
+                                                      const Vec3<FT>& b, const Vec3<FT>& c,
+                                                      FT& beta, FT& gamma)
+{
+  const Vec3<FT> ab = b - a, ac = c - a, ap = p - a;
+  const FT bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), pb = dot(ap, ab), pc = dot(ap, ac);
+  const FT determinant = bb * cc - bc * bc;
+  beta = determinant > 0 ? (cc * pb - bc * pc) / determinant : FT(0);
+  gamma = determinant > 0 ? (bb * pc - bc * pb) / determinant : FT(0);
+  beta = beta < 0 ? FT(0) : beta > 1 ? FT(1) : beta;
+  gamma = gamma < 0 ? FT(0) : gamma > 1 - beta ? 1 - beta : gamma;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CELLS_NEAREST_FACET_H

@@ -1,0 +1,58 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Owns the arrays behind a `Facets_view`: the surface's facets in a packed tree.
+#ifndef CGAL_POWER_RTF_ENGINES_FACET_TREE_H
+#define CGAL_POWER_RTF_ENGINES_FACET_TREE_H
+
+#include <CGAL/PowerRTF/cells/nearest_facet.h>
+#include <CGAL/PowerRTF/engines/Spatial_order.h>
+#include <CGAL/PowerRTF/surface/Surface.h>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// A search structure for the nearest point of a triangle mesh. Queries are read-only.
+class Facet_tree {
+public:
+  /// `points` and `triangles`: the mesh (#V by 3, #F by 3).
+  Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
+      : m_tree(static_cast<int>(triangles.size()))
+  {
+    std::vector<Vec3d> centers;
+    centers.reserve(triangles.size());
+    for (const Triangle& t : triangles)
+      centers.push_back((points[t[0]] + points[t[1]] + points[t[2]]) * (1.0 / 3));
+    m_places.resize(triangles.size());
+    for (int f : internal::spatial_order(centers)) {
+      m_places[f] = static_cast<int>(m_facets.size());
+      const Triangle& t = triangles[f];
+      m_facets.push_back({points[t[0]], points[t[1]], points[t[2]], f});
+      m_normals.push_back(
+          normalized(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]])));
+    }
+    m_boxes.resize(m_tree.nodes());
+    for (int level = 0; level < m_tree.levels; ++level)
+      for (int k = 0; k < m_tree.nodes(level); ++k)
+        fit_facets_node(m_tree, level, k, m_facets.data(), m_boxes.data());
+  }
+
+  Facets_view<double> view() const
+  { return {m_facets.data(), m_normals.data(), m_places.data(), m_boxes.data(), m_tree}; }
+
+  /// The nearest point of the mesh to `p`; `hint`: a facet that is probably near, or -1.
+  Surface_point<double> nearest(const Vec3d& p, int hint = -1) const
+  { return nearest_facet(view(), p, Vec3d{0, 0, 0}, -2.0, hint); }
+
+private:
+  Packed_tree_layout m_tree;
+  std::vector<Facets_view<double>::Facet> m_facets;
+  std::vector<Vec3d> m_normals;
+  std::vector<int> m_places;
+  std::vector<Box3<double>> m_boxes;
+};
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_ENGINES_FACET_TREE_H

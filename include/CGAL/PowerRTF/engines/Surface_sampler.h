@@ -1,0 +1,126 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a sample takes from the surface: its projection, its normal and its density, in the two ways
+// that `Remeshing_options` names (over the facet, or over the nearest vertices as in the paper).
+#ifndef CGAL_POWER_RTF_ENGINES_SURFACE_SAMPLER_H
+#define CGAL_POWER_RTF_ENGINES_SURFACE_SAMPLER_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/engines/Facet_tree.h>
+#include <CGAL/PowerRTF/surface/Surface.h>
+#include <CGAL/PowerRTF/surface/nearest_vertices.h>
+#include <CGAL/PowerRTF/surface/vertex_facets.h>
+
+#include <cmath>
+#include <memory>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// Cosine of the compatibility angle Theta (degrees); -2 when every pair is compatible.
+inline double compatibility_cosine(double normal_angle)
+{ return normal_angle >= 180 ? -2 : std::cos(normal_angle * 3.14159265358979323846 / 180); }
+
+class Surface_sampler {
+public:
+  /// Keeps references to `surface`.
+  Surface_sampler(const Surface& surface, const Remeshing_options& options)
+      : m_surface(surface), m_options(options),
+        m_cos_angle(compatibility_cosine(options.normal_angle)),
+        m_facets(surface.points, surface.triangles)
+  {
+    if (options.projection == Projection::nearest_vertices ||
+        options.attributes == Attributes::nearest_vertices)
+      m_vertices = std::make_unique<Vertices>(surface);
+  }
+
+  /// Projects `target` onto the facets whose normals agree with `normal` (Section 4.2.2). `hint` is
+  /// a facet that is probably near. The result's facet is -1 when no facet agrees.
+  Surface_point<double> project(const Vec3d& target, const Vec3d& normal, int hint) const
+  {
+    if (m_options.projection == Projection::nearest_facet)
+      return nearest_facet(m_facets.view(), target, normal, m_cos_angle, hint);
+    return project_near_vertices(target, normal);
+  }
+
+  /// Normal n_i and density rho(s_i) of a point of facet `facet` (Section 4.3).
+  void attributes(const Vec3d& p, int facet, Vec3d& normal, double& density) const
+  {
+    if (m_options.attributes == Attributes::nearest_vertices)
+      return attributes_near_vertices(p, normal, density);
+    const Triangle& t = m_surface.triangles[facet];
+    double beta, gamma;
+    barycentric_coordinates(p, m_surface.points[t[0]], m_surface.points[t[1]],
+                            m_surface.points[t[2]], beta, gamma);
+    const auto interpolate = [&](const auto& field) {
+      return field[t[0]] * (1 - beta - gamma) + field[t[1]] * beta + field[t[2]] * gamma;
+    };
+    const Vec3d sum = interpolate(m_surface.vertex_normals);
+    // On a fold the vertices' normals may cancel out or point behind the facet.
+    normal = dot(sum, m_surface.facet_normals[facet]) > 0 ? normalized(sum)
+                                                          : m_surface.facet_normals[facet];
+    density = interpolate(m_surface.vertex_density);
+  }
+
+private:
+  struct Vertices {
+    explicit Vertices(const Surface& surface) : nearest(surface), facets(surface) {}
+    Nearest_vertices nearest;
+    Vertex_facets facets;
+  };
+
+  Surface_point<double> project_near_vertices(const Vec3d& target, const Vec3d& normal) const
+  {
+    std::vector<int> near(m_options.projection_neighbors);
+    near.resize(m_vertices->nearest.find(target, m_options.projection_neighbors, near.data()));
+    Surface_point<double> best;
+    for (int v : near)
+      for (int f : m_vertices->facets.of(v)) {
+        if (!(dot(m_surface.facet_normals[f], normal) > m_cos_angle)) continue;
+        const Triangle& t = m_surface.triangles[f];
+        const Vec3d q = nearest_point_on_triangle(target, m_surface.points[t[0]],
+                                                  m_surface.points[t[1]], m_surface.points[t[2]]);
+        const double d = squared_length(q - target);
+        if (best.facet < 0 || d < best.squared_distance) best = {q, f, d};
+      }
+    return best;
+  }
+
+  /// Means over the k_n and k_d nearest vertices whose normals agree with the basic normal, the
+  /// mean of the three nearest ones (NVISPC).
+  void attributes_near_vertices(const Vec3d& p, Vec3d& normal, double& density) const
+  {
+    const int k = std::max({m_options.normal_neighbors, m_options.density_neighbors, 3});
+    std::vector<int> near(k);
+    near.resize(m_vertices->nearest.find(p, k, near.data()));
+    const auto& normals = m_surface.vertex_normals;
+    Vec3d basic{0, 0, 0};
+    for (std::size_t l = 0; l < near.size() && l < 3; ++l) basic += normals[near[l]];
+    basic = normalized(basic);
+    Vec3d sum{0, 0, 0};
+    double densities = 0;
+    int compatible = 0;
+    for (int l = 0; l < int(near.size()); ++l) {
+      if (!(dot(basic, normals[near[l]]) > m_cos_angle)) continue;
+      if (l < m_options.normal_neighbors) sum += normals[near[l]];
+      if (l < m_options.density_neighbors) {
+        densities += m_surface.vertex_density[near[l]];
+        ++compatible;
+      }
+    }
+    normal = squared_length(sum) > 0 ? normalized(sum) : normals[near[0]];
+    density = compatible > 0 ? densities / compatible : m_surface.vertex_density[near[0]];
+  }
+
+  const Surface& m_surface;
+  Remeshing_options m_options;
+  double m_cos_angle;
+  Facet_tree m_facets;
+  std::unique_ptr<Vertices> m_vertices;
+};
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_ENGINES_SURFACE_SAMPLER_H

@@ -1,0 +1,26 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the extraction makes of the samples.
+#ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
+#define CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
+
+#include <CGAL/PowerRTF/surface/Surface.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// Triangles on the samples, in the coordinates of the unit box.
+struct Extracted_mesh {
+  /// The samples in their order; then the vertices of the surface that the topology does not allow
+  /// to remove (normally none).
+  std::vector<Vec3d> points;
+  std::vector<Triangle> triangles; ///< counter-clockwise seen from outside
+};
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H

@@ -1,0 +1,80 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh that decimation and flips work on: a half-edge mesh whose vertices know the surface's
+// normal, and a measure of how well a triangle lies on the surface.
+#ifndef CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H
+#define CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H
+
+#include <CGAL/PowerRTF/extraction/insert_samples.h>
+
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace internal {
+
+struct Working_mesh {
+  using Mesh = CGAL::Surface_mesh<Vec3d>;
+  using Vertex = Mesh::Vertex_index;
+  using Halfedge = Mesh::Halfedge_index;
+  using Edge = Mesh::Edge_index;
+
+  Mesh mesh;
+  std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
+  std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
+
+  explicit Working_mesh(Refined_surface&& surface)
+    : normals(std::move(surface.normals)), samples(std::move(surface.samples))
+  {
+    const auto vertices = Mesh::size_type(surface.points.size());
+    mesh.reserve(vertices, 3 * vertices, Mesh::size_type(surface.triangles.size()));
+    for (const Vec3d& p : surface.points) mesh.add_vertex(p);
+    for (const Triangle& t : surface.triangles)
+      if (!mesh.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])).is_valid())
+        throw Invalid_input_error("the surface is not an oriented 2-manifold");
+  }
+
+  const Vec3d& point(Vertex v) const { return mesh.point(v); }
+
+  bool are_adjacent(Vertex a, Vertex b) const
+  {
+    for (const Halfedge h : halfedges_around_target(a, mesh))
+      if (mesh.source(h) == b) return true;
+    return false;
+  }
+
+  /// Twice the area times the normal.
+  Vec3d area_vector(Vertex a, Vertex b, Vertex c) const
+  {
+    return cross(point(b) - point(a), point(c) - point(a));
+  }
+
+  /// The smallest cosine between the triangle's normal and the surface's normals at its corners;
+  /// -1 for a triangle without area.
+  double agreement(Vertex a, Vertex b, Vertex c) const
+  {
+    const Vec3d n = area_vector(a, b, c);
+    const double l = length(n);
+    if (!(l > 0)) return -1;
+    return std::min({dot(n, normals[a]), dot(n, normals[b]), dot(n, normals[c])}) / l;
+  }
+
+  /// Shape of a triangle: 1 equilateral, 0 without area (mean ratio).
+  double shape(Vertex a, Vertex b, Vertex c) const
+  {
+    const double l = squared_length(point(b) - point(a)) + squared_length(point(c) - point(b)) +
+                     squared_length(point(a) - point(c));
+    return l > 0 ? 2 * std::sqrt(3.) * length(area_vector(a, b, c)) / l : 0;
+  }
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H

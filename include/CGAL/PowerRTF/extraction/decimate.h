@@ -1,0 +1,185 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Second half of "insertion and decimation" (design.md, section 7): every vertex that is no sample
+// is removed by collapsing it into a neighbour. The link condition (Dey et al., "Topology
+// preserving edge contraction", 1999) holds for each collapse, so the mesh stays homeomorphic to
+// the surface. Each pass removes vertices that are far apart and flips the edges around them to
+// Delaunay, so degrees stay small and the cost is linear. Vertices that cannot go are tried again
+// with weaker geometric conditions; the topological one always holds.
+#ifndef CGAL_POWER_RTF_EXTRACTION_DECIMATE_H
+#define CGAL_POWER_RTF_EXTRACTION_DECIMATE_H
+
+#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace internal {
+
+class Decimator {
+public:
+  Decimator(Working_mesh& mesh, Edge_flipper& flipper)
+    : m(mesh), m_flipper(flipper), m_touched(mesh.samples.size(), 0)
+  {
+    for (const Vertex v : m.mesh.vertices())
+      if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
+  }
+
+  /// \returns the number of vertices that could not be removed.
+  std::size_t run()
+  {
+    // Smallest cosine between new triangles and the surface; then: may borders move inwards?
+    const std::pair<double, bool> stages[] = {
+      {0.7, false}, {0.4, false}, {0.1, false}, {0.1, true}, {-0.5, true}, {-2, true}};
+    for (const auto& stage : stages) {
+      m_min_agreement = stage.first;
+      m_borders_may_move = stage.second;
+      do_passes();
+    }
+    for (bool progress = true; progress && !m_rest.empty();) {
+      progress = false;
+      for (const Vertex u : m_rest)
+        if (is_left(u)) {
+          lower_degree(u);
+          progress |= remove(u);
+        }
+      forget_removed();
+      progress |= do_passes();
+    }
+    return m_rest.size();
+  }
+
+private:
+  using Vertex = Working_mesh::Vertex;
+  using Halfedge = Working_mesh::Halfedge;
+
+  // Passes until one removes nothing. \returns true if any vertex was removed.
+  bool do_passes()
+  {
+    const std::size_t before = m_rest.size();
+    for (bool progress = true; progress && !m_rest.empty();) {
+      ++m_pass;
+      progress = false;
+      for (const Vertex u : m_rest)
+        if (m_touched[u] != m_pass && is_left(u)) progress |= remove(u);
+      forget_removed();
+    }
+    return m_rest.size() < before;
+  }
+
+  bool is_left(Vertex u) const { return m.samples[u] < 0 && !m.mesh.is_removed(u); }
+
+  void forget_removed()
+  {
+    m_rest.erase(std::remove_if(m_rest.begin(), m_rest.end(), [this](Vertex u) { return !is_left(u); }),
+                 m_rest.end());
+  }
+
+  struct Candidate {
+    double shape;
+    Halfedge halfedge; // from u
+    bool operator<(const Candidate& o) const { return shape > o.shape; }
+  };
+
+  // Collapses u into the neighbour that leaves the best triangles.
+  bool remove(Vertex u)
+  {
+    m_ring.clear();
+    for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
+    const bool on_border = m.mesh.is_border(u);
+    m_candidates.clear();
+    for (const Halfedge h : m_ring) {
+      if (on_border && !m_borders_may_move && !m.mesh.is_border(m.mesh.edge(h))) continue;
+      const double shape = shape_after(u, m.mesh.target(h));
+      if (shape >= 0) m_candidates.push_back({shape, h});
+    }
+    std::stable_sort(m_candidates.begin(), m_candidates.end());
+    for (const Candidate& c : m_candidates)
+      if (Euler::does_satisfy_link_condition(m.mesh.edge(c.halfedge), m.mesh)) {
+        collapse(c.halfedge);
+        return true;
+      }
+    return false;
+  }
+
+  // The worst shape of the triangles that collapsing u into v leaves; -1 if one of them does not
+  // agree with the surface.
+  double shape_after(Vertex u, Vertex v) const
+  {
+    double worst = 1;
+    for (const Halfedge h : m_ring) {
+      if (m.mesh.is_border(h)) continue;
+      const Vertex a = m.mesh.target(h), b = m.mesh.target(m.mesh.next(h));
+      if (a == v || b == v) continue;
+      if (m_min_agreement > -1) {
+        const Vec3d n = m.area_vector(v, a, b);
+        const double least = std::min({dot(n, m.normals[u]), dot(n, m.normals[v]),
+                                       dot(n, m.normals[a]), dot(n, m.normals[b])});
+        if (!(least > m_min_agreement * length(n))) return -1;
+      }
+      worst = std::min(worst, m.shape(v, a, b));
+    }
+    return worst;
+  }
+
+  // `collapse_edge()` keeps the end that it likes: the kept vertex becomes what the target was.
+  void collapse(Halfedge to_v)
+  {
+    for (const Halfedge h : m_ring) m_touched[m.mesh.target(h)] = m_pass;
+    const Vertex v = m.mesh.target(to_v);
+    const Vec3d point = m.point(v), normal = m.normals[v];
+    const int sample = m.samples[v];
+    const Vertex kept = Euler::collapse_edge(m.mesh.edge(to_v), m.mesh);
+    m.mesh.point(kept) = point;
+    m.normals[kept] = normal;
+    m.samples[kept] = sample;
+    m_touched[kept] = m_pass;
+    for (const Halfedge h : halfedges_around_target(kept, m.mesh)) {
+      m_flipper.push(m.mesh.edge(h));
+      m_flipper.push(m.mesh.edge(m.mesh.prev(h)));
+    }
+    m_flipper.run(10 * m_ring.size());
+  }
+
+  // Flips edges at u away, best shapes first, so that it may become removable.
+  void lower_degree(Vertex u)
+  {
+    for (bool progress = true; progress && m.mesh.degree(u) > 3;) {
+      progress = false;
+      double best = -1;
+      Halfedge chosen;
+      for (const Halfedge h : halfedges_around_source(u, m.mesh)) {
+        if (!m_flipper.is_legal(m.mesh.edge(h))) continue;
+        const Vertex v = m.mesh.target(h), c = m.mesh.target(m.mesh.next(h)),
+                     d = m.mesh.target(m.mesh.next(m.mesh.opposite(h)));
+        const double shape = m.agreement(d, v, c) > 0 ? m.shape(d, v, c) : 0;
+        if (shape <= best) continue;
+        best = shape;
+        chosen = h;
+        progress = true;
+      }
+      if (progress) m_flipper.flip(m.mesh.edge(chosen));
+    }
+  }
+
+  Working_mesh& m;
+  Edge_flipper& m_flipper;
+  std::vector<Vertex> m_rest;    // no samples: still to be removed
+  std::vector<int> m_touched;    // by vertex: the last pass that changed something around it
+  std::vector<Halfedge> m_ring;
+  std::vector<Candidate> m_candidates;
+  int m_pass = 0;
+  double m_min_agreement = 1;
+  bool m_borders_may_move = false;
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_DECIMATE_H

@@ -1,0 +1,130 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Edge flips: an edge is flipped when the angles opposite to it sum up to more than pi (Delaunay),
+// unless the new triangles lie worse on the surface; and when the new ones lie clearly better.
+// Never when the new edge exists already: the mesh stays a 2-manifold of the same topology.
+#ifndef CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H
+#define CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H
+
+#include <CGAL/PowerRTF/extraction/Working_mesh.h>
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace internal {
+
+class Edge_flipper {
+public:
+  using Vertex = Working_mesh::Vertex;
+  using Halfedge = Working_mesh::Halfedge;
+  using Edge = Working_mesh::Edge;
+
+  /// Triangles whose normals have at least the cosine `good_agreement` with the surface's at their
+  /// corners lie well enough: among them only the angles count.
+  Edge_flipper(Working_mesh& mesh, double good_agreement)
+    : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.number_of_edges(), false)
+  {}
+
+  /// Marks an edge to be looked at by the next `run()`.
+  void push(Edge e)
+  {
+    if (m_waiting[e]) return;
+    m_waiting[e] = true;
+    m_stack.push_back(e);
+  }
+
+  /// Looks at the marked edges and at those around every flipped edge. At most `max_flips`.
+  /// \returns the number of flips.
+  std::size_t run(std::size_t max_flips)
+  {
+    std::size_t flips = 0;
+    while (!m_stack.empty()) {
+      const Edge e = m_stack.back();
+      m_stack.pop_back();
+      m_waiting[e] = false;
+      if (flips < max_flips && flip_if_better(e)) ++flips;
+    }
+    return flips;
+  }
+
+  /// True if the edge can be flipped without a change of topology.
+  bool is_legal(Edge e) const
+  {
+    if (m.mesh.is_removed(e) || m.mesh.is_border(e)) return false;
+    const Halfedge h = m.mesh.halfedge(e);
+    return !m.are_adjacent(apex(h), apex(m.mesh.opposite(h)));
+  }
+
+  void flip(Edge e)
+  {
+    const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
+    for (const Halfedge side : {m.mesh.next(h), m.mesh.prev(h), m.mesh.next(o), m.mesh.prev(o)})
+      push(m.mesh.edge(side));
+    Euler::flip_edge(h, m.mesh);
+  }
+
+private:
+  // Two triangles folded by more than 135 degrees never lie well.
+  static constexpr double fold = -0.7;
+  static constexpr double clearly = 0.05;
+
+  Vertex apex(Halfedge h) const { return m.mesh.target(m.mesh.next(h)); }
+
+  // How well two triangles with a common edge lie on the surface.
+  double fit(Vertex a, Vertex b, Vertex c, Vertex d) const // abc and bad
+  {
+    const Vec3d n1 = m.area_vector(a, b, c), n2 = m.area_vector(b, a, d);
+    const double l1 = length(n1), l2 = length(n2);
+    if (!(l1 > 0) || !(l2 > 0)) return -1;
+    const double cosine = dot(n1, n2) / (l1 * l2);
+    const Vec3d &na = m.normals[a], &nb = m.normals[b], &nc = m.normals[c], &nd = m.normals[d];
+    const double agreement = std::min(std::min({dot(n1, na), dot(n1, nb), dot(n1, nc)}) / l1,
+                                      std::min({dot(n2, na), dot(n2, nb), dot(n2, nd)}) / l2);
+    return std::min(agreement, m_good_agreement) - (cosine < fold ? 1 : 0);
+  }
+
+  // Positive if the angles at c and d, opposite to ab, sum up to more than pi: the sine of the sum,
+  // negated.
+  double excess(Vertex a, Vertex b, Vertex c, Vertex d) const
+  {
+    const Vec3d ca = m.point(a) - m.point(c), cb = m.point(b) - m.point(c),
+                da = m.point(a) - m.point(d), db = m.point(b) - m.point(d);
+    const double sine = length(cross(ca, cb)) * dot(da, db) + dot(ca, cb) * length(cross(da, db));
+    const double scale =
+      std::sqrt(squared_length(ca) * squared_length(cb) * squared_length(da) * squared_length(db));
+    return scale > 0 ? -sine / scale : 0;
+  }
+
+  bool flip_if_better(Edge e)
+  {
+    if (m.mesh.is_removed(e) || m.mesh.is_border(e)) return false;
+    const Halfedge h = m.mesh.halfedge(e);
+    const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = apex(h),
+                 d = apex(m.mesh.opposite(h));
+    const double fit_now = fit(a, b, c, d);
+    const bool not_delaunay = excess(a, b, c, d) > 1e-9;
+    if (!not_delaunay && fit_now >= m_good_agreement) return false;
+    const double fit_then = fit(d, c, a, b);
+    if (!(fit_then > fit_now + clearly || (not_delaunay && fit_then >= fit_now))) return false;
+    if (m.are_adjacent(c, d)) return false;
+    flip(e);
+    return true;
+  }
+
+  Working_mesh& m;
+  double m_good_agreement;
+  std::vector<Edge> m_stack;
+  std::vector<char> m_waiting; // by edge
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H

@@ -1,0 +1,62 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From samples to triangles with a guaranteed topology: insertion, decimation, Delaunay flips
+// (design.md, section 7).
+#ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
+#define CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
+
+#include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/extraction/decimate.h>
+#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/extraction/insert_samples.h>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace internal {
+
+inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Samples& samples)
+{
+  const auto& mesh = working.mesh;
+  Extracted_mesh result;
+  result.points = samples.points;
+  std::vector<int> name(working.samples);
+  for (const auto v : mesh.vertices())
+    if (name[v] < 0 && !mesh.is_isolated(v)) {
+      name[v] = int(result.points.size());
+      result.points.push_back(mesh.point(v));
+    }
+  result.triangles.reserve(mesh.number_of_faces());
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    result.triangles.push_back(
+      {name[mesh.source(h)], name[mesh.target(h)], name[mesh.target(mesh.next(h))]});
+  }
+  return result;
+}
+
+} // namespace internal
+
+/// A mesh on the samples that is homeomorphic to `surface`: an oriented 2-manifold with the same
+/// components, borders and Euler characteristic, whatever the samples are. Where sampling is dense
+/// its triangles are those of the restricted Delaunay triangulation. The result does not depend on
+/// the samples' order. A component with fewer samples than its topology needs (4 for a sphere)
+/// keeps vertices of the surface.
+///
+/// \pre `surface` is an oriented 2-manifold
+/// \throw Invalid_input_error if it is not, or if a sample lies on no facet
+inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples)
+{
+  internal::Working_mesh mesh(internal::insert_samples(surface, samples));
+  internal::Edge_flipper careful_flipper(mesh, 0.3);
+  internal::Decimator(mesh, careful_flipper).run();
+  internal::Edge_flipper flipper(mesh, -0.2);
+  for (const auto e : mesh.mesh.edges()) flipper.push(e);
+  flipper.run(20 * mesh.mesh.number_of_edges());
+  return internal::to_extracted_mesh(mesh, samples);
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H

@@ -1,0 +1,79 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Loops and reductions for CGAL's concurrency tags. The chunks of a reduction are fixed and joined
+// in order, so every result is the same bit for bit for any number of threads, or none.
+#ifndef CGAL_POWER_RTF_INTERNAL_PARALLEL_H
+#define CGAL_POWER_RTF_INTERNAL_PARALLEL_H
+
+#include <CGAL/tags.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#endif
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace internal {
+
+/// Calls `f(begin, end)` for consecutive chunks of [0, n) of at most `chunk` items.
+template <class ConcurrencyTag, class F>
+void for_each_chunk(int n, int chunk, F&& f)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if constexpr (std::is_convertible<ConcurrencyTag, Parallel_tag>::value) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, (n + chunk - 1) / chunk, 1),
+                      [&](const tbb::blocked_range<int>& range) {
+                        for (int c = range.begin(); c != range.end(); ++c)
+                          f(c * chunk, std::min(n, (c + 1) * chunk));
+                      });
+    return;
+  }
+#endif
+  for (int begin = 0; begin < n; begin += chunk) f(begin, std::min(n, begin + chunk));
+}
+
+/// Calls `f(i)` for i in [0, n).
+template <class ConcurrencyTag, class F>
+void for_each_index(int n, F&& f)
+{
+  for_each_chunk<ConcurrencyTag>(n, 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) f(i);
+  });
+}
+
+/// Folds `accumulate(partial, i)` over the indices of each chunk, then `join(total, partial)` over
+/// the chunks in order.
+template <class ConcurrencyTag, class T, class Accumulate, class Join>
+T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
+{
+  constexpr int chunk = 1024;
+  std::vector<T> partial((n + chunk - 1) / chunk, zero);
+  for_each_chunk<ConcurrencyTag>(n, chunk, [&](int begin, int end) {
+    T t = zero;
+    for (int i = begin; i < end; ++i) accumulate(t, i);
+    partial[begin / chunk] = t;
+  });
+  T total = zero;
+  for (const T& p : partial) join(total, p);
+  return total;
+}
+
+/// Sum of `f(i)` over [0, n).
+template <class ConcurrencyTag, class F>
+double sum(int n, F&& f)
+{
+  return reduce<ConcurrencyTag>(n, 0.0, [&](double& s, int i) { s += f(i); },
+                                [](double& s, double p) { s += p; });
+}
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_INTERNAL_PARALLEL_H

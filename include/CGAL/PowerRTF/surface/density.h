@@ -1,0 +1,83 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The density rho that steers how close the samples lie: uniform, from curvature or the user's own
+// (Section 4.3, "Initial Sampling"; gradation is an addition).
+#ifndef CGAL_POWER_RTF_SURFACE_DENSITY_H
+#define CGAL_POWER_RTF_SURFACE_DENSITY_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/surface/curvature.h>
+#include <CGAL/PowerRTF/surface/gradation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+namespace internal {
+
+/// Divides the densities by the largest, and keeps them away from the limits of double: nothing is
+/// sampled at 1e-12 of the largest density.
+inline void normalize_density(std::vector<double>& density)
+{
+  constexpr double smallest = 1e-12;
+  const double largest = *std::max_element(density.begin(), density.end());
+  for (double& rho : density) rho = (std::max)(smallest, rho / largest);
+}
+
+} // namespace internal
+
+/// Sets `surface.vertex_density` as `options` asks: 1, or kappa^`density_power` with its growth
+/// limited by `gradation`. Only ratios of densities matter to any later stage.
+/// \throws Invalid_input_error `density_power` is not in [-100, 100] or `gradation` is negative
+inline void set_density(Surface& surface, const Remeshing_options& options)
+{
+  if (!(std::abs(options.density_power) <= 100))
+    throw Invalid_input_error("the density's power must lie between -100 and 100");
+  if (!(options.gradation >= 0)) throw Invalid_input_error("the gradation must not be negative");
+  surface.vertex_density.assign(surface.points.size(), 1);
+  if (options.density == Density::uniform) return;
+  const Surface_edges edges = surface_edges(surface);
+  surface.vertex_density = normalized_curvature(surface, edges);
+  for (double& rho : surface.vertex_density) rho = std::pow(rho, options.density_power);
+  internal::normalize_density(surface.vertex_density);
+  if (options.gradation > 0)
+    limit_gradation(surface, edges, options.gradation, options.number_of_samples);
+}
+
+/// Sets `surface.vertex_density` from the user's own densities, with their growth limited by
+/// `options.gradation`.
+/// \param densities one per vertex of the *input* (see `Surface::input_vertices`); those of vertices
+///   that the surface does not use are ignored
+/// \throws Invalid_input_error a density is missing, not positive or not finite, or `gradation` is
+///   negative
+inline void set_density(Surface& surface, const Remeshing_options& options,
+                        const std::vector<double>& densities)
+{
+  if (!(options.gradation >= 0)) throw Invalid_input_error("the gradation must not be negative");
+  surface.vertex_density.resize(surface.points.size());
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    const std::size_t input = surface.input_vertices[v];
+    if (input >= densities.size())
+      throw Invalid_input_error("vertex " + std::to_string(input) + " has no density");
+    const double rho = densities[input];
+    if (!(rho > 0) || !std::isfinite(rho))
+      throw Invalid_input_error("the density of vertex " + std::to_string(input) +
+                                " is not a positive, finite number");
+    surface.vertex_density[v] = rho;
+  }
+  internal::normalize_density(surface.vertex_density);
+  if (options.gradation > 0)
+    limit_gradation(surface, surface_edges(surface), options.gradation, options.number_of_samples);
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_SURFACE_DENSITY_H

@@ -1,0 +1,179 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which facets share an edge, and whether the triangles form an oriented 2-manifold.
+// Everything is linear in the number of facets: halfedges are bucketed by their smaller vertex.
+#ifndef CGAL_POWER_RTF_SURFACE_FACET_ADJACENCY_H
+#define CGAL_POWER_RTF_SURFACE_FACET_ADJACENCY_H
+
+#include <CGAL/PowerRTF/surface/Surface.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// Halfedge `h = 3 f + i` runs from corner `i` to corner `i + 1` of facet `f`.
+inline int source(const std::vector<Triangle>& triangles, int h) { return triangles[h / 3][h % 3]; }
+inline int target(const std::vector<Triangle>& triangles, int h)
+{ return triangles[h / 3][(h + 1) % 3]; }
+/// The facet's corner that is not on halfedge `h`.
+inline int apex(const std::vector<Triangle>& triangles, int h) { return triangles[h / 3][(h + 2) % 3]; }
+inline int next_halfedge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// The facets across each edge.
+struct Facet_adjacency {
+  static constexpr int none = -1;
+
+  std::vector<int> opposite; ///< 3 #F: the halfedge of the other facet; `none` at borders and at
+                             ///< edges of more than two facets
+  std::size_t border_edges = 0;
+  std::size_t non_manifold_edges = 0; ///< edges of more than two facets
+  bool same_direction = false;  ///< two facets traverse an edge alike: their orientations differ
+  bool repeated_facets = false; ///< two facets have the same three vertices
+};
+
+/// Finds the facets that share each edge of `triangles`, whose indices are in
+/// `[0, number_of_vertices)` and differ within a triangle.
+inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
+                                       std::size_t number_of_vertices)
+{
+  const int halfedges = static_cast<int>(3 * triangles.size());
+  Facet_adjacency result;
+  result.opposite.assign(halfedges, Facet_adjacency::none);
+
+  std::vector<int> first(number_of_vertices + 1, 0);
+  for (const Triangle& t : triangles)
+    for (int i = 0; i < 3; ++i) ++first[(std::min)(t[i], t[(i + 1) % 3]) + 1];
+  for (std::size_t v = 0; v < number_of_vertices; ++v) first[v + 1] += first[v];
+
+  std::vector<std::pair<int, int>> entries(halfedges); // larger vertex, halfedge
+  std::vector<int> end(first.begin(), first.end() - 1);
+  for (int h = 0; h < halfedges; ++h) {
+    const int a = source(triangles, h), b = target(triangles, h);
+    entries[end[(std::min)(a, b)]++] = {(std::max)(a, b), h};
+  }
+
+  for (std::size_t v = 0; v < number_of_vertices; ++v) {
+    const auto bucket_end = entries.begin() + first[v + 1];
+    std::sort(entries.begin() + first[v], bucket_end);
+    for (auto e = entries.begin() + first[v]; e != bucket_end;) {
+      auto f = e + 1;
+      while (f != bucket_end && f->first == e->first) {
+        for (auto g = e; g != f; ++g)
+          if (apex(triangles, g->second) == apex(triangles, f->second))
+            result.repeated_facets = true;
+        ++f;
+      }
+      if (f - e == 1) ++result.border_edges;
+      else if (f - e == 2) {
+        const int h = e->second, o = (e + 1)->second;
+        result.opposite[h] = o;
+        result.opposite[o] = h;
+        if (source(triangles, h) == source(triangles, o)) result.same_direction = true;
+      } else ++result.non_manifold_edges;
+      e = f;
+    }
+  }
+  return result;
+}
+
+/// The component of each facet: facets that share an edge have the same number. Numbered by
+/// the first facet of each component.
+/// \returns the numbers (#F) and the number of components
+inline std::pair<std::vector<int>, int> facet_components(const Facet_adjacency& adjacency)
+{
+  const int facets = static_cast<int>(adjacency.opposite.size() / 3);
+  std::vector<int> component(facets, -1), stack;
+  int components = 0;
+  for (int seed = 0; seed < facets; ++seed) {
+    if (component[seed] >= 0) continue;
+    component[seed] = components;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const int f = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const int o = adjacency.opposite[3 * f + i];
+        if (o == Facet_adjacency::none || component[o / 3] >= 0) continue;
+        component[o / 3] = components;
+        stack.push_back(o / 3);
+      }
+    }
+    ++components;
+  }
+  return {std::move(component), components};
+}
+
+/// The number of vertices whose facets form more than one fan. Needs consistent orientations.
+inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& triangles,
+                                               const Facet_adjacency& adjacency,
+                                               std::size_t number_of_vertices)
+{
+  const int halfedges = static_cast<int>(adjacency.opposite.size());
+  std::vector<char> visited(halfedges, 0); // the corner at the halfedge's source
+  std::vector<char> fans(number_of_vertices, 0);
+  std::size_t count = 0;
+  for (int start = 0; start < halfedges; ++start) {
+    if (visited[start]) continue;
+    int h = start; // counter-clockwise around the source, then clockwise if a border stopped it
+    do {
+      visited[h] = 1;
+      h = adjacency.opposite[previous_halfedge(h)];
+    } while (h != Facet_adjacency::none && h != start);
+    for (h = adjacency.opposite[start]; h != Facet_adjacency::none; h = adjacency.opposite[h]) {
+      h = next_halfedge(h);
+      if (visited[h]) break;
+      visited[h] = 1;
+    }
+    char& n = fans[source(triangles, start)];
+    if (n == 1) ++count;
+    n = static_cast<char>((std::min)(n + 1, 2));
+  }
+  return count;
+}
+
+/// Turns facets so that neighbours agree; in each component as few as possible.
+/// \returns false if a component cannot be oriented; `turned` counts the turned facets
+inline bool orient_facets(std::vector<Triangle>& triangles, const Facet_adjacency& adjacency,
+                          std::size_t& turned)
+{
+  const int facets = static_cast<int>(triangles.size());
+  std::vector<char> side(facets, -1); // 1: turned with respect to the component's first facet
+  std::vector<int> component;
+  for (int seed = 0; seed < facets; ++seed) {
+    if (side[seed] >= 0) continue;
+    component.assign(1, seed);
+    side[seed] = 0;
+    std::size_t ones = 0;
+    for (std::size_t k = 0; k < component.size(); ++k) {
+      const int f = component[k];
+      ones += side[f];
+      for (int h = 3 * f; h < 3 * f + 3; ++h) {
+        const int o = adjacency.opposite[h];
+        if (o == Facet_adjacency::none) continue;
+        const bool differ = source(triangles, h) == source(triangles, o);
+        const char expected = differ ? 1 - side[f] : side[f];
+        if (side[o / 3] < 0) {
+          side[o / 3] = expected;
+          component.push_back(o / 3);
+        } else if (side[o / 3] != expected) return false;
+      }
+    }
+    const char minority = 2 * ones <= component.size() ? 1 : 0;
+    for (const int f : component) side[f] = side[f] == minority;
+    turned += minority == 1 ? ones : component.size() - ones;
+  }
+  for (int f = 0; f < facets; ++f)
+    if (side[f]) std::swap(triangles[f][1], triangles[f][2]);
+  return true;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_SURFACE_FACET_ADJACENCY_H

@@ -1,0 +1,95 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From a mesh or a polygon soup to the flat arrays that the remesher reads: triangulated, oriented,
+// 2-manifold, in the unit box; or an `Invalid_input_error` that says why that cannot be.
+#ifndef CGAL_POWER_RTF_SURFACE_IMPORT_SURFACE_H
+#define CGAL_POWER_RTF_SURFACE_IMPORT_SURFACE_H
+
+#include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/internal/compat.h>
+#include <CGAL/PowerRTF/surface/clean_soup.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/number_utils.h>
+
+#include <utility>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace internal {
+
+inline const Vec3d& to_vec3d(const Vec3d& p) { return p; }
+
+template <class Point>
+Vec3d to_vec3d(const Point& p)
+{ return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}; }
+
+} // namespace internal
+
+/// Imports any model of `FaceListGraph`. Its connectivity is kept: vertices at the same place stay
+/// apart unless an edge of no length joins them.
+///
+/// \param np may contain `vertex_point_map` (default: the mesh's own)
+/// \param repairs counts what had to be mended
+/// \returns the surface with normals and areas and density 1; `input_vertices` are places in
+///   `vertices(mesh)`. Facets with more than three sides are triangulated, facets without area are
+///   removed where the surface stays a 2-manifold, isolated vertices are dropped.
+/// \throws Invalid_input_error no facet, a coordinate that is not finite, no area, or not a
+///   2-manifold
+template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
+Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_counts& repairs)
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  const auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                          get_const_property_map(CGAL::vertex_point, mesh));
+  auto index = get(CGAL::dynamic_vertex_property_t<int>(), mesh);
+
+  internal::Polygon_soup soup;
+  soup.points.reserve(num_vertices(mesh));
+  for (const auto v : vertices(mesh)) {
+    put(index, v, static_cast<int>(soup.points.size()));
+    soup.points.push_back(internal::to_vec3d(get(point_map, v)));
+  }
+  soup.reserve_polygons(num_faces(mesh));
+  for (const auto f : faces(mesh)) {
+    for (const auto v : CGAL::vertices_around_face(halfedge(f, mesh), mesh))
+      soup.corners.push_back(get(index, v));
+    soup.end_polygon();
+  }
+  return internal::clean_surface(std::move(soup), false, repairs);
+}
+
+/// Imports a polygon soup, as read from a file. Vertices at exactly the same place become one,
+/// unless the polygons form a closed 2-manifold without that and none with it.
+///
+/// \param points range of `Vec3d` or of points with `x()`, `y()`, `z()`
+/// \param polygons range of ranges of indices into `points`
+/// \param repairs counts what had to be mended
+/// \returns the surface as `import_surface()` does; `input_vertices` are indices into `points`.
+///   Repeated polygons are dropped; neighbours are turned to agree, as few as possible (a component
+///   that is inside out stays so).
+/// \throws Invalid_input_error as `import_surface()`; also for an index out of range and for a
+///   surface that cannot be oriented
+template <class PointRange, class PolygonRange>
+Surface import_soup(const PointRange& points, const PolygonRange& polygons, Repair_counts& repairs)
+{
+  internal::Polygon_soup soup;
+  soup.points.reserve(points.size());
+  for (const auto& p : points) soup.points.push_back(internal::to_vec3d(p));
+  soup.reserve_polygons(polygons.size());
+  for (const auto& polygon : polygons) {
+    for (const auto v : polygon) soup.add_corner(v);
+    soup.end_polygon();
+  }
+  return internal::clean_surface(std::move(soup), true, repairs);
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_SURFACE_IMPORT_SURFACE_H

@@ -1,0 +1,247 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The first n samples (Section 4.3, "Initial Sampling"): the paper's random choice, or sample
+// elimination from candidates that are distributed like the density.
+#ifndef CGAL_POWER_RTF_SURFACE_INITIAL_SAMPLING_H
+#define CGAL_POWER_RTF_SURFACE_INITIAL_SAMPLING_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/surface/facet_adjacency.h>
+#include <CGAL/PowerRTF/surface/random_source.h>
+#include <CGAL/PowerRTF/surface/sample_elimination.h>
+#include <CGAL/PowerRTF/surface/surface_geometry.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace internal {
+
+/// Fewest samples of a component: a closed surface needs the corners of a tetrahedron.
+constexpr std::size_t min_samples_per_component = 4;
+
+/// The facets sorted by component, with running sums of what the candidates are proportional to.
+struct Facet_distribution {
+  std::vector<int> facets;        ///< #F, component by component
+  std::vector<double> sums;       ///< #F + 1
+  std::vector<std::size_t> first; ///< #components + 1: where a component begins in `facets`
+
+  double mass(std::size_t c) const { return sums[first[c + 1]] - sums[first[c]]; }
+};
+
+/// \param facet_mass function facet -> mass
+template <class Facet_mass>
+Facet_distribution facet_distribution(const std::vector<int>& component, int components,
+                                      const Facet_mass& facet_mass)
+{
+  Facet_distribution d;
+  d.first.assign(components + 1, 0);
+  for (const int c : component) ++d.first[c + 1];
+  std::partial_sum(d.first.begin(), d.first.end(), d.first.begin());
+  d.facets.resize(component.size());
+  std::vector<std::size_t> end(d.first.begin(), d.first.end() - 1);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    d.facets[end[component[f]]++] = static_cast<int>(f);
+  d.sums.assign(component.size() + 1, 0);
+  for (std::size_t k = 0; k < component.size(); ++k)
+    d.sums[k + 1] = d.sums[k] + facet_mass(d.facets[k]);
+  return d;
+}
+
+/// Shares `n` samples among components in proportion to their masses, by the method of the largest
+/// remainder; no component gets fewer than 4 samples if `n` allows.
+inline std::vector<std::size_t> allocate_samples(const std::vector<double>& masses, std::size_t n)
+{
+  const std::size_t components = masses.size();
+  std::vector<std::size_t> samples(components, 0);
+  std::vector<char> is_fixed(components, 0);
+  std::size_t free_samples = n;
+  double free_mass = std::accumulate(masses.begin(), masses.end(), 0.);
+  if (n >= min_samples_per_component * components) {
+    for (bool changed = true; changed;) { // each fixed component takes samples from the others
+      changed = false;
+      const double per_mass = static_cast<double>(free_samples) / free_mass;
+      for (std::size_t c = 0; c < components; ++c) {
+        if (is_fixed[c] || masses[c] * per_mass >= min_samples_per_component) continue;
+        is_fixed[c] = 1;
+        samples[c] = min_samples_per_component;
+        free_samples -= min_samples_per_component;
+        free_mass -= masses[c];
+        changed = true;
+      }
+    }
+  }
+
+  // Remainders are compared up to 1e-6, so that rounding does not decide between equal components.
+  std::vector<std::pair<long, std::size_t>> remainders;
+  std::size_t left = free_samples;
+  for (std::size_t c = 0; c < components; ++c) {
+    if (is_fixed[c]) continue;
+    const double quota = masses[c] / free_mass * static_cast<double>(free_samples);
+    samples[c] = (std::min)(left, static_cast<std::size_t>(quota + 1e-7));
+    left -= samples[c];
+    const double remainder = quota - static_cast<double>(samples[c]);
+    remainders.emplace_back(-std::lround(remainder * 1e6 / 3), c);
+  }
+  std::sort(remainders.begin(), remainders.end());
+  for (std::size_t k = 0; left > 0; k = (k + 1) % remainders.size(), --left)
+    ++samples[remainders[k].second];
+  return samples;
+}
+
+/// Appends the point of facet `f` with the barycentric coordinates `b`.
+inline void add_sample(const Surface& surface, int f, const std::array<double, 3>& b,
+                       Samples& samples)
+{
+  const Triangle& t = surface.triangles[f];
+  const auto& p = surface.points;
+  samples.points.push_back(b[0] * p[t[0]] + b[1] * p[t[1]] + b[2] * p[t[2]]);
+  samples.facets.push_back(f);
+  samples.normals.push_back(interpolated_normal(surface, f, b));
+  samples.density.push_back(interpolated_density(surface, f, b));
+}
+
+/// `count` independent points of component `c`, uniform by area.
+inline Samples random_candidates(const Surface& surface, const Facet_distribution& d,
+                                 std::size_t c, std::size_t count, Random_source& random)
+{
+  Samples candidates;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double sum = d.sums[d.first[c]] + random() * d.mass(c);
+    const auto above = std::upper_bound(d.sums.begin() + d.first[c] + 1,
+                                        d.sums.begin() + d.first[c + 1], sum);
+    add_sample(surface, d.facets[above - d.sums.begin() - 1], random.barycentric({1, 1, 1}),
+               candidates);
+  }
+  return candidates;
+}
+
+/// `count` points of component `c` distributed like the density: one in each of `count` parts of
+/// equal mass of the sequence of its facets.
+inline Samples stratified_candidates(const Surface& surface, const Facet_distribution& d,
+                                     std::size_t c, std::size_t count, Random_source& random)
+{
+  Samples candidates;
+  std::size_t k = d.first[c];
+  for (std::size_t s = 0; s < count; ++s) {
+    const double share = (static_cast<double>(s) + random()) / static_cast<double>(count);
+    const double sum = d.sums[d.first[c]] + share * d.mass(c);
+    while (k + 1 < d.first[c + 1] && d.sums[k + 1] <= sum) ++k;
+    const Triangle& t = surface.triangles[d.facets[k]];
+    const auto& rho = surface.vertex_density;
+    add_sample(surface, d.facets[k], random.barycentric({rho[t[0]], rho[t[1]], rho[t[2]]}),
+               candidates);
+  }
+  return candidates;
+}
+
+/// `n` of the candidates, without replacement, each drawn with probability proportional to its
+/// density among those left (Efraimidis and Spirakis 2006).
+inline std::vector<int> draw_by_density(const Samples& candidates, std::size_t n,
+                                        Random_source& random)
+{
+  std::vector<std::pair<double, int>> keys;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    keys.emplace_back(-std::log(1 - random()) / candidates.density[i], static_cast<int>(i));
+  std::nth_element(keys.begin(), keys.begin() + n, keys.end());
+  std::vector<int> chosen;
+  for (std::size_t k = 0; k < n; ++k) chosen.push_back(keys[k].second);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+/// `n` of the candidates of a component of the given mass, by sample elimination.
+inline std::vector<int> draw_by_elimination(const Samples& candidates, double mass, std::size_t n,
+                                            double normal_angle)
+{
+  // n discs of radius r in hexagonal arrangement cover n * 2 sqrt(3) r^2.
+  const double per_sample = mass / (2 * std::sqrt(3.) * static_cast<double>(n));
+  std::vector<double> radii;
+  radii.reserve(candidates.size());
+  for (const double rho : candidates.density) radii.push_back(std::sqrt(per_sample / rho));
+  constexpr double radians = 3.14159265358979323846 / 180;
+  return eliminate_samples(candidates.points, candidates.normals, radii,
+                           std::cos(normal_angle * radians), n);
+}
+
+} // namespace internal
+
+/// Puts exactly `options.number_of_samples` samples on the surface, by `options.sampling`:
+///
+/// - `random`: the paper's. m n points, uniform by area; n of them are kept, with probability
+///   proportional to the density.
+/// - `elimination`: m n points distributed like the density, and weighted sample elimination down
+///   to n. Points whose normals differ by more than `options.normal_angle` do not see each other.
+///
+/// Every component of the surface gets its share by mass (the integral of the density), and at
+/// least 4 samples when n allows it; components are sampled one after another.
+/// \returns the samples with their facets; normals and density are interpolated over the facet,
+///   weights are 0. The same seed gives the same samples, also for a scaled surface.
+/// \throws Invalid_input_error fewer than 4 samples, or more candidates than an `int` can count
+inline Samples sample_surface(const Surface& surface, const Remeshing_options& options)
+{
+  const std::size_t n = options.number_of_samples;
+  if (n < internal::min_samples_per_component)
+    throw Invalid_input_error("at least 4 samples are needed, not " + std::to_string(n));
+  if (!(options.oversampling >= 1))
+    throw Invalid_input_error("there must be at least one candidate per sample");
+  if (!(static_cast<double>(n) * options.oversampling < 1e9))
+    throw Invalid_input_error(std::to_string(n) + " samples are too many");
+
+  const auto& rho = surface.vertex_density;
+  const auto density_mass = [&](int f)
+  {
+    const Triangle& t = surface.triangles[f];
+    return surface.facet_areas[f] * (rho[t[0]] + rho[t[1]] + rho[t[2]]) / 3;
+  };
+  const auto [component, components] =
+      facet_components(facet_adjacency(surface.triangles, surface.points.size()));
+  const internal::Facet_distribution by_density =
+      internal::facet_distribution(component, components, density_mass);
+  internal::Facet_distribution by_area;
+  if (options.sampling == Sampling::random)
+    by_area = internal::facet_distribution(component, components,
+                                           [&](int f) { return surface.facet_areas[f]; });
+
+  std::vector<double> masses;
+  for (int c = 0; c < components; ++c) masses.push_back(by_density.mass(c));
+  const std::vector<std::size_t> allocation = internal::allocate_samples(masses, n);
+
+  Random_source random(options.random_seed);
+  Samples samples;
+  for (int c = 0; c < components; ++c) {
+    if (allocation[c] == 0) continue;
+    const auto count = static_cast<std::size_t>(
+        std::ceil(static_cast<double>(allocation[c]) * options.oversampling));
+    const bool eliminate = options.sampling == Sampling::elimination;
+    const Samples candidates =
+        eliminate ? internal::stratified_candidates(surface, by_density, c, count, random)
+                  : internal::random_candidates(surface, by_area, c, count, random);
+    const std::vector<int> chosen =
+        eliminate ? internal::draw_by_elimination(candidates, masses[c], allocation[c],
+                                                  options.normal_angle)
+                  : internal::draw_by_density(candidates, allocation[c], random);
+    for (const int i : chosen) {
+      samples.points.push_back(candidates.points[i]);
+      samples.facets.push_back(candidates.facets[i]);
+      samples.normals.push_back(candidates.normals[i]);
+      samples.density.push_back(candidates.density[i]);
+    }
+  }
+  samples.weights.assign(samples.size(), 0);
+  return samples;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_SURFACE_INITIAL_SAMPLING_H

@@ -1,0 +1,254 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options.h"
+#include "parameters.h"
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <type_traits>
+#include <vector>
+
+namespace tools {
+namespace {
+
+namespace po = boost::program_options;
+using CGAL::PowerRTF::Preset;
+using CGAL::PowerRTF::Remeshing_options;
+
+[[noreturn]] void reject(const std::string& option, const std::string& value,
+                         const std::string& expected)
+{ throw Usage_error("--" + option + ": '" + value + "' is not " + expected); }
+
+template <class T>
+std::string show(const T& value)
+{
+  if constexpr (std::is_enum<T>::value) return name_of(value);
+  std::ostringstream text;
+  text.precision(10);
+  if constexpr (!std::is_enum<T>::value) text << value;
+  return text.str();
+}
+
+template <class E>
+std::string choices(E)
+{
+  std::string text;
+  for (const auto& [value, name] : names(E())) text += (text.empty() ? "" : "|") + std::string(name);
+  return text;
+}
+
+std::string show(const Range& range)
+{
+  const std::string lowest = range.lowest == std::numeric_limits<double>::min()
+                                 ? "above 0" : "at least " + show(range.lowest);
+  if (range.highest == std::numeric_limits<double>::max()) return lowest;
+  return lowest + " and at most " + show(range.highest);
+}
+
+/// The number that `text` is, as a whole; beyond what `T` can hold: its nearest value.
+template <class T>
+T parse_number(const std::string& option, const std::string& text)
+{
+  constexpr bool whole = std::is_integral<T>::value;
+  const char* const end = text.data() + text.size();
+  T value{};
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc::invalid_argument || stop != end || std::isnan(double(value)))
+    reject(option, text, whole ? "a whole number" : "a number");
+  if (error == std::errc::result_out_of_range && whole)
+    value = text[0] == '-' ? std::numeric_limits<T>::lowest() : std::numeric_limits<T>::max();
+  else if (error == std::errc::result_out_of_range || std::isinf(double(value)))
+    reject(option, text, "a number that can be used");
+  return value;
+}
+
+template <class T>
+T parse_value(const std::string& option, const std::string& text, const Range& range)
+{
+  if constexpr (std::is_enum<T>::value) {
+    for (const auto& [value, name] : names(T()))
+      if (text == name) return value;
+    reject(option, text, "one of " + choices(T()));
+  } else {
+    using Number = std::conditional_t<std::is_integral<T>::value, long long, double>;
+    const Number value = parse_number<Number>(option, text);
+    if constexpr (std::is_same<T, std::size_t>::value) // n: see parameters.h
+      return value < 0 ? 0 : static_cast<T>(value);
+    if (!(double(value) >= range.lowest && double(value) <= range.highest))
+      reject(option, text, show(range));
+    return static_cast<T>(value);
+  }
+}
+
+/// "samples,n" -> "samples"
+std::string long_name(const std::string& name) { return name.substr(0, name.find(',')); }
+
+po::typed_value<std::string>* text(const std::string& value_name)
+{ return po::value<std::string>()->value_name(value_name); }
+
+/// The options that --help shows, by group, and the other names that are understood too.
+class Descriptions {
+public:
+  Descriptions()
+  {
+    group("Main").add_options()("preset", text("NAME"),
+                                "quality|paper: this package's choice of all parameters, or the "
+                                "paper's; the other options change single ones (quality)");
+    const Remeshing_options quality, paper = Remeshing_options::paper_preset();
+    for_each_parameter([&](const Parameter& p, auto member) {
+      const auto value = quality.*member, of_paper = paper.*member;
+      using T = std::decay_t<decltype(value)>;
+      std::string argument = std::is_integral<T>::value ? "N" : "X", help = p.help;
+      if constexpr (std::is_enum<T>::value) {
+        argument = "NAME";
+        help = choices(value) + ": " + help;
+      }
+      if (*p.symbol) help += " [" + std::string(p.symbol) + "]";
+      help += " (" + show(value) + (value == of_paper ? "" : "; paper: " + show(of_paper)) + ")";
+      group(p.group).add_options()(p.name, text(argument), help.c_str());
+      if (*p.other_name) m_hidden.add_options()(p.other_name, text(argument));
+    });
+    group("Files").add_options()
+      ("report", text("FILE.json"), "write what was done and what the result is worth")
+      ("cells", text("FILE"), "write the polygons F_i with weight, mass, density, status (PLY, VTP)")
+      ("samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")
+      ("no-mesh", "stop at the samples: OUTPUT is not needed and not written");
+    group("Program").add_options()
+      ("traits", text("NAME"), "auto|cpu|exact|cuda: what runs the algorithm (auto)")
+      ("threads", text("N"), "number of threads; 0: all (0)")
+      ("quiet,q", "no progress, no table")
+      ("help,h", "show this")
+      ("version", "show the version");
+    m_hidden.add_options()("file", po::value<std::vector<std::string>>());
+  }
+
+  std::string help() const
+  {
+    std::ostringstream out;
+    out << "power_rtf_remesh INPUT OUTPUT [options]\n"
+           "Remeshes a surface by power diagrams restricted to tangent planes (PowerRTF).\n"
+           "Reads OFF, OBJ, PLY, STL; writes OFF, OBJ, PLY, STL, VTP, as the file's name ends.\n"
+           "In [brackets]: the paper's symbol; in (parentheses): the default.\n";
+    po::options_description all(line_length, description_length);
+    for (const po::options_description& g : m_groups) all.add(g); // together, so that they align
+    out << all;
+    out << "\nExit codes: 0 done, every guarantee met; 1 the input cannot be used; 2 wrong usage;\n"
+           "3 written, but a guarantee was missed; 130 cancelled.\n";
+    return out.str();
+  }
+
+  po::variables_map parse(int argc, const char* const* argv) const
+  {
+    po::options_description all;
+    for (const po::options_description& g : m_groups) all.add(g);
+    all.add(m_hidden);
+    po::positional_options_description files;
+    files.add("file", -1);
+    po::variables_map values;
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    try {
+      po::store(po::command_line_parser(argc, argv).options(all).positional(files).style(style).run(),
+                values);
+    } catch (const po::error& e) {
+      throw Usage_error(e.what());
+    }
+    return values;
+  }
+
+private:
+  po::options_description& group(const std::string& name)
+  {
+    if (m_names.empty() || m_names.back() != name) {
+      m_names.push_back(name);
+      m_groups.emplace_back(name, line_length, description_length);
+    }
+    return m_groups.back();
+  }
+
+  static constexpr unsigned line_length = 100, description_length = 60;
+  std::vector<std::string> m_names;
+  std::vector<po::options_description> m_groups;
+  po::options_description m_hidden;
+};
+
+/// The preset first, then what the command line says about single parameters.
+Remeshing_options remeshing_options(const po::variables_map& values)
+{
+  Remeshing_options o;
+  if (values.count("preset") &&
+      parse_value<Preset>("preset", values["preset"].as<std::string>(), {}) == Preset::paper)
+    o = Remeshing_options::paper_preset();
+  for_each_parameter([&](const Parameter& p, auto member) {
+    const std::string name = long_name(p.name);
+    if (values.count(name) && values.count(p.other_name))
+      throw Usage_error("--" + name + " and --" + p.other_name + " are the same option");
+    for (const std::string& option : {name, std::string(p.other_name)})
+      if (values.count(option))
+        o.*member = parse_value<std::decay_t<decltype(o.*member)>>(
+            option, values[option].as<std::string>(), p.range);
+  });
+  return o;
+}
+
+void set_files(const po::variables_map& values, Program_options& o)
+{
+  std::vector<std::string> files;
+  if (values.count("file")) files = values["file"].as<std::vector<std::string>>();
+  o.write_mesh = !values.count("no-mesh");
+  if (files.empty()) throw Usage_error("INPUT is missing");
+  if (files.size() == 1 && o.write_mesh) throw Usage_error("OUTPUT is missing");
+  if (files.size() > 2) throw Usage_error("one argument too many: '" + files[2] + "'");
+  o.input = files[0];
+  if (files.size() == 2) o.output = files[1];
+
+  std::vector<std::pair<std::string, std::string>> written;
+  if (o.write_mesh) written.emplace_back("OUTPUT", o.output);
+  for (const auto& [option, file] : {std::pair{"report", &o.report_file},
+                                     std::pair{"cells", &o.cells_file},
+                                     std::pair{"samples-out", &o.samples_file}}) {
+    if (!values.count(option)) continue;
+    *file = values[option].as<std::string>();
+    written.emplace_back("--" + std::string(option), *file);
+  }
+  if (written.empty())
+    throw Usage_error("--no-mesh leaves nothing to write: give --samples-out, --cells or --report");
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    if (written[i].second.empty()) throw Usage_error(written[i].first + ": the file's name is empty");
+    std::error_code ignored;
+    const auto path = std::filesystem::weakly_canonical(written[i].second, ignored);
+    for (std::size_t j = 0; j < i; ++j)
+      if (path == std::filesystem::weakly_canonical(written[j].second, ignored))
+        throw Usage_error(written[j].first + " and " + written[i].first + " are the same file");
+  }
+}
+
+} // namespace
+
+Program_options parse_command_line(int argc, const char* const* argv, std::string& information)
+{
+  const Descriptions descriptions;
+  const po::variables_map values = descriptions.parse(argc, argv);
+  Program_options o;
+  if (values.count("help")) information = descriptions.help();
+  else if (values.count("version")) information = "power_rtf_remesh " POWER_RTF_VERSION "\n";
+  if (!information.empty()) return o;
+
+  o.remeshing = remeshing_options(values);
+  const std::string traits = values.count("traits") ? values["traits"].as<std::string>() : "auto";
+  if (traits == "exact" || traits == "cuda")
+    throw Usage_error("--traits " + traits + ": these traits are not built into this program");
+  if (traits != "auto" && traits != "cpu") reject("traits", traits, "one of auto|cpu|exact|cuda");
+  o.traits = "cpu";
+  const std::string threads = values.count("threads") ? values["threads"].as<std::string>() : "0";
+  o.threads = parse_value<int>("threads", threads, {0, 4096});
+  o.quiet = values.count("quiet") > 0;
+  set_files(values, o);
+  return o;
+}
+
+} // namespace tools

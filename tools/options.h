@@ -1,0 +1,38 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The command line of power_rtf_remesh.
+#ifndef POWER_RTF_TOOLS_OPTIONS_H
+#define POWER_RTF_TOOLS_OPTIONS_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace tools {
+
+/// The command line cannot be understood; the program ends with exit code 2.
+class Usage_error : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Program_options {
+  std::string input, output;
+  std::string report_file, cells_file, samples_file; ///< empty: not asked for
+  CGAL::PowerRTF::Remeshing_options remeshing;
+  std::string traits; ///< "cpu", the only one built
+  int threads = 0;    ///< 0: all
+  bool write_mesh = true;
+  bool quiet = false;
+};
+
+/// Reads the command line. `information` receives the text of --help or --version, which leave
+/// nothing else to do.
+/// \throws Usage_error for anything that cannot be understood
+Program_options parse_command_line(int argc, const char* const* argv, std::string& information);
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_OPTIONS_H
