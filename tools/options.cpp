@@ -195,6 +195,12 @@ Remeshing_options remeshing_options(const po::variables_map& values)
   return o;
 }
 
+std::filesystem::path resolved(const std::string& file)
+{
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+}
+
 void set_files(const po::variables_map& values, Program_options& o)
 {
   std::vector<std::string> files;
@@ -219,10 +225,8 @@ void set_files(const po::variables_map& values, Program_options& o)
     throw Usage_error("--no-mesh leaves nothing to write: give --samples-out, --cells or --report");
   for (std::size_t i = 0; i < written.size(); ++i) {
     if (written[i].second.empty()) throw Usage_error(written[i].first + ": the file's name is empty");
-    std::error_code ignored;
-    const auto path = std::filesystem::weakly_canonical(written[i].second, ignored);
     for (std::size_t j = 0; j < i; ++j)
-      if (path == std::filesystem::weakly_canonical(written[j].second, ignored))
+      if (resolved(written[i].second) == resolved(written[j].second))
         throw Usage_error(written[j].first + " and " + written[i].first + " are the same file");
   }
 }

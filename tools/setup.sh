@@ -57,24 +57,26 @@ install_missing() {
   fi
 }
 
-# logged LOG DONE COMMAND...: runs the command with its output in LOG and its progress ("[3/40]...",
+# logged LOG FINISHED COMMAND...: runs the command with its output in LOG and its progress ("[3/40]...",
 # "[ 12%]...") on one line of the terminal, or every half minute elsewhere.
 logged() {
-  local log=$1 done=$2 line start=$SECONDS last=$SECONDS status
+  local log=$1 finished=$2 line text start=$SECONDS last=$SECONDS status
   shift 2
   "$@" 2>&1 | while IFS= read -r line; do
     printf '%s\n' "$line"
     [[ $line == \[* ]] || continue
+    text=${line#*]}
+    line="${line%%]*}] ${text##*/}"
     if [ -t 2 ]; then
-      printf '\r\033[K%.78s' "$line" >&2
+      printf '\r\033[K  %.76s' "$line" >&2
     elif ((SECONDS - last >= 30)); then
       last=$SECONDS
-      printf '  %.78s\n' "$line" >&2
+      printf '  %.76s\n' "$line" >&2
     fi
   done >"$log"
   status=${PIPESTATUS[0]}
   if [ -t 2 ]; then printf '\r\033[K' >&2; fi
-  if [ "$status" = 0 ]; then say "$done ($((SECONDS - start)) s)"; fi
+  if [ "$status" = 0 ]; then say "$finished ($((SECONDS - start)) s)"; fi
   return "$status"
 }
 
@@ -105,9 +107,10 @@ configure() {
 
 # build_targets [--target TARGET]
 build_targets() {
-  local jobs
+  local jobs first=
   jobs=$(build_jobs)
-  say "Building with $jobs compiler(s); the first time takes minutes"
+  [ -e "$build/build.log" ] || first='; the first time takes minutes'
+  say "Building, $jobs file(s) at a time$first"
   logged "$build/build.log" 'Built' cmake --build "$build" -j "$jobs" "$@" ||
     or_show "$build/build.log" 'the build'
 }

@@ -65,7 +65,7 @@ public:
 
 private:
   struct Vertices {
-    explicit Vertices(const Surface& surface) : nearest(surface), facets(surface) {}
+    explicit Vertices(const Surface& surface) : nearest(surface), facets(vertex_facets(surface)) {}
     Nearest_vertices nearest;
     Vertex_facets facets;
   };
@@ -76,7 +76,8 @@ private:
     near.resize(m_vertices->nearest.find(target, m_options.projection_neighbors, near.data()));
     Surface_point<double> best;
     for (int v : near)
-      for (int f : m_vertices->facets.of(v)) {
+      for (int k = m_vertices->facets.first[v]; k < m_vertices->facets.first[v + 1]; ++k) {
+        const int f = m_vertices->facets.facet[k];
         if (!(dot(m_surface.facet_normals[f], normal) > m_cos_angle)) continue;
         const Triangle& t = m_surface.triangles[f];
         const Vec3d q = nearest_point_on_triangle(target, m_surface.points[t[0]],

@@ -25,8 +25,10 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL
+{
+namespace PowerRTF
+{
 
 /// One restricted cell's combinatorics.
 struct Exact_cell {
@@ -34,7 +36,7 @@ struct Exact_cell {
   /// -1 .. -4 are the sides of the clipping square. Empty when F_i is empty.
   std::vector<int> neighbours;
   bool contains_site = false; ///< s_i lies in F_i
-  bool degenerate = false; ///< a tie was met on the way and decided by the symbolic perturbation
+  bool degenerate = false;    ///< a tie was met on the way and decided by the symbolic perturbation
   bool by_triangulation = false; ///< neighbours from the regular triangulation
 
   bool is_empty() const { return neighbours.empty(); }
@@ -46,7 +48,7 @@ struct Exact_cell {
 /// Shape of a cell. Each coordinate of a vertex is the exact one up to a few units in the last
 /// place of the coordinate relative to s_i; area and centroid follow by double arithmetic.
 struct Exact_cell_geometry {
-  std::vector<Vec3d> vertices; ///< relative to s_i; vertex k is where edges k and k + 1 cross
+  std::vector<Vec3d> vertices;      ///< relative to s_i; vertex k is where edges k and k + 1 cross
   std::vector<double> edge_lengths; ///< upper bounds, within 1e-12, of the exact lengths
   double area = 0;
   Vec3d centroid{0, 0, 0}; ///< relative to s_i; mean of the vertices when the area vanishes
@@ -82,8 +84,7 @@ public:
   Exact_cells(std::vector<Vec3d> points, std::vector<Vec3d> normals, std::vector<double> weights,
               double cos_theta, Exact_neighbours source = Exact_neighbours::automatic)
       : m_points(std::move(points)), m_normals(std::move(normals)), m_weights(std::move(weights)),
-        m_cos_theta(cos_theta),
-        m_tree(checked(m_points, m_normals, m_weights), m_weights)
+        m_cos_theta(cos_theta), m_tree(checked(m_points, m_normals, m_weights), m_weights)
   {
     if (source == Exact_neighbours::automatic)
       m_power_neighbours = internal::Power_neighbours(m_points, m_weights);
@@ -103,8 +104,7 @@ public:
     if (Exact_cell result; from_triangulation(i, square, result, statistics)) return result;
     Clipper clipper(i, m_points[i], m_normals[i], m_weights[i], square);
     m_tree.visit(
-        m_points[i],
-        [&](const internal::Weighted_box& box) { return clipper.may_be_cut_by(box); },
+        m_points[i], [&](const internal::Weighted_box& box) { return clipper.may_be_cut_by(box); },
         [&](int j) {
           if (j != i && compatible(i, j)) clipper.clip(j, m_points[j], m_weights[j]);
         });
@@ -207,7 +207,8 @@ Exact_cell_geometry Exact_cells<Kernel, Traits>::geometry(int i, const Exact_cel
                                                       m_weights[id]));
     } else {
       const Vec3d t = id == -1 || id == -3 ? square->t1 : square->t2;
-      lines.push_back(internal::side_line<Exact_nt>(f, id >= -2 ? t : -t, square->half_size, false));
+      lines.push_back(
+          internal::side_line<Exact_nt>(f, id >= -2 ? t : -t, square->half_size, false));
     }
   }
 

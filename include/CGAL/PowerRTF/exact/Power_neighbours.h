@@ -21,9 +21,12 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 /// Adjacency of the regular triangulation. A sample is `doubtful` when the triangulation hides it
 /// (its power cell is empty, or degenerate by a tie that the triangulation decided its own way), or
@@ -41,7 +44,8 @@ public:
   {
     using Kernel = Exact_predicates_inexact_constructions_kernel;
     using Vertex_base =
-        Triangulation_vertex_base_with_info_3<int, Kernel, Regular_triangulation_vertex_base_3<Kernel>>;
+        Triangulation_vertex_base_with_info_3<int, Kernel,
+                                              Regular_triangulation_vertex_base_3<Kernel>>;
     using Cell_base = Regular_triangulation_cell_base_3<Kernel>;
     using Triangulation =
         Regular_triangulation_3<Kernel, Triangulation_data_structure_3<Vertex_base, Cell_base>>;
@@ -50,8 +54,8 @@ public:
     std::vector<std::pair<Kernel::Weighted_point_3, int>> sites;
     sites.reserve(n);
     for (int i = 0; i < n; ++i)
-      sites.emplace_back(Kernel::Weighted_point_3({points[i].x, points[i].y, points[i].z},
-                                                  weights[i]), i);
+      sites.emplace_back(
+          Kernel::Weighted_point_3({points[i].x, points[i].y, points[i].z}, weights[i]), i);
     Triangulation triangulation(sites.begin(), sites.end());
     if (triangulation.dimension() < 3) return;
 

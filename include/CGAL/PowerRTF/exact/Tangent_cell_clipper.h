@@ -14,8 +14,10 @@
 #include <optional>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL
+{
+namespace PowerRTF
+{
 
 /// A square in a tangent plane, centred at s_i: t1.x <= B, t2.x <= B, -t1.x <= B, -t2.x <= B, whose
 /// sides have the ids -1, -2, -3, -4. The directions need be neither unit nor tangent to the last
@@ -25,7 +27,8 @@ struct Exact_square {
   double half_size; ///< B > 0
 };
 
-namespace internal {
+namespace internal
+{
 
 /// An axis-aligned box of samples and the largest weight among them.
 struct Weighted_box {
@@ -37,9 +40,9 @@ template <class Exact_nt>
 class Tangent_cell_clipper
 {
   struct Line {
-    int id; // sample, or -1 .. -4: side of the square
+    int id;          // sample, or -1 .. -4: side of the square
     Vec3d direction; // the sample's position, or the side's outward direction
-    double offset; // the sample's weight, or the square's half-size
+    double offset;   // the sample's weight, or the square's half-size
     Tangent_line<Filter_nt> approximate;
     std::optional<Tangent_line<Exact_nt>> exact;
   };
@@ -105,9 +108,9 @@ public:
   {
     if (is_empty()) return false;
     Protect_FPU_rounding<true> upward;
-    m_lines.push_back(
-        {index, point, weight,
-         sample_line<Filter_nt>(m_frame, m_point, m_weight, point, weight), std::nullopt});
+    m_lines.push_back({index, point, weight,
+                       sample_line<Filter_nt>(m_frame, m_point, m_weight, point, weight),
+                       std::nullopt});
     const int line = int(m_lines.size()) - 1, n = int(m_vertices.size());
     m_sides.resize(n);
     int outside = 0;
@@ -219,8 +222,8 @@ private:
     Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
     Line &j = m_lines[v.line], &k = m_lines[v.next_line], &l = m_lines[line];
     bool tie;
-    const Sign e = exact_side<Exact_nt>({&exact(j), &exact(k), &exact(l)}, {j.id, k.id, l.id},
-                                        m_index, tie);
+    const Sign e =
+        exact_side<Exact_nt>({&exact(j), &exact(k), &exact(l)}, {j.id, k.id, l.id}, m_index, tie);
     ++m_statistics.exact;
     if (tie) ++m_statistics.ties;
     return e;
@@ -248,10 +251,11 @@ private:
     }
     v.position[1] = x / w;
     v.position[2] = y / w;
-    v.position[0] = -(Filter_nt(m_frame.n_p) * v.position[1] +
-                      Filter_nt(m_frame.n_q) * v.position[2]) / Filter_nt(m_frame.n_axis);
-    v.squared_norm = CGAL::square(v.position[0]) + CGAL::square(v.position[1]) +
-                     CGAL::square(v.position[2]);
+    v.position[0] =
+        -(Filter_nt(m_frame.n_p) * v.position[1] + Filter_nt(m_frame.n_q) * v.position[2]) /
+        Filter_nt(m_frame.n_axis);
+    v.squared_norm =
+        CGAL::square(v.position[0]) + CGAL::square(v.position[1]) + CGAL::square(v.position[2]);
   }
 };
 

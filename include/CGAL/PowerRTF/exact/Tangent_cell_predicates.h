@@ -28,8 +28,10 @@
 #include <limits>
 #include <utility>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL
+{
+namespace PowerRTF
+{
 
 /// Model of the concept `TangentCellTraits_3` for any CGAL kernel. The oracle's inputs are
 /// doubles; a kernel gives only its point, vector and number types and the way to doubles. For
@@ -75,7 +77,8 @@ struct Filter_statistics {
   }
 };
 
-namespace internal {
+namespace internal
+{
 
 /// Needs the FPU to round upward (`Protect_FPU_rounding`).
 using Filter_nt = Interval_nt_advanced;
@@ -171,8 +174,8 @@ public:
     {
       Protect_FPU_rounding<true> upward;
       using NT = internal::Filter_nt;
-      const Sign s = internal::certain_sign(
-          internal::turn(line<NT>(frame, i, j), line<NT>(frame, i, k)));
+      const Sign s =
+          internal::certain_sign(internal::turn(line<NT>(frame, i, j), line<NT>(frame, i, k)));
       if (s != ZERO) return s;
     }
     using NT = typename Traits::Exact_nt;
@@ -224,10 +227,10 @@ public:
     {
       Protect_FPU_rounding<true> upward;
       using NT = internal::Filter_nt;
-      const Sign s = internal::filtered_side(
-          internal::crossing(m_orientation.template line<NT>(frame, i, j),
-                             m_orientation.template line<NT>(frame, i, k)),
-          m_orientation.template line<NT>(frame, i, l));
+      const Sign s =
+          internal::filtered_side(internal::crossing(m_orientation.template line<NT>(frame, i, j),
+                                                     m_orientation.template line<NT>(frame, i, k)),
+                                  m_orientation.template line<NT>(frame, i, l));
       if (s != ZERO) {
         if (m_statistics) ++m_statistics->filtered;
         return s * turn;

@@ -21,9 +21,12 @@
 #include <cmath>
 #include <utility>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 /// The projection of a tangent plane along a coordinate axis. `normal` is n_i or -n_i, so that
 /// its coordinate along `axis` is positive; (p, q) are the kept axes, in the order that makes a
@@ -72,8 +75,8 @@ struct Tangent_line {
 
 /// The half-plane that sample i keeps against sample j.
 template <class NT>
-Tangent_line<NT> sample_line(const Tangent_frame& f, const Vec3d& s_i, double w_i,
-                             const Vec3d& s_j, double w_j)
+Tangent_line<NT> sample_line(const Tangent_frame& f, const Vec3d& s_i, double w_i, const Vec3d& s_j,
+                             double w_j)
 {
   const NT v_axis = NT(coordinate(s_j, f.axis)) - NT(coordinate(s_i, f.axis));
   const NT v_p = NT(coordinate(s_j, f.p)) - NT(coordinate(s_i, f.p));
@@ -115,8 +118,9 @@ struct Tangent_vertex {
 template <class NT>
 Tangent_vertex<NT> crossing(const Tangent_line<NT>& j, const Tangent_line<NT>& k)
 {
-  Tangent_vertex<NT> v{j.c * k.b - j.b * k.c, j.a * k.c - j.c * k.a, turn(j, k), NT(0), NT(0),
-                       j.at_infinity || k.at_infinity};
+  Tangent_vertex<NT> v{
+      j.c * k.b - j.b * k.c,         j.a * k.c - j.c * k.a, turn(j, k), NT(0), NT(0),
+      j.at_infinity || k.at_infinity};
   if (j.at_infinity) {
     v.ox = k.b;
     v.oy = -k.a;

@@ -16,9 +16,12 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 class Weighted_site_tree
 {
@@ -26,7 +29,7 @@ class Weighted_site_tree
 
   struct Node {
     Weighted_box box;
-    int first, last;     // range of m_order
+    int first, last; // range of m_order
     int left = -1, right = -1;
   };
 
@@ -82,13 +85,14 @@ private:
     return b;
   }
 
-  void split(std::size_t node, const std::vector<Vec3d>& points,
-             const std::vector<double>& weights)
+  void split(std::size_t node, const std::vector<Vec3d>& points, const std::vector<double>& weights)
   {
     const int first = m_nodes[node].first, last = m_nodes[node].last;
     if (last - first <= leaf_size) return;
     const Vec3d extent = m_nodes[node].box.upper - m_nodes[node].box.lower;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
     const int middle = first + (last - first) / 2;
     std::nth_element(m_order.begin() + first, m_order.begin() + middle, m_order.begin() + last,
                      [&](int i, int j) {

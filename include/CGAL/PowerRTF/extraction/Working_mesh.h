@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
@@ -19,7 +20,8 @@ namespace PowerRTF {
 namespace internal {
 
 struct Working_mesh {
-  using Mesh = CGAL::Surface_mesh<Vec3d>;
+  using Point = Exact_predicates_inexact_constructions_kernel::Point_3;
+  using Mesh = CGAL::Surface_mesh<Point>;
   using Vertex = Mesh::Vertex_index;
   using Halfedge = Mesh::Halfedge_index;
   using Edge = Mesh::Edge_index;
@@ -33,13 +35,17 @@ struct Working_mesh {
   {
     const auto vertices = Mesh::size_type(surface.points.size());
     mesh.reserve(vertices, 3 * vertices, Mesh::size_type(surface.triangles.size()));
-    for (const Vec3d& p : surface.points) mesh.add_vertex(p);
+    for (const Vec3d& p : surface.points) mesh.add_vertex(Point(p.x, p.y, p.z));
     for (const Triangle& t : surface.triangles)
       if (!mesh.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])).is_valid())
         throw Invalid_input_error("the surface is not an oriented 2-manifold");
   }
 
-  const Vec3d& point(Vertex v) const { return mesh.point(v); }
+  Vec3d point(Vertex v) const
+  {
+    const Point& p = mesh.point(v);
+    return {p.x(), p.y(), p.z()};
+  }
 
   bool are_adjacent(Vertex a, Vertex b) const
   {

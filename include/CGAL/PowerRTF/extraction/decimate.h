@@ -132,7 +132,8 @@ private:
   {
     for (const Halfedge h : m_ring) m_touched[m.mesh.target(h)] = m_pass;
     const Vertex v = m.mesh.target(to_v);
-    const Vec3d point = m.point(v), normal = m.normals[v];
+    const auto point = m.mesh.point(v);
+    const Vec3d normal = m.normals[v];
     const int sample = m.samples[v];
     const Vertex kept = Euler::collapse_edge(m.mesh.edge(to_v), m.mesh);
     m.mesh.point(kept) = point;

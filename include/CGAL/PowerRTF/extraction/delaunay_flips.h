@@ -28,7 +28,7 @@ public:
   /// Triangles whose normals have at least the cosine `good_agreement` with the surface's at their
   /// corners lie well enough: among them only the angles count.
   Edge_flipper(Working_mesh& mesh, double good_agreement)
-    : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.number_of_edges(), false)
+    : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.num_edges(), false)
   {}
 
   /// Marks an edge to be looked at by the next `run()`.

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From samples to triangles with a guaranteed topology: insertion, decimation, Delaunay flips
-// (design.md, section 7).
+// From samples to triangles with a guaranteed topology: insertion, decimation, Delaunay flips,
+// removal of self-intersections (design.md, section 7).
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
 
@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
+#include <CGAL/PowerRTF/extraction/remove_intersections.h>
 
 namespace CGAL {
 namespace PowerRTF {
@@ -24,7 +25,7 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
   for (const auto v : mesh.vertices())
     if (name[v] < 0 && !mesh.is_isolated(v)) {
       name[v] = int(result.points.size());
-      result.points.push_back(mesh.point(v));
+      result.points.push_back(working.point(v));
     }
   result.triangles.reserve(mesh.number_of_faces());
   for (const auto f : mesh.faces()) {
@@ -48,11 +49,19 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
 inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples)
 {
   internal::Working_mesh mesh(internal::insert_samples(surface, samples));
-  internal::Edge_flipper careful_flipper(mesh, 0.3);
+  internal::Edge_flipper careful_flipper(mesh, 0.1);
+  for (const auto v : mesh.mesh.vertices())
+    if (mesh.samples[v] >= 0)
+      for (const auto h : halfedges_around_target(v, mesh.mesh)) {
+        careful_flipper.push(mesh.mesh.edge(h));
+        careful_flipper.push(mesh.mesh.edge(mesh.mesh.prev(h)));
+      }
+  careful_flipper.run(20 * mesh.mesh.number_of_edges());
   internal::Decimator(mesh, careful_flipper).run();
-  internal::Edge_flipper flipper(mesh, -0.2);
+  internal::Edge_flipper flipper(mesh, -0.5);
   for (const auto e : mesh.mesh.edges()) flipper.push(e);
   flipper.run(20 * mesh.mesh.number_of_edges());
+  internal::Intersection_remover(mesh, flipper).run();
   return internal::to_extracted_mesh(mesh, samples);
 }
 

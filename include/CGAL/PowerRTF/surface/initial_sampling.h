@@ -58,12 +58,13 @@ Facet_distribution facet_distribution(const std::vector<int>& component, int com
 }
 
 /// Shares `n` samples among components in proportion to their masses, by the method of the largest
-/// remainder; no component gets fewer than 4 samples if `n` allows.
+/// remainder; no component gets fewer than 4 samples if `n` allows (none without mass gets any).
 inline std::vector<std::size_t> allocate_samples(const std::vector<double>& masses, std::size_t n)
 {
   const std::size_t components = masses.size();
   std::vector<std::size_t> samples(components, 0);
   std::vector<char> is_fixed(components, 0);
+  for (std::size_t c = 0; c < components; ++c) is_fixed[c] = !(masses[c] > 0);
   std::size_t free_samples = n;
   double free_mass = std::accumulate(masses.begin(), masses.end(), 0.);
   if (n >= min_samples_per_component * components) {
@@ -71,7 +72,7 @@ inline std::vector<std::size_t> allocate_samples(const std::vector<double>& mass
       changed = false;
       const double per_mass = static_cast<double>(free_samples) / free_mass;
       for (std::size_t c = 0; c < components; ++c) {
-        if (is_fixed[c] || masses[c] * per_mass >= min_samples_per_component) continue;
+        if (is_fixed[c] || masses[c] * per_mass > min_samples_per_component - 1e-6) continue;
         is_fixed[c] = 1;
         samples[c] = min_samples_per_component;
         free_samples -= min_samples_per_component;

@@ -40,7 +40,7 @@ public:
   /// \returns the number of indices written
   int find(const Vec3d& q, int k, int* indices) const
   {
-    k = static_cast<int>((std::min)({std::size_t(k), m_points.size(), std::size_t(max_neighbors)}));
+    k = (std::min)({k, static_cast<int>(m_points.size()), int(max_neighbors)});
     if (k <= 0) return 0;
     Query query; // `found` is left as it is: only its first `count` entries are ever read
     query.point = q;

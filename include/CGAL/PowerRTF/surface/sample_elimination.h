@@ -19,9 +19,11 @@ namespace PowerRTF {
 namespace internal {
 
 /// Which candidates see each other: closer than the sum of their radii, normals compatible.
-/// The neighbours of `i` are `neighbor[first[i]] .. neighbor[first[i + 1] - 1]`.
+/// The neighbours of `i` are `neighbor[first[i]] .. neighbor[first[i + 1] - 1]`, with how much they
+/// crowd each other: Yuksel's weight, from 0 (radii touch) to 1 (same place).
 struct Candidate_graph {
   std::vector<int> first, neighbor;
+  std::vector<double> crowding;
 };
 
 /// Candidates are sorted into one grid per power of two of their radius. Each looks for partners of
@@ -69,10 +71,16 @@ inline Candidate_graph candidate_graph(const std::vector<Vec3d>& points,
   }
   for (int i = 0; i < n; ++i) graph.first[i + 1] += graph.first[i];
   graph.neighbor.resize(2 * pairs.size());
+  graph.crowding.resize(2 * pairs.size());
   std::vector<int> end(graph.first.begin(), graph.first.end() - 1);
   for (const auto& [i, j] : pairs) {
-    graph.neighbor[end[i]++] = j;
-    graph.neighbor[end[j]++] = i;
+    const double free = 1 - length(points[i] - points[j]) / (radii[i] + radii[j]);
+    const double free_2 = free * free, free_4 = free_2 * free_2;
+    const double crowding = free_4 * free_4; // alpha = 8
+    graph.neighbor[end[i]] = j;
+    graph.crowding[end[i]++] = crowding;
+    graph.neighbor[end[j]] = i;
+    graph.crowding[end[j]++] = crowding;
   }
   return graph;
 }
@@ -93,45 +101,43 @@ inline std::vector<int> eliminate_samples(const std::vector<Vec3d>& points,
 {
   const internal::Candidate_graph graph =
       internal::candidate_graph(points, normals, radii, cos_normal_angle);
-  const auto crowding = [&](int i, int j)
+  std::vector<char> is_alive(points.size(), 1);
+  const auto weight = [&](int i)
   {
-    const double free = 1 - length(points[i] - points[j]) / (radii[i] + radii[j]);
-    const double free_2 = free * free, free_4 = free_2 * free_2;
-    return free_4 * free_4; // alpha = 8
+    double sum = 0;
+    for (int e = graph.first[i]; e < graph.first[i + 1]; ++e)
+      if (is_alive[graph.neighbor[e]]) sum += graph.crowding[e];
+    return sum;
   };
 
-  // Weights only fall, so a heap of outdated weights has the right candidate on top as soon as the
-  // top is up to date.
+  // Weights only fall, so the right candidate is on top of the heap as soon as the weight on top is
+  // up to date. Weights are summed anew, not updated by subtraction: the last two neighbours have
+  // the same weight, and rounding must not choose between them.
   using Entry = std::pair<double, int>; // weight, candidate; ties by index
   const int candidates = static_cast<int>(points.size());
-  std::vector<double> weight(candidates, 0);
-  std::vector<Entry> heap(candidates);
-  for (int i = 0; i < candidates; ++i) {
-    for (int e = graph.first[i]; e < graph.first[i + 1]; ++e)
-      weight[i] += crowding(i, graph.neighbor[e]);
-    heap[i] = {weight[i], i};
-  }
+  std::vector<char> is_outdated(points.size(), 0);
+  std::vector<Entry> heap;
+  heap.reserve(points.size());
+  for (int i = 0; i < candidates; ++i) heap.emplace_back(weight(i), i);
   std::make_heap(heap.begin(), heap.end());
   while (heap.size() > n) {
     std::pop_heap(heap.begin(), heap.end());
-    const auto [key, i] = heap.back();
-    if (key != weight[i]) {
-      heap.back().first = weight[i];
+    const int i = heap.back().second;
+    if (is_outdated[i]) {
+      heap.back().first = weight(i);
+      is_outdated[i] = 0;
       std::push_heap(heap.begin(), heap.end());
       continue;
     }
     heap.pop_back();
-    weight[i] = -1;
-    for (int e = graph.first[i]; e < graph.first[i + 1]; ++e) {
-      const int j = graph.neighbor[e];
-      if (weight[j] >= 0) weight[j] = (std::max)(0., weight[j] - crowding(i, j));
-    }
+    is_alive[i] = 0;
+    for (int e = graph.first[i]; e < graph.first[i + 1]; ++e) is_outdated[graph.neighbor[e]] = 1;
   }
 
   std::vector<int> chosen;
   chosen.reserve(n);
   for (int i = 0; i < candidates; ++i)
-    if (weight[i] >= 0) chosen.push_back(i);
+    if (is_alive[i]) chosen.push_back(i);
   return chosen;
 }
 

@@ -1,0 +1,140 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Input that cannot be used: a message that names file and reason, exit code 1, the output untouched.
+. "$(dirname "${BASH_SOURCE[0]}")/check.bash"
+
+# bad FILE REASON...: as above
+bad() {
+  local file=$1
+  shift
+  run 1 "$file" "$@" -- "$file" out.off -n 100 --iterations 2 --relaxation-iterations 2
+}
+
+torus >torus.off
+off_to_obj <torus.off >torus.obj
+off_to_ply <torus.off >torus.ply
+off_to_stl <torus.off >torus.stl
+for f in torus.{off,obj,ply,stl}; do run 0 -- "$f" good.off -n 100 --iterations 2 --quiet; done
+
+# --- no mesh at all
+bad missing.off 'no such file'
+mkdir folder.off && bad folder.off 'is a directory'
+for end in off obj ply stl; do
+  : >"empty.$end" && bad "empty.$end" 'is empty'
+  echo 'Dear Sir or Madam, this is a letter.' >"letter.$end" && bad "letter.$end" 'not a'
+  printf '\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90wS\xde' >"png.$end"
+  bad "png.$end" 'not a'
+  head -c 20000 "$program" >"binary.$end" && bad "binary.$end" 'not a'
+  printf '\n\n   \n' >"blank.$end" && bad "blank.$end"
+done
+cp torus.off torus.xyz && bad torus.xyz 'does not end in'
+cp torus.off torus && bad torus 'does not end in'
+cp torus.off torus.vtp && bad torus.vtp 'does not end in'
+
+# --- truncated: in the header, in the vertices, in the facets
+head -c 3 torus.off >t1.off && bad t1.off 'truncated'
+printf 'OFF\n800' >t2.off && bad t2.off 'truncated'
+head -n 100 torus.off >t3.off && bad t3.off 'truncated' 'vert'
+head -n 2000 torus.off >t4.off && bad t4.off 'truncated' 'facet'
+head -n 100 torus.obj >t1.obj && bad t1.obj 'no facets'
+head -n 1000 torus.obj | head -c -6 >t2.obj && bad t2.obj 'truncated'
+head -n 3 torus.ply >t1.ply && bad t1.ply 'truncated' 'header'
+head -n 100 torus.ply >t2.ply && bad t2.ply 'truncated'
+head -n 1000 torus.ply >t3.ply && bad t3.ply 'truncated'
+head -n 5 torus.stl >t1.stl && bad t1.stl 'truncated'
+head -n 502 torus.stl >t2.stl && bad t2.stl 'truncated'
+{ head -c 80 /dev/zero; printf '\x64\0\0\0'; head -c 1000 /dev/zero; } >t3.stl
+bad t3.stl 'truncated' '100 facets'
+head -c 50 /dev/zero >t4.stl && bad t4.stl 'truncated'
+
+# --- counts that cannot be
+printf 'OFF\n1000000000000 2000000000000 0\n0 0 0\n' >c1.off && bad c1.off 'truncated'
+printf 'OFF\n-4 4 0\n0 0 0\n' >c2.off && bad c2.off "'-4'"
+printf 'OFF\n4 x 0\n0 0 0\n' >c3.off && bad c3.off "'x'"
+sed 's/element vertex .*/element vertex 900000000000/' torus.ply >c1.ply && bad c1.ply 'truncated'
+sed 's/element face .*/element face -1/' torus.ply >c2.ply && bad c2.ply 'number of elements'
+sed 's/property double x/property int x/' torus.ply >c3.ply && bad c3.ply 'no coordinates'
+sed 's/uchar int vertex_indices/uchar short vertex_indices/' torus.ply >c4.ply && bad c4.ply 'no facets'
+
+# --- coordinates
+for x in nan NaN -nan inf -inf 1e400 abc; do
+  sed "10s/^[^ ]*/$x/" torus.off >x.off && bad x.off 'line 10' "'$x'"
+  sed "10s/^v [^ ]*/v $x/" torus.obj >x.obj && bad x.obj 'line 10' "'$x'"
+  sed "10s/^[^ ]*/$x/" torus.ply >x.ply && bad x.ply "'$x'"
+  sed "11s/^vertex [^ ]*/vertex $x/" torus.stl >x.stl && bad x.stl "'$x'"
+done
+{ head -c 80 /dev/zero; printf '\x01\0\0\0'; head -c 12 /dev/zero; printf '\0\0\xc0\x7f'
+  head -c 34 /dev/zero; } >nan.stl
+bad nan.stl 'not finite'
+
+# --- indices
+sed '900s/.*/3 0 1 800/' torus.off >i1.off && bad i1.off 'line 900' 'out of range'
+sed '900s/.*/3 0 1 -1/' torus.off >i2.off && bad i2.off 'out of range'
+sed '900s/.*/3 0 1 99999999999999999999/' torus.off >i3.off && bad i3.off 'out of range'
+sed '900s/.*/3 0 1 1.5/' torus.off >i4.off && bad i4.off
+sed '900s/.*/f 1 2 801/' torus.obj >i1.obj && bad i1.obj 'out of range'
+sed '900s/.*/f 1 2 -801/' torus.obj >i2.obj && bad i2.obj 'out of range'
+sed '2400s/.*/f 1 2 0/' torus.obj >i3.obj && bad i3.obj 'out of range'
+sed '900s/.*/f 1 2 x/' torus.obj >i4.obj && bad i4.obj
+sed '900s/.*/3 0 1 800/' torus.ply >i1.ply && bad i1.ply 'out of range'
+sed '900s/.*/3 0 1 -1/' torus.ply >i2.ply && bad i2.ply 'out of range'
+
+# --- no surface
+printf 'OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >n1.off && bad n1.off 'facet'
+grep '^v ' torus.obj >n1.obj && bad n1.obj 'no facets'
+printf 'solid s\nendsolid s\n' >n1.stl && bad n1.stl 'no facets'
+head -c 84 /dev/zero >n2.stl && bad n2.stl 'no facets'
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n' >z1.off && bad z1.off 'area'
+printf 'OFF\n3 1 0\n5 5 5\n5 5 5\n5 5 5\n3 0 1 2\n' >z2.off && bad z2.off 'area'
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n' >z3.off && bad z3.off
+
+# --- not a 2-manifold: three facets at an edge; two tetrahedra that share a vertex; a Moebius strip
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n' >m1.off
+bad m1.off 'manifold'
+printf 'OFF\n7 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n' >m2.off
+printf '3 %s\n' '0 2 1' '0 1 3' '0 3 2' '1 2 3' '0 4 5' '0 6 4' '0 5 6' '4 6 5' >>m2.off
+bad m2.off 'manifold'
+awk 'BEGIN { pi = atan2(0, -1); n = 12; print "OFF"; print 2 * n, 2 * n, 0
+  for (i = 0; i < n; ++i) for (s = -1; s <= 1; s += 2) { u = 2 * pi * i / n; r = 2 + s * cos(u / 2)
+    print r * cos(u), r * sin(u), s * sin(u / 2) }
+  for (i = 0; i < n; ++i) { a = 2 * i; b = 2 * i + 1; c = 2 * i + 2; d = 2 * i + 3
+    if (i == n - 1) { c = 1; d = 0 }
+    print 3, a, b, d; print 3, a, d, c } }' >m3.off
+bad m3.off 'orient'
+
+# --- the number of samples
+run 1 torus.off 'at least 4' -- torus.off out.off -n 3
+run 1 torus.off 'at least 4' -- torus.off out.off -n 0
+run 1 torus.off 'at least 4' -- torus.off out.off --samples -7
+for n in 3000000000 1000000000000 99999999999999999999999; do
+  run 1 torus.off 'memory' -- torus.off out.off -n $n
+done
+
+# --- outputs that cannot be written: said before the work, so a missing input does not matter
+mkdir folder
+run 1 nowhere/o.off 'no directory' -- torus.off nowhere/o.off
+run 1 folder.off 'is a directory' -- torus.off folder.off
+run 1 torus.off/o.off 'cannot be written' -- torus.off torus.off/o.off
+run 1 /proc/o.off 'cannot be written' -- torus.off /proc/o.off
+run 1 o.xyz 'does not end in' -- torus.off o.xyz
+run 1 folder/ 'does not end in' -- torus.off folder/
+run 1 nowhere/r.json 'no directory' -- torus.off out.off --report nowhere/r.json
+run 1 nowhere/c.ply 'no directory' -- torus.off out.off --cells nowhere/c.ply
+run 1 nowhere/s.ply 'no directory' -- torus.off out.off --samples-out nowhere/s.ply
+run 1 c.off 'does not end in' -- torus.off out.off --cells c.off
+run 1 s.xyz 'does not end in' -- torus.off out.off --samples-out s.xyz
+if [ "$(id -u)" -ne 0 ]; then
+  mkdir locked && chmod a-w locked
+  run 1 locked/o.off 'denied' -- torus.off locked/o.off
+  echo old >fixed.off && chmod a-w fixed.off
+  run 1 fixed.off 'denied' -- torus.off fixed.off
+  cp torus.off secret.off && chmod a-r secret.off && bad secret.off 'denied'
+fi
+# the disk is full when the report is written: the mesh does not appear either
+if [ -e /dev/full ]; then
+  run 1 /dev/full 'cannot be written' -- torus.off out.off -n 100 --iterations 2 --report /dev/full
+fi
+
+finish

@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# The command line: what is understood, what is refused (exit code 2, with a reason), cancellation.
+. "$(dirname "${BASH_SOURCE[0]}")/check.bash"
+
+torus >torus.off
+fast=(-n 100 --iterations 2 --relaxation-iterations 2 --quiet)
+
+# --- wrong usage
+run 2 'INPUT is missing' --
+run 2 'OUTPUT is missing' -- torus.off
+run 2 'one argument too many' 'third' -- torus.off out.off third
+run 2 '--nonsense' -- torus.off out.off --nonsense 3
+run 2 '--samp' -- torus.off out.off --samp 100
+run 2 '-x' -- torus.off out.off -x
+run 2 '--samples' 'missing' -- torus.off out.off --samples
+run 2 '--quiet' -- torus.off out.off --quiet=yes
+run 2 '--samples' -- torus.off out.off -n 100 -n 200
+run 2 'same option' -- torus.off out.off -n 100 --number-of-samples 200
+run 2 'nothing to write' -- torus.off --no-mesh
+run 2 'same file' -- torus.off out.off --report out.off
+run 2 'same file' -- torus.off out.off --report ./a.ply --cells a.ply
+run 2 'empty' -- torus.off ''
+
+# refuse OPTION VALUE REASON
+refuse() { run 2 "--$1: '$2'" "$3" -- torus.off out.off "--$1" "$2"; }
+for value in '' abc 12x 1e3 1.5 ' 5' 0x10; do
+  refuse samples "$value" 'not a whole number'
+  refuse iterations "$value" 'not a whole number'
+done
+for value in '' abc 0.1x ' 1' nan; do refuse gradation "$value" 'not a number'; done
+for value in inf 1e400; do refuse gradation "$value" 'not a number'; done
+for name in density preset sampling attributes projection position-method weight-method \
+  weight-operator extraction traits; do
+  refuse $name nonsense 'not one of'
+done
+refuse capacity-tolerance -0.1 'at least 0'
+refuse capacity-tolerance 1.5 'at most 1'
+refuse normal-angle 0 'above 0'
+refuse normal-angle 180.5 'at most 180'
+refuse normal-angle -60 'above 0'
+refuse gradation -1 'at least 0'
+refuse density-power -1 'at least 0'
+refuse oversampling 0.5 'at least 1'
+refuse weight-step 0 'above 0'
+refuse centroid-density-power -1 'at least 0'
+for name in normal-neighbors density-neighbors neighbors lbfgs-memory projection-neighbors; do
+  refuse $name 0 'at least 1'
+done
+for name in relaxation-iterations iterations max-weight-iterations seed threads; do
+  refuse $name -1 'at least 0'
+  refuse $name 99999999999999999999 'at most'
+done
+for traits in exact cuda; do run 2 "$traits" 'not built' -- torus.off out.off --traits $traits; done
+
+# --- understood
+run 0 -- --help
+for word in --samples --density --density-power --gradation --sampling --oversampling \
+  --relaxation-iterations --attributes --normal-neighbors --density-neighbors --neighbors \
+  --normal-angle --position-method --iterations --lbfgs-memory --projection --projection-neighbors \
+  --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
+  --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
+  --samples-out --no-mesh --quiet 'paper: 60' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
+  expect "--help shows $word" grep -qF -- "$word" stdout
+done
+run 0 -- --version
+expect '--version shows a number' grep -qE '^power_rtf_remesh [0-9]+\.[0-9]+' stdout
+
+# accept WANTED ARGUMENTS...: the report says "WANTED"
+accept() {
+  local wanted=$1
+  shift
+  run 0 -- torus.off out.off "${fast[@]}" --report r.json "$@"
+  expect "'$*' is reported as $wanted" grep -qF -- "$wanted" r.json
+}
+accept '"seed": 7' --seed 7
+accept '"seed": 7' --random-seed 7
+accept '"seed": 4294967295' --seed 4294967295
+accept '"threads": 1' --threads 1
+accept '"threads": 2' --threads=2
+accept '"traits": "cpu"' --traits auto
+accept '"traits": "cpu"' --traits cpu
+accept '"density": "curvature"'
+accept '"density": "uniform"' --density uniform
+accept '"density-power": 2.0' --density-power 2
+accept '"gradation": 0.0' --gradation 0
+accept '"preset": "quality"'
+accept '"preset": "paper"' --preset paper
+accept '"normal-angle": 60.0' --preset paper
+accept '"normal-angle": 75.0' --preset paper --normal-angle 75
+accept '"normal-angle": 75.0' --normal-angle 75 --preset paper
+accept '"weight-method": "multiplicative"' --preset paper
+accept '"weight-method": "none"' --preset paper --weight-method none
+accept '"weight-operator": "floor"' --preset paper --weight-operator floor
+accept '"capacity-tolerance": 0.0' --capacity-tolerance 0
+accept '"position-method": "lloyd"' --position-method lloyd
+accept '"sampling": "random"' --sampling random
+accept '"oversampling": 3.5' --oversampling 3.5
+accept '"extraction": "insertion"' --extraction insertion
+accept '"lbfgs-memory": 3' --lbfgs-memory 3
+run 0 -- -n100 --iterations=2 -q torus.off out.off
+run 0 -- --quiet torus.off --iterations 2 -n 100 -- out.off
+
+# --- Ctrl-C: exit code 130, the output untouched
+echo untouched >out.off
+torus 100 >large.off
+"$program" large.off out.off -n 4000 --iterations 2000000000 --weight-method none 2>stderr &
+pid=$!
+catches_interrupts() {
+  local mask
+  mask=$(awk '/^SigCgt/ { print $2 }' "/proc/$pid/status" 2>/dev/null) && [ $((0x${mask: -1} & 2)) -ne 0 ]
+}
+# waits 60 s at most for a command to succeed
+await() {
+  for _ in $(seq 600); do
+    "$@" 2>/dev/null && return
+    sleep 0.1
+  done
+  return 1
+}
+has_ended() { ! kill -0 $pid; }
+if [ -e "/proc/$pid/status" ]; then
+  expect 'Ctrl-C can be caught' await catches_interrupts
+  sleep 1
+  kill -INT $pid
+  await has_ended || kill -KILL $pid
+  wait $pid
+  status=$?
+  expect "Ctrl-C ends with $status instead of 130" [ $status -eq 130 ]
+  expect 'Ctrl-C is said' grep -q cancelled stderr
+  expect 'Ctrl-C leaves the output' [ "$(cat out.off)" = untouched ]
+  expect 'Ctrl-C leaves no temporary file' [ -z "$(find . -name '.power_rtf_*')" ]
+else
+  kill -KILL $pid
+fi
+
+finish

@@ -1,0 +1,151 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# What the program writes: meshes of every format, cells, samples, the report, the table.
+. "$(dirname "${BASH_SOURCE[0]}")/check.bash"
+
+torus >torus.off
+fast=(-n 200 --iterations 5)
+
+# field NAME: the value of the first such field of r.json
+field() { sed -n "s/^ *\"$1\": \(.*[^,{[]\),\{0,1\}$/\1/p" r.json | head -n 1; }
+# has NAME VALUE: the field has that value
+has() { expect "the report's $1 is '$(field "$1")' instead of '$2'" [ "$(field "$1")" = "$2" ]; }
+
+# vertices FILE.off: its 200 vertices, rounded
+vertices() { grep . "$1" | sed -n 3,202p | rounded; }
+rounded() { awk '{ printf "%.12g %.12g %.12g\n", $1, $2, $3 }'; }
+
+# --- the report
+run 0 -- torus.off out.off "${fast[@]}" --report r.json
+for name in vertices faces euler_characteristic input_euler_characteristic components border_edges \
+  self_intersections q_min q_avg theta_min theta_min_avg below_30 above_90 distance_rms \
+  distance_mean distance_max inside_capacity_interval capacity_rms constructions outer_iterations \
+  cells ok guarded empty incomplete seconds load surface sampling optimization extraction \
+  improvement write total traits preset seed threads missed_guarantees; do
+  expect "the report has $name" grep -q "\"$name\": ." r.json
+done
+has vertices 200
+has faces 400
+has euler_characteristic 0
+has input_euler_characteristic 0
+has input_vertices 800
+has components 1
+has border_edges 0
+has self_intersections 0
+has missed_guarantees '[]'
+has traits '"cpu"'
+has preset '"quality"'
+has seed 0
+expect 'the braces of the report match' \
+  [ "$(tr -cd '{' <r.json | wc -c)" -eq "$(tr -cd '}' <r.json | wc -c)" ]
+expect 'the table shows the vertices' grep -Eq '^ *vertices +200 +800$' stdout
+expect 'the table shows the quality' grep -q 'triangle quality' stdout
+expect 'no progress bar where there is no terminal' [ ! -s stderr ]
+expect 'the OFF header counts' [ "$(sed -n 2p out.off)" = '200 400 0' ]
+
+# --- every format, read back: the same mesh
+cp out.off first.off
+for end in obj ply stl OFF; do
+  run 0 -- torus.off "m.$end" "${fast[@]}" --quiet
+  expect "--quiet prints nothing" [ ! -s stdout ]
+  expect "--quiet prints nothing on stderr" [ ! -s stderr ]
+  run 0 -- "m.$end" again.off -n 50 --iterations 2 --report r.json
+  has input_vertices 200
+  has input_faces 400
+  has input_euler_characteristic 0
+done
+expect 'OFF and .OFF are the same' cmp first.off m.OFF
+expect 'an OBJ has the vertices of the OFF' cmp \
+  <(sed -n 's/^v //p' m.obj | rounded) <(vertices first.off)
+run 0 -- torus.off m.vtp "${fast[@]}" --quiet
+expect 'a VTP counts its points and polygons' grep -q 'NumberOfPoints="200".*NumberOfPolys="400"' m.vtp
+expect 'a VTP is complete' grep -q '^</VTKFile>$' m.vtp
+expect 'a VTP has 200 points' [ "$(awk '/<Points>/ { on = 1; next } /<\/Points>/ { on = 0 }
+                                        on && NF == 3 && !/</' m.vtp | wc -l)" -eq 200 ]
+
+# --- cells and samples
+for end in ply vtp; do
+  run 0 -- torus.off out.off "${fast[@]}" --cells "c.$end" --samples-out "s.$end" --quiet
+  for name in weight mass density status sample; do
+    expect "the cells' .$end has $name" grep -qE "(property (int|double) $name|Name=\"$name\")" "c.$end"
+  done
+  for name in weight density; do
+    expect "the samples' .$end has $name" grep -qE "(property double $name|Name=\"$name\")" "s.$end"
+  done
+done
+expect 'there are 200 cells' grep -q '^element face 200$' c.ply
+expect 'there are 200 cells' grep -q 'NumberOfPolys="200"' c.vtp
+expect 'there are 200 samples' grep -q '^element vertex 200$' s.ply
+expect 'there are 200 samples' grep -q 'NumberOfPoints="200" NumberOfVerts="200"' s.vtp
+expect 'the normals have length 1' awk '/end_header/ { on = 1; next }
+  on && ($4 * $4 + $5 * $5 + $6 * $6 - 1) ^ 2 > 1e-12 { bad = 1 } END { exit bad }' s.ply
+expect 'the samples are the vertices' cmp \
+  <(sed '1,/end_header/d' s.ply | rounded) <(vertices out.off)
+expect 'there are samples to compare' [ "$(sed '1,/end_header/d' s.ply | wc -l)" -eq 200 ]
+# the masses are those of the input's units: their sum is near the torus's area, 4 pi^2 * 3
+run 0 -- torus.off --no-mesh "${fast[@]}" --density uniform --cells c.ply --quiet
+expect 'the masses of uniform cells add up to the area' awk '/end_header/ { on = 1; next }
+  on && $1 > 2 && NF == $1 + 6 { sum += $($1 + 4); ++n }
+  END { exit !(n == 200 && sum > 110 && sum < 125) }' c.ply
+echo untouched >out.off
+run 0 -- torus.off out.off --no-mesh "${fast[@]}" --samples-out s.ply --report r.json
+expect '--no-mesh leaves the output' [ "$(cat out.off)" = untouched ]
+expect '--no-mesh says nothing about a mesh' [ -z "$(field q_min)" ]
+expect '--no-mesh reports the cells' [ -n "$(field inside_capacity_interval)" ]
+
+# --- the same seed, the same output, whatever the number of threads
+for threads in 1 2 0; do
+  run 0 -- torus.off out.off "${fast[@]}" --threads $threads --quiet
+  expect "$threads threads make the same mesh" cmp out.off first.off
+done
+run 0 -- torus.off out.off "${fast[@]}" --seed 1 --quiet
+expect 'another seed makes another mesh' [ "$(cksum <out.off)" != "$(cksum <first.off)" ]
+
+# --- a guarantee that cannot be met: a torus on four vertices. The mesh is written all the same.
+run 3 'out.off' 'guarantee' -- torus.off out.off -n 4 --report r.json
+expect 'a mesh that misses a guarantee is written' grep -q OFF out.off
+expect 'the report names the guarantee' [ "$(field missed_guarantees)" != '[]' ]
+
+# --- input that is repaired
+sed '$ a 3 0 0 1' torus.off | sed '2s/800 1600 0/800 1601 0/' >degenerate.off
+run 0 -- degenerate.off out.off "${fast[@]}" --report r.json
+has degenerate_facets 1
+sed '2s/800/801/; 802 a 9 9 9' torus.off >unused.off
+run 0 -- unused.off out.off "${fast[@]}" --report r.json
+has unused_vertices 1
+awk 'NR == 2 { print 800, 800, 0; next } NR > 802 && NR % 2 { a = $2; c = $3; d = $4; next }
+     NR > 802 { print 4, a, c, d, $4; next } { print }' torus.off >quads.off
+run 0 -- quads.off out.off "${fast[@]}" --report r.json
+has triangulated_polygons 800
+has input_euler_characteristic 0
+
+# --- places to write to
+cp torus.off same.off
+run 0 -- same.off same.off "${fast[@]}" --quiet
+expect 'the input may be the output' cmp same.off first.off
+echo old >target.off && ln -s target.off link.off
+run 0 -- torus.off link.off "${fast[@]}" --quiet
+expect 'a symbolic link stays one' [ -L link.off ]
+expect 'its target is written' cmp target.off first.off
+chmod 640 target.off
+run 0 -- torus.off target.off "${fast[@]}" --quiet
+expect 'the mode of a replaced file stays' [ "$(stat -c %a target.off)" = 640 ]
+run 0 -- torus.off out.off "${fast[@]}" --quiet --report /dev/stdout
+expect 'a report may go to a pipe or a device' grep -q '"vertices": 200' stdout
+name='a name with  blanks, and ünïcödë.off'
+cp torus.off "$name"
+run 0 -- "$name" "new $name" "${fast[@]}" --report r.json
+expect 'any name will do' cmp "new $name" first.off
+expect 'no temporary files are left' [ -z "$(find . -name '.power_rtf_*')" ]
+
+# --- the progress bar
+if command -v script >/dev/null; then
+  script -qec "'$program' torus.off out.off -n 200 --iterations 50" terminal >/dev/null </dev/null
+  expect 'a terminal shows progress' grep -q '#####.*%' terminal
+  script -qec "'$program' torus.off out.off -n 200 --quiet" terminal >/dev/null </dev/null
+  expect '--quiet shows no progress' [ "$(grep -c '#####' terminal)" -eq 0 ]
+fi
+
+finish

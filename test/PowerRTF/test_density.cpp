@@ -1,0 +1,236 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "shapes.h"
+
+#include <CGAL/PowerRTF/surface/density.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+using namespace CGAL::PowerRTF;
+
+namespace {
+
+Remeshing_options curvature_options(double power = 1, double gradation = 0)
+{
+  Remeshing_options o;
+  o.density = Density::curvature;
+  o.density_power = power;
+  o.gradation = gradation;
+  return o;
+}
+
+std::vector<double> spacing(const Surface& s, std::size_t n)
+{
+  std::vector<double> h;
+  const double C = spacing_constant(s, n);
+  for (const double rho : s.vertex_density) h.push_back(C / std::sqrt(rho));
+  return h;
+}
+
+/// The largest |h_v - h_u| / |uv|.
+double steepest_growth(const Surface& s, std::size_t n)
+{
+  const Surface_edges edges = surface_edges(s);
+  const std::vector<double> h = spacing(s, n);
+  double steepest = 0;
+  for (std::size_t v = 0; v < h.size(); ++v)
+    for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
+      steepest = std::max(steepest, (h[v] - h[edges.neighbor[e]]) / edges.length[e]);
+  return steepest;
+}
+
+double ratio(const Surface& s)
+{
+  const auto [low, high] = std::minmax_element(s.vertex_density.begin(), s.vertex_density.end());
+  return *high / *low;
+}
+
+} // namespace
+
+TEST_CASE("edges: every neighbour once, on closed and open surfaces")
+{
+  for (const shapes::Soup& soup : {shapes::octahedron(), shapes::plane_patch(3, 2),
+                                   shapes::torus(8, 6, 2, 1), shapes::open_cylinder(7, 3, 1, 1)}) {
+    const Surface s = shapes::make_surface(soup);
+    std::map<std::pair<int, int>, int> expected;
+    for (const Triangle& t : s.triangles)
+      for (int i = 0; i < 3; ++i) {
+        expected[{t[i], t[(i + 1) % 3]}] = 1;
+        expected[{t[(i + 1) % 3], t[i]}] = 1;
+      }
+    const Surface_edges edges = surface_edges(s);
+    CHECK(edges.neighbor.size() == expected.size());
+    for (int v = 0; v < static_cast<int>(s.points.size()); ++v)
+      for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) {
+        CHECK(expected[{v, edges.neighbor[e]}]-- == 1);
+        CHECK(edges.length[e] ==
+              doctest::Approx(length(s.points[v] - s.points[edges.neighbor[e]])));
+      }
+  }
+}
+
+TEST_CASE("curvature of a sphere of radius r is 1/r")
+{
+  for (const double r : {1e-3, 1., 50.}) {
+    const Surface s = shapes::make_surface(shapes::scaled(shapes::icosphere(3), r));
+    for (const double k : vertex_curvature(s, surface_edges(s)))
+      CHECK(k * s.normalization.scale * r == doctest::Approx(1).epsilon(0.03));
+  }
+}
+
+TEST_CASE("curvature of a cylinder away from its borders")
+{
+  const double r = 2;
+  const Surface s = shapes::make_surface(shapes::open_cylinder(60, 40, r, 8));
+  const std::vector<double> k = vertex_curvature(s, surface_edges(s));
+  for (int j = 2; j < 38; ++j)
+    for (int i = 0; i < 60; ++i) {
+      // Two edges along the axis (0), two around it (1/r), two diagonals (in between).
+      CHECK(k[j * 60 + i] * s.normalization.scale * r < 1);
+      CHECK(k[j * 60 + i] * s.normalization.scale * r > std::sqrt(1. / 3) * 0.99);
+    }
+}
+
+TEST_CASE("torus: the inner side has the curvature of a saddle, the largest lies on the tube")
+{
+  const double R = 3, r = 1;
+  const int nu = 120, nv = 40;
+  const Surface s = shapes::make_surface(shapes::torus(nu, nv, R, r));
+  const std::vector<double> k = vertex_curvature(s, surface_edges(s));
+  for (int i = 0; i < nu; i += 7)
+    for (int j = 0; j < nv; ++j) {
+      const double at = k[i * nv + j] * s.normalization.scale;
+      CHECK(at <= 1 / r * 1.01);
+      CHECK(at >= 0.4 / r);
+    }
+}
+
+TEST_CASE("density: range, powers, uniform, flat")
+{
+  Surface s = shapes::make_surface(shapes::ellipsoid(4, 1, 1, 3));
+  set_density(s, curvature_options());
+  const std::vector<double> kappa = s.vertex_density;
+  CHECK(*std::min_element(kappa.begin(), kappa.end()) >= 0.05);
+  CHECK(*std::max_element(kappa.begin(), kappa.end()) == 1);
+  CHECK(std::count(kappa.begin(), kappa.end(), 1.) >= static_cast<long>(0.015 * kappa.size()));
+  CHECK(std::count(kappa.begin(), kappa.end(), 1.) <= static_cast<long>(0.05 * kappa.size()));
+  const auto tip = std::max_element(s.points.begin(), s.points.end(),
+                                    [](const Vec3d& a, const Vec3d& b) { return a.x < b.x; });
+  CHECK(kappa[tip - s.points.begin()] == 1);
+  for (const int p : {2, 3}) {
+    set_density(s, curvature_options(p));
+    for (std::size_t v = 0; v < kappa.size(); ++v)
+      CHECK(s.vertex_density[v] == doctest::Approx(std::pow(kappa[v], p)));
+  }
+  Remeshing_options uniform;
+  uniform.density = Density::uniform;
+  set_density(s, uniform);
+  CHECK(s.vertex_density == std::vector<double>(s.points.size(), 1));
+
+  Surface flat = shapes::make_surface(shapes::rotated(shapes::plane_patch(20, 20), 0.7));
+  set_density(flat, curvature_options(1, 0.2));
+  CHECK(ratio(flat) == doctest::Approx(1));
+  Surface fine_box = shapes::make_surface(shapes::box(60)); // more than 98 % of it flat
+  set_density(fine_box, curvature_options());
+  CHECK(ratio(fine_box) == doctest::Approx(20));
+}
+
+TEST_CASE("gradation bounds the growth of the spacing on every edge")
+{
+  const shapes::Soup soups[] = {shapes::box(30), shapes::ellipsoid(5, 1, 0.3, 4),
+                                shapes::thin_disc(0.02), shapes::two_spheres(2)};
+  for (const shapes::Soup& soup : soups)
+    for (const double g : {0.1, 0.2, 0.5})
+      for (const std::size_t n : {500u, 3000u}) {
+        Surface s = shapes::make_surface(soup);
+        Remeshing_options o = curvature_options(3, 0);
+        o.number_of_samples = n;
+        set_density(s, o);
+        const std::vector<double> before = spacing(s, n);
+        const double steep_before = steepest_growth(s, n);
+        o.gradation = g;
+        set_density(s, o);
+        // The last of the four passes changes the constant a little.
+        CHECK(steepest_growth(s, n) <= 1.1 * g);
+        if (steep_before > 2 * g) CHECK(steepest_growth(s, n) < 0.6 * steep_before);
+        CHECK(*std::min_element(s.vertex_density.begin(), s.vertex_density.end()) > 0);
+      }
+}
+
+TEST_CASE("limit_growth finds the largest function below the bound")
+{
+  const Surface s = shapes::make_surface(shapes::plane_patch(8, 8));
+  const Surface_edges edges = surface_edges(s);
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<double> h(s.points.size());
+    for (double& x : h) x = 0.01 + static_cast<double>(random() % 1000) / 500;
+    std::vector<double> expected = h; // Bellman and Ford
+    for (std::size_t pass = 0; pass < h.size(); ++pass)
+      for (std::size_t v = 0; v < h.size(); ++v)
+        for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
+          expected[v] = std::min(expected[v], expected[edges.neighbor[e]] + 0.3 * edges.length[e]);
+    limit_growth(edges, 0.3, h);
+    for (std::size_t v = 0; v < h.size(); ++v) CHECK(h[v] == doctest::Approx(expected[v]));
+  }
+}
+
+TEST_CASE("density does not depend on size, place, direction or order")
+{
+  const shapes::Soup soup = shapes::ellipsoid(3, 2, 0.5, 3);
+  const Remeshing_options o = curvature_options(2, 0.2);
+  Surface reference = shapes::make_surface(soup);
+  set_density(reference, o);
+  const auto check_same = [&](const shapes::Soup& other, double tolerance)
+  {
+    Surface s = shapes::make_surface(other);
+    set_density(s, o);
+    for (std::size_t v = 0; v < s.points.size(); ++v)
+      CHECK(s.vertex_density[v] ==
+            doctest::Approx(reference.vertex_density[v]).epsilon(tolerance));
+  };
+  check_same(shapes::scaled(soup, 1000), 1e-9);
+  check_same(shapes::scaled(soup, 1e-3), 1e-9);
+  check_same(shapes::translated(soup, {5000, -3000, 1000}), 1e-6);
+  check_same(shapes::rotated(soup, 1), 1e-9);
+
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    Surface s = shapes::make_surface(shapes::permuted(soup, seed));
+    set_density(s, o);
+    std::vector<double> a = s.vertex_density, b = reference.vertex_density;
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    for (std::size_t v = 0; v < a.size(); ++v) CHECK(a[v] == doctest::Approx(b[v]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the user's own density, in the order of the input's vertices")
+{
+  shapes::Soup soup = shapes::octahedron();
+  soup.points.insert(soup.points.begin(), {9, 9, 9}); // unused
+  for (Triangle& t : soup.triangles)
+    for (int& v : t) ++v;
+  Surface s = shapes::make_surface(soup);
+  Remeshing_options o;
+  o.gradation = 0;
+  set_density(s, o, {-1, 2, 4, 6, 8, 10, 20}); // that of the unused vertex does not matter
+  CHECK(s.vertex_density == std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 1});
+  o.gradation = 0.1;
+  o.number_of_samples = 100;
+  set_density(s, o, {1, 1, 1, 1, 1, 1, 1e6});
+  CHECK(steepest_growth(s, 100) < 0.11);
+
+  CHECK_THROWS_AS(set_density(s, o, {1, 1, 1, 1, 1, 1}), Invalid_input_error);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {0., -1., std::nan(""), infinity})
+    CHECK_THROWS_AS(set_density(s, o, {1, 1, 1, bad, 1, 1, 1}), Invalid_input_error);
+  o.gradation = -1;
+  CHECK_THROWS_AS(set_density(s, o, {1, 1, 1, 1, 1, 1, 1}), Invalid_input_error);
+  CHECK_THROWS_AS(set_density(s, o), Invalid_input_error);
+  CHECK_THROWS_AS(set_density(s, curvature_options(std::nan(""))), Invalid_input_error);
+}

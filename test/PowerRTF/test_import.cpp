@@ -1,0 +1,441 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "shapes.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+
+namespace PRTF = CGAL::PowerRTF;
+using PRTF::import_soup;
+using PRTF::import_surface;
+using PRTF::Invalid_input_error;
+using PRTF::Repair_counts;
+using PRTF::Surface;
+using PRTF::Triangle;
+using PRTF::Vec3d;
+using Polygons = std::vector<std::vector<long>>;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+namespace {
+
+template <class Graph, class K = Kernel>
+Graph make_mesh(const shapes::Soup& soup)
+{
+  std::vector<typename K::Point_3> points;
+  for (const Vec3d& p : soup.points) points.emplace_back(p.x, p.y, p.z);
+  std::vector<std::vector<std::size_t>> polygons;
+  for (const Triangle& t : soup.triangles) polygons.emplace_back(t.begin(), t.end());
+  Graph mesh;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  return mesh;
+}
+
+/// What `import` says when it refuses.
+template <class Import>
+std::string reason(const Import& import)
+{
+  try {
+    import();
+  } catch (const Invalid_input_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string soup_reason(const std::vector<Vec3d>& points, const Polygons& polygons)
+{
+  Repair_counts repairs;
+  return reason([&] { import_soup(points, polygons, repairs); });
+}
+
+long euler_characteristic(const Surface& s)
+{
+  const auto adjacency = PRTF::facet_adjacency(s.triangles, s.points.size());
+  const long borders = static_cast<long>(adjacency.border_edges);
+  const long edges = (3 * static_cast<long>(s.triangles.size()) + borders) / 2;
+  return static_cast<long>(s.points.size()) - edges + static_cast<long>(s.triangles.size());
+}
+
+/// Positive when oriented outwards.
+double signed_volume(const Surface& s)
+{
+  double sum = 0;
+  for (const Triangle& t : s.triangles)
+    sum += dot(s.points[t[0]], cross(s.points[t[1]], s.points[t[2]]));
+  return sum / 6;
+}
+
+void check_is_sound(const Surface& s)
+{
+  const auto adjacency = PRTF::facet_adjacency(s.triangles, s.points.size());
+  CHECK(adjacency.non_manifold_edges == 0);
+  CHECK_FALSE(adjacency.same_direction);
+  CHECK_FALSE(adjacency.repeated_facets);
+  CHECK(PRTF::count_non_manifold_vertices(s.triangles, adjacency, s.points.size()) == 0);
+  CHECK(s.facet_normals.size() == s.triangles.size());
+  CHECK(s.facet_areas.size() == s.triangles.size());
+  CHECK(s.vertex_normals.size() == s.points.size());
+  CHECK(s.vertex_density == std::vector<double>(s.points.size(), 1));
+  CHECK(s.input_vertices.size() == s.points.size());
+  for (const Vec3d& n : s.facet_normals) CHECK(length(n) == doctest::Approx(1));
+  for (const Vec3d& n : s.vertex_normals) CHECK(length(n) == doctest::Approx(1));
+  double side = 0;
+  for (const Vec3d& p : s.points)
+    side = std::max({side, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  CHECK(side <= 0.5 + 1e-12);
+  CHECK(side > 0.25 - 1e-12);
+}
+
+} // namespace
+
+TEST_CASE("closed shapes keep their topology, area and orientation")
+{
+  struct Case {
+    shapes::Soup soup;
+    long euler;
+  };
+  const Case cases[] = {{shapes::tetrahedron(), 2},          {shapes::octahedron(), 2},
+                        {shapes::icosphere(2), 2},           {shapes::torus(30, 20, 2, 1), 0},
+                        {shapes::box(5), 2},                 {shapes::ellipsoid(3, 2, 1, 2), 2},
+                        {shapes::thin_disc(0.01), 2},        {shapes::two_spheres(1), 4},
+                        {shapes::plane_patch(4, 7), 1},      {shapes::open_cylinder(20, 6, 1, 2), 0}};
+  for (const Case& c : cases) {
+    Repair_counts repairs;
+    const Surface s = import_soup(c.soup.points, c.soup.triangles, repairs);
+    check_is_sound(s);
+    CHECK(s.points.size() == c.soup.points.size());
+    CHECK(s.triangles.size() == c.soup.triangles.size());
+    CHECK(euler_characteristic(s) == c.euler);
+    CHECK(repairs.duplicate_vertices + repairs.unused_vertices + repairs.degenerate_facets +
+              repairs.triangulated_polygons + repairs.duplicate_facets +
+              repairs.reoriented_facets == 0);
+    if (c.euler % 2 == 0 && &c != &cases[9]) CHECK(signed_volume(s) > 0);
+  }
+}
+
+TEST_CASE("areas and normals")
+{
+  const Surface box = shapes::make_surface(shapes::box(3));
+  CHECK(box.normalization.scale == 0.5);
+  CHECK(box.area / (0.5 * 0.5) == doctest::Approx(24));
+  double sum = 0;
+  for (const double a : box.facet_areas) sum += a;
+  CHECK(sum == doctest::Approx(box.area));
+  const shapes::Soup soup = shapes::box(1);
+  const Surface cube = shapes::make_surface(soup);
+  for (std::size_t v = 0; v < cube.points.size(); ++v) // whatever the diagonals of the squares
+    CHECK(length(cube.vertex_normals[v] - normalized(cube.points[v])) < 1e-12);
+  const Surface sphere = shapes::make_surface(shapes::icosphere(4));
+  for (std::size_t v = 0; v < sphere.points.size(); ++v)
+    CHECK(dot(sphere.vertex_normals[v], normalized(sphere.points[v])) > 0.9999);
+}
+
+TEST_CASE("the unit box: any size, any place")
+{
+  const shapes::Soup torus = shapes::torus(20, 10, 2, 0.7);
+  const Surface reference = shapes::make_surface(torus);
+  for (const double factor : {1e-12, 1e-3, 0.25, 1024., 1e12, 1e100, 1e-100}) {
+    const Surface s = shapes::make_surface(shapes::scaled(torus, factor));
+    check_is_sound(s);
+    const double relative = s.normalization.scale * factor / reference.normalization.scale;
+    CHECK(s.triangles == reference.triangles);
+    for (std::size_t v = 0; v < s.points.size(); ++v)
+      CHECK(length(s.points[v] - relative * reference.points[v]) < 1e-14);
+  }
+  const Surface power_of_two = shapes::make_surface(shapes::scaled(torus, 1024));
+  CHECK(power_of_two.points == reference.points);
+  CHECK(power_of_two.vertex_normals == reference.vertex_normals);
+
+  const Surface far = shapes::make_surface(shapes::translated(torus, {1e6, -1e6, 3e6}));
+  check_is_sound(far);
+  for (std::size_t v = 0; v < far.points.size(); ++v) {
+    CHECK(length(far.points[v] - reference.points[v]) < 1e-9);
+    const Vec3d back = far.normalization.to_outside(far.points[v]);
+    CHECK(length(back - (torus.points[v] + Vec3d{1e6, -1e6, 3e6})) < 1e-9);
+  }
+}
+
+TEST_CASE("Surface_mesh and Polyhedron_3, own and foreign point maps")
+{
+  const shapes::Soup soup = shapes::torus(12, 8, 2, 1);
+  const Surface reference = shapes::make_surface(soup);
+  Repair_counts repairs;
+  SUBCASE("Surface_mesh")
+  {
+    Mesh mesh = make_mesh<Mesh>(soup);
+    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
+    CHECK(s.points == reference.points);
+    CHECK(s.area == doctest::Approx(reference.area));
+    auto other = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_3>("v:other").first;
+    for (const auto v : mesh.vertices()) {
+      const auto p = mesh.point(v);
+      put(other, v, Kernel::Point_3(p.x(), p.y(), 3 * p.z()));
+    }
+    const Surface tall = import_surface(mesh, CGAL::parameters::vertex_point_map(other), repairs);
+    CHECK(tall.area > 1.5 * s.area);
+    CHECK(tall.points[5].z == doctest::Approx(3 * s.points[5].z));
+  }
+  SUBCASE("Surface_mesh with removed and isolated vertices")
+  {
+    Mesh mesh;
+    mesh.add_vertex({7, 7, 7});
+    const auto removed = mesh.add_vertex({8, 8, 8});
+    std::vector<Mesh::Vertex_index> v;
+    for (const Vec3d& p : shapes::tetrahedron().points) v.push_back(mesh.add_vertex({p.x, p.y, p.z}));
+    for (const Triangle& t : shapes::tetrahedron().triangles)
+      mesh.add_face(v[t[0]], v[t[1]], v[t[2]]);
+    mesh.remove_vertex(removed);
+    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
+    check_is_sound(s);
+    CHECK(s.points.size() == 4);
+    CHECK(repairs.unused_vertices == 1);
+    CHECK(s.input_vertices == std::vector<int>{1, 2, 3, 4});
+  }
+  SUBCASE("Polyhedron_3")
+  {
+    using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+    const auto mesh = make_mesh<Polyhedron>(soup);
+    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
+    check_is_sound(s);
+    CHECK(s.points.size() == reference.points.size());
+    CHECK(s.area == doctest::Approx(reference.area));
+    std::map<boost::graph_traits<Polyhedron>::vertex_descriptor, Kernel::Point_3> flat;
+    for (const auto v : vertices(mesh)) {
+      const auto p = v->point();
+      flat[v] = Kernel::Point_3(p.x(), p.y(), p.z() / 2);
+    }
+    const Surface low = import_surface(
+        mesh, CGAL::parameters::vertex_point_map(boost::make_assoc_property_map(flat)), repairs);
+    CHECK(low.area < 0.9 * s.area);
+  }
+  SUBCASE("exact constructions")
+  {
+    using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+    const auto mesh = make_mesh<CGAL::Surface_mesh<Exact::Point_3>, Exact>(soup);
+    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
+    CHECK(s.points == reference.points);
+  }
+}
+
+TEST_CASE("a mesh keeps its connectivity: equal points of different vertices stay apart")
+{
+  const shapes::Soup square = shapes::plane_patch(1, 1);
+  const auto two = make_mesh<Mesh>(shapes::joined(square, shapes::translated(square, {1, 0, 0})));
+  Repair_counts repairs;
+  const Surface s = import_surface(two, CGAL::parameters::default_values(), repairs);
+  CHECK(s.points.size() == 8);
+  CHECK(repairs.duplicate_vertices == 0);
+}
+
+TEST_CASE("soups: duplicate and unused vertices, repeated and degenerate polygons, orientation")
+{
+  const shapes::Soup sphere = shapes::icosphere(2);
+  shapes::Soup cut; // every facet with its own three vertices
+  for (const Triangle& t : sphere.triangles) {
+    const int k = static_cast<int>(cut.points.size());
+    for (const int v : t) cut.points.push_back(sphere.points[v]);
+    cut.triangles.push_back({k, k + 1, k + 2});
+  }
+  cut.points.push_back({9, 9, 9}); // outside the box of the rest, unused
+  cut.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  cut.triangles.push_back({0, 0, 1});
+  cut.triangles.push_back({4, 5, 3}); // repeats the second facet
+  std::swap(cut.triangles[3][0], cut.triangles[3][1]);
+  std::swap(cut.triangles[40][0], cut.triangles[40][1]);
+  Repair_counts repairs;
+  const Surface s = import_soup(cut.points, cut.triangles, repairs);
+  check_is_sound(s);
+  CHECK(s.points.size() == sphere.points.size());
+  CHECK(s.triangles.size() == sphere.triangles.size());
+  CHECK(euler_characteristic(s) == 2);
+  CHECK(signed_volume(s) > 0);
+  CHECK(repairs.duplicate_vertices == 3 * sphere.triangles.size() - sphere.points.size());
+  CHECK(repairs.unused_vertices == 2);
+  CHECK(repairs.degenerate_facets == 1);
+  CHECK(repairs.duplicate_facets == 1);
+  CHECK(repairs.reoriented_facets == 2);
+}
+
+TEST_CASE("a component that is inside out stays so")
+{
+  shapes::Soup soup = shapes::two_spheres(1);
+  for (std::size_t f = soup.triangles.size() / 2; f < soup.triangles.size(); ++f)
+    std::swap(soup.triangles[f][0], soup.triangles[f][1]);
+  Repair_counts repairs;
+  const Surface s = import_soup(soup.points, soup.triangles, repairs);
+  CHECK(repairs.reoriented_facets == 0);
+  CHECK(std::abs(signed_volume(s)) < 1e-9);
+}
+
+TEST_CASE("negative zero is zero")
+{
+  const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
+                                     {-0., -0., 0}, {1, -0., 0}, {0, -1, 0}};
+  Repair_counts repairs;
+  const Surface s = import_soup(points, Polygons{{0, 1, 2}, {4, 3, 5}}, repairs);
+  CHECK(s.points.size() == 4);
+  CHECK(repairs.duplicate_vertices == 2);
+}
+
+TEST_CASE("closed sheets that touch in a point stay apart")
+{
+  const shapes::Soup two = shapes::joined(
+      shapes::octahedron(), shapes::translated(shapes::octahedron(), {2, 0, 0}));
+  Repair_counts repairs;
+  const Surface s = import_soup(two.points, two.triangles, repairs);
+  check_is_sound(s);
+  CHECK(s.points.size() == 12);
+  CHECK(repairs.duplicate_vertices == 0);
+}
+
+TEST_CASE("polygons")
+{
+  Repair_counts repairs;
+  SUBCASE("a cube of squares")
+  {
+    const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    const Polygons squares = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                              {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    const Surface s = import_soup(points, squares, repairs);
+    check_is_sound(s);
+    CHECK(s.triangles.size() == 12);
+    CHECK(s.area == doctest::Approx(6));
+    CHECK(repairs.triangulated_polygons == 6);
+  }
+  SUBCASE("not convex: a comb with collinear vertices; the cut does not depend on place and size")
+  {
+    std::vector<Vec3d> points;
+    const int teeth = 30;
+    for (int i = 0; i <= 2 * teeth; ++i) points.push_back({double(i), 0, 0});
+    for (int i = 2 * teeth; i >= 0; --i) points.push_back({double(i), i % 2 ? 1. : 9., 0});
+    std::vector<long> polygon(points.size());
+    std::iota(polygon.begin(), polygon.end(), 0);
+    const double scale = 1. / 64; // power of two; sides up to 60
+    const Surface s = import_soup(points, Polygons{polygon}, repairs);
+    check_is_sound(s);
+    CHECK(s.triangles.size() == points.size() - 2);
+    CHECK(s.area / (scale * scale) == doctest::Approx(5. * 2 * teeth));
+    for (const Vec3d& n : s.facet_normals) CHECK(n.z == doctest::Approx(1));
+    CHECK(euler_characteristic(s) == 1);
+    for (Vec3d& p : points) p = 1000. / 3 * (p + Vec3d{1, 2, 3});
+    const Surface moved = import_soup(points, Polygons{polygon}, repairs);
+    CHECK(moved.triangles == s.triangles);
+  }
+  SUBCASE("repeated corners")
+  {
+    const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const Surface s = import_soup(points, Polygons{{0, 1, 1, 2, 3, 0}, {0, 0, 1}}, repairs);
+    CHECK(s.triangles.size() == 2);
+    CHECK(repairs.degenerate_facets == 1);
+  }
+}
+
+TEST_CASE("facets without area are removed and the surface stays closed")
+{
+  Repair_counts repairs;
+  SUBCASE("caps: vertices on the edges of an octahedron, split on one side only")
+  {
+    shapes::Soup s = shapes::octahedron();
+    // Two points on the edge 0-2 of the facet 0 2 4; the sliver 0 .. 2 closes the gap.
+    s.points.push_back({2. / 3, 1. / 3, 0});
+    s.points.push_back({1. / 3, 2. / 3, 0});
+    s.triangles[0] = {0, 6, 4};
+    s.triangles.push_back({6, 7, 4});
+    s.triangles.push_back({7, 2, 4});
+    s.triangles.push_back({6, 0, 2});
+    s.triangles.push_back({7, 6, 2});
+    for (const double angle : {0., 0.3, 1.1, 2.5}) {
+      repairs = {};
+      const shapes::Soup r = shapes::rotated(s, angle);
+      const Surface surface = import_soup(r.points, r.triangles, repairs);
+      check_is_sound(surface);
+      CHECK(repairs.degenerate_facets == 2);
+      CHECK(PRTF::degenerate_facets(surface.points, surface.triangles).empty());
+      CHECK(surface.points.size() == 8);
+      CHECK(euler_characteristic(surface) == 2);
+      const double scale = surface.normalization.scale;
+      CHECK(surface.area / (scale * scale) == doctest::Approx(8 * std::sqrt(3.) / 2));
+    }
+  }
+  SUBCASE("needles: an edge without length in a mesh")
+  {
+    shapes::Soup s = shapes::icosphere(1);
+    Mesh mesh = make_mesh<Mesh>(s);
+    const auto h = *mesh.halfedges().begin();
+    mesh.point(mesh.source(h)) = mesh.point(mesh.target(h));
+    const Surface surface = import_surface(mesh, CGAL::parameters::default_values(), repairs);
+    check_is_sound(surface);
+    CHECK(surface.points.size() == s.points.size() - 1);
+    CHECK(surface.triangles.size() == s.triangles.size() - 2);
+    CHECK(euler_characteristic(surface) == 2);
+    CHECK(repairs.duplicate_vertices == 1);
+    CHECK(repairs.degenerate_facets == 2);
+  }
+  SUBCASE("at a border")
+  {
+    const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
+    const Surface s = import_soup(points, Polygons{{0, 1, 3}, {1, 2, 3}, {1, 0, 2}}, repairs);
+    check_is_sound(s);
+    CHECK(s.triangles.size() == 2);
+    CHECK(repairs.degenerate_facets == 1);
+  }
+}
+
+TEST_CASE("normals of a facet without area that cannot be removed are still of length 1")
+{
+  // All edges that a flip could make exist already: a flat double tetrahedron.
+  Surface s;
+  s.points = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {0.5, 1, 0}};
+  s.triangles = {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+  PRTF::compute_geometry(s);
+  for (const Vec3d& n : s.facet_normals) CHECK(length(n) == doctest::Approx(1));
+  for (const Vec3d& n : s.vertex_normals) CHECK(length(n) == doctest::Approx(1));
+}
+
+TEST_CASE("what cannot be used is refused with a reason")
+{
+  const auto mentions = [](const std::string& text, const char* part)
+  { return text.find(part) != std::string::npos; };
+  const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+
+  CHECK(mentions(soup_reason({}, {}), "no facet"));
+  CHECK(mentions(soup_reason(points, {}), "no facet"));
+  CHECK(mentions(soup_reason(points, {{0, 1, 5}}), "vertex 5"));
+  CHECK(mentions(soup_reason(points, {{0, 1, 2}, {0, -1, 2}}), "facet 1"));
+  CHECK(mentions(soup_reason({{0, 0, 0}, {1, nan, 0}, {0, 1, 0}}, {{0, 1, 2}}), "vertex 1"));
+  CHECK(mentions(soup_reason({{0, 0, 0}, {1, 0, 0}, {0, infinity, 0}}, {{0, 1, 2}}), "vertex 2"));
+  CHECK(mentions(soup_reason({{-1e308, 0, 0}, {1e308, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), "large"));
+  CHECK(mentions(soup_reason({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}), "no area"));
+  CHECK(mentions(soup_reason({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}, {{0, 1, 2}}), "no area"));
+  CHECK(mentions(soup_reason(points, {{0, 1}}), "no area"));
+  CHECK(mentions(soup_reason(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), "1 edge"));
+  const shapes::Soup touching = shapes::joined(
+      shapes::plane_patch(1, 1), shapes::translated(shapes::plane_patch(1, 1), {1, 1, 0}));
+  Repair_counts repairs;
+  CHECK(mentions(reason([&] { import_soup(touching.points, touching.triangles, repairs); }),
+                 "1 vertex"));
+  CHECK(repairs.duplicate_vertices == 0); // nothing was mended
+  CHECK(mentions(soup_reason({{1, 0, 0}, {0, 1, 0}, {-1, 0, 1}, {0, -1, 2}, {1, -1, 3}},
+                             {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 0, 4}, {4, 0, 1}}),
+                 "oriented")); // the five-vertex Moebius strip
+  Mesh empty;
+  CHECK(mentions(
+      reason([&] { import_surface(empty, CGAL::parameters::default_values(), repairs); }),
+      "no facet"));
+}

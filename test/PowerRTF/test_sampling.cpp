@@ -1,0 +1,355 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "shapes.h"
+
+#include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/surface/nearest_vertices.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+using namespace CGAL::PowerRTF;
+
+namespace {
+
+Remeshing_options options(std::size_t n, Sampling sampling, unsigned seed = 0)
+{
+  Remeshing_options o;
+  o.number_of_samples = n;
+  o.sampling = sampling;
+  o.random_seed = seed;
+  return o;
+}
+
+constexpr Sampling both[] = {Sampling::elimination, Sampling::random};
+
+void check_is_sound(const Surface& s, const Samples& samples, std::size_t n)
+{
+  REQUIRE(samples.points.size() == n);
+  REQUIRE(samples.facets.size() == n);
+  REQUIRE(samples.normals.size() == n);
+  REQUIRE(samples.density.size() == n);
+  CHECK(samples.weights == std::vector<double>(n, 0));
+  for (std::size_t i = 0; i < n; ++i) {
+    const int f = samples.facets[i];
+    REQUIRE(f >= 0);
+    REQUIRE(f < static_cast<int>(s.triangles.size()));
+    const Triangle& t = s.triangles[f];
+    const Vec3d &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]], p = samples.points[i];
+    CHECK(std::abs(dot(p - a, s.facet_normals[f])) < 1e-13);
+    const double areas = length(cross(b - p, c - p)) + length(cross(c - p, a - p)) +
+                         length(cross(a - p, b - p));
+    CHECK(areas == doctest::Approx(2 * s.facet_areas[f])); // inside the facet
+    CHECK(length(samples.normals[i]) == doctest::Approx(1));
+    CHECK(samples.density[i] > 0);
+  }
+}
+
+/// Distance of each sample to its nearest one, over the spacing of a hexagonal arrangement.
+std::vector<double> relative_distances(const Surface& s, const Samples& samples)
+{
+  const Nearest_vertices tree(samples.points);
+  const double C = spacing_constant(s, samples.size());
+  std::vector<double> result;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    int nearest[2];
+    tree.find(samples.points[i], 2, nearest);
+    const int j = nearest[0] == static_cast<int>(i) ? nearest[1] : nearest[0];
+    result.push_back(length(samples.points[i] - samples.points[j]) * std::sqrt(samples.density[i]) /
+                     C);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("exactly n samples on their facets, for any n from 4")
+{
+  Surface s = shapes::make_surface(shapes::ellipsoid(3, 2, 1, 2));
+  for (const Density density : {Density::uniform, Density::curvature})
+    for (const Sampling sampling : both)
+      for (const std::size_t n : {4u, 5u, 17u, 320u, 1500u})
+        for (unsigned seed = 0; seed < 3; ++seed) {
+          Remeshing_options o = options(n, sampling, seed);
+          o.density = density;
+          set_density(s, o);
+          check_is_sound(s, sample_surface(s, o), n);
+        }
+}
+
+TEST_CASE("what cannot be sampled is refused")
+{
+  const Surface s = shapes::make_surface(shapes::tetrahedron());
+  for (const std::size_t n : {std::size_t(0), std::size_t(3), std::size_t(1) << 40})
+    CHECK_THROWS_AS(sample_surface(s, options(n, Sampling::elimination)), Invalid_input_error);
+  Remeshing_options o = options(10, Sampling::random);
+  o.oversampling = 0.5;
+  CHECK_THROWS_AS(sample_surface(s, o), Invalid_input_error);
+  o.oversampling = 1;
+  check_is_sound(s, sample_surface(s, o), 10);
+}
+
+TEST_CASE("the same seed gives the same samples, another seed others")
+{
+  const Surface s = shapes::make_surface(shapes::torus(20, 10, 2, 1));
+  for (const Sampling sampling : both) {
+    const Samples a = sample_surface(s, options(500, sampling, 7));
+    const Samples b = sample_surface(s, options(500, sampling, 7));
+    const Samples c = sample_surface(s, options(500, sampling, 8));
+    CHECK(a.points == b.points);
+    CHECK(a.facets == b.facets);
+    CHECK(a.points != c.points);
+  }
+}
+
+TEST_CASE("random samples per facet are proportional to area")
+{
+  const Surface s = shapes::make_surface(shapes::torus(20, 10, 3, 1)); // areas differ by a factor 2
+  const std::size_t n = 8000;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const Samples samples = sample_surface(s, options(n, Sampling::random, seed));
+    std::vector<double> count(s.triangles.size(), 0);
+    for (const int f : samples.facets) ++count[f];
+    double chi_2 = 0;
+    for (std::size_t f = 0; f < count.size(); ++f) {
+      const double expected = n * s.facet_areas[f] / s.area;
+      chi_2 += (count[f] - expected) * (count[f] - expected) / expected;
+    }
+    CHECK(chi_2 > 280); // 399 degrees of freedom, standard deviation 28
+    CHECK(chi_2 < 520);
+  }
+}
+
+TEST_CASE("barycentric coordinates follow the linear density")
+{
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    Random_source random(seed);
+    const std::array<double, 3> rho = {1, 4, 15};
+    std::array<double, 3> mean{0, 0, 0};
+    double small = 0;
+    const int count = 20000;
+    for (int k = 0; k < count; ++k) {
+      const auto b = random.barycentric(rho);
+      CHECK(b[0] + b[1] + b[2] == doctest::Approx(1));
+      for (int i = 0; i < 3; ++i) {
+        CHECK(b[i] >= 0);
+        mean[i] += b[i] / count;
+      }
+      if (b[2] < 0.25) small += 1. / count;
+    }
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(mean[i] - (0.25 + 0.25 * rho[i] / 20)) < 0.005);
+    // P(b_2 < t): the integral of the density over that part, by hand for a linear function.
+    const double t = 0.25, at_0 = (rho[0] + rho[1]) / 2, slope = rho[2] - at_0;
+    const double share = (at_0 * (1 - (1 - t) * (1 - t)) +
+                          slope * (t * t - 2 * t * t * t / 3)) * 3 / (2 * at_0 + rho[2]);
+    CHECK(std::abs(small - share) < 0.01);
+  }
+}
+
+TEST_CASE("elimination: no two samples are close, and none is far from all")
+{
+  const shapes::Soup soups[] = {shapes::icosphere(3), shapes::torus(40, 20, 2, 0.8),
+                                shapes::box(1), shapes::plane_patch(5, 5)};
+  for (const shapes::Soup& soup : soups)
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      const Surface s = shapes::make_surface(soup);
+      const auto eliminated =
+          relative_distances(s, sample_surface(s, options(1000, Sampling::elimination, seed)));
+      const auto random =
+          relative_distances(s, sample_surface(s, options(1000, Sampling::random, seed)));
+      CHECK(eliminated.front() > 0.5);
+      CHECK(eliminated[eliminated.size() / 2] > 0.68);
+      CHECK(eliminated.back() < 1.3);
+      CHECK(random.front() < 0.2);
+    }
+}
+
+TEST_CASE("elimination follows the density")
+{
+  Surface s = shapes::make_surface(shapes::icosphere(4));
+  Remeshing_options o = options(3000, Sampling::elimination);
+  SUBCASE("two halves")
+  {
+    o.gradation = 0;
+    std::vector<double> density;
+    for (const Vec3d& p : s.points) density.push_back(p.z > 0 ? 10 : 1);
+    set_density(s, o, density);
+    const Samples samples = sample_surface(s, o);
+    const auto upper = std::count_if(samples.points.begin(), samples.points.end(),
+                                     [](const Vec3d& p) { return p.z > 0; });
+    double mass = 0;
+    for (std::size_t f = 0; f < s.triangles.size(); ++f)
+      for (const int v : s.triangles[f])
+        if (s.points[s.triangles[f][0]].z > 0)
+          mass += s.vertex_density[v] * s.facet_areas[f] / 3;
+    CHECK(upper / 3000. == doctest::Approx(mass / density_integral(s)).epsilon(0.03));
+  }
+  SUBCASE("spacing 1 : 30")
+  {
+    o.gradation = 0.3;
+    std::vector<double> density;
+    for (const Vec3d& p : s.points) density.push_back(p.z > 0.45 ? 900 : 1);
+    set_density(s, o, density);
+    const Samples samples = sample_surface(s, o);
+    const auto distances = relative_distances(s, samples);
+    CHECK(distances.front() > 0.4);
+    CHECK(distances[distances.size() / 2] > 0.68);
+    const auto [low, high] = std::minmax_element(samples.density.begin(), samples.density.end());
+    CHECK(*high / *low > 20);
+  }
+}
+
+TEST_CASE("the sheets of a thin disc do not see each other")
+{
+  Surface s = shapes::make_surface(shapes::thin_disc(1e-4));
+  const Samples samples = sample_surface(s, options(1000, Sampling::elimination));
+  std::size_t upper = 0;
+  for (const Vec3d& n : samples.normals) upper += n.z > 0;
+  CHECK(upper > 470);
+  CHECK(upper < 530);
+  // Each sheet alone has the full spacing: distances within a sheet.
+  for (const bool up : {true, false}) {
+    Samples sheet;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if ((samples.normals[i].z > 0) == up) sheet.points.push_back(samples.points[i]);
+    sheet.density.assign(sheet.points.size(), 1);
+    const auto distances = relative_distances(s, sheet); // half the samples on half the area
+    CHECK(distances[distances.size() / 2] * std::sqrt(2.) > 0.68);
+    CHECK(distances.front() * std::sqrt(2.) > 0.5);
+  }
+}
+
+TEST_CASE("the choice does not depend on the input's size and place")
+{
+  const shapes::Soup soups[] = {shapes::ellipsoid(3, 2, 1, 3), shapes::two_spheres(2),
+                                shapes::box(4), shapes::torus(30, 12, 2, 0.5)};
+  for (const shapes::Soup& soup : soups)
+    for (const Sampling sampling : both)
+      for (const Density density : {Density::uniform, Density::curvature}) {
+        Remeshing_options o = options(801, sampling, 3);
+        o.density = density;
+        Surface s = shapes::make_surface(soup);
+        set_density(s, o);
+        const Samples reference = sample_surface(s, o);
+        for (const double factor : {1000., 1e-3, 3.}) {
+          Surface other = shapes::make_surface(shapes::scaled(soup, factor));
+          set_density(other, o);
+          const Samples samples = sample_surface(other, o);
+          CHECK(samples.facets == reference.facets);
+          const double back = s.normalization.scale / (other.normalization.scale * factor);
+          for (std::size_t i = 0; i < samples.size(); ++i)
+            CHECK(length(back * samples.points[i] - reference.points[i]) < 1e-10);
+        }
+      }
+}
+
+TEST_CASE("rotation and order change the samples, not their distribution")
+{
+  const shapes::Soup soup = shapes::ellipsoid(3, 2, 1, 3);
+  const Remeshing_options o = options(1000, Sampling::elimination);
+  for (unsigned seed = 0; seed < 3; ++seed)
+    for (const shapes::Soup& other :
+         {shapes::rotated(soup, 0.5 + seed), shapes::permuted(soup, seed)}) {
+      const Surface s = shapes::make_surface(other);
+      const Samples samples = sample_surface(s, o);
+      const auto distances = relative_distances(s, samples);
+      CHECK(distances.front() > 0.55);
+      CHECK(distances[500] == doctest::Approx(0.74).epsilon(0.05));
+    }
+}
+
+TEST_CASE("components share the samples by mass, at least four each")
+{
+  using internal::allocate_samples;
+  using Counts = std::vector<std::size_t>;
+  CHECK(allocate_samples({1, 1}, 10) == Counts{5, 5});
+  CHECK(allocate_samples({1, 1}, 11) == Counts{6, 5});
+  CHECK(allocate_samples({1, 1 + 1e-14}, 11) == Counts{6, 5});
+  CHECK(allocate_samples({3, 1}, 100) == Counts{75, 25});
+  CHECK(allocate_samples({1, 1e-9, 2}, 34) == Counts{10, 4, 20});
+  CHECK(allocate_samples({1, 1, 1}, 12) == Counts{4, 4, 4});
+  CHECK(allocate_samples({5, 3, 2}, 7) == Counts{4, 2, 1}); // too few for four each
+  CHECK(allocate_samples({1, 0}, 9) == Counts{9, 0});
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<double> masses(1 + random() % 30);
+    for (double& m : masses) m = std::pow(10., -static_cast<double>(random() % 6)) + 1e-3;
+    const std::size_t n = 4 * masses.size() + random() % 1000;
+    const Counts counts = allocate_samples(masses, n);
+    CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t(0)) == n);
+    CHECK(*std::min_element(counts.begin(), counts.end()) >= 4);
+  }
+
+  const shapes::Soup far_and_small = shapes::joined(
+      shapes::icosphere(3), shapes::translated(shapes::scaled(shapes::icosphere(1), 1e-4), {2, 0, 0}));
+  const Surface s = shapes::make_surface(far_and_small);
+  for (const Sampling sampling : both) {
+    const Samples samples = sample_surface(s, options(500, sampling));
+    check_is_sound(s, samples, 500);
+    const auto on_small = std::count_if(samples.facets.begin(), samples.facets.end(),
+                                        [](int f) { return f >= 1280; });
+    CHECK(on_small == 4);
+  }
+}
+
+TEST_CASE("grid: points within a radius, compared with all pairs")
+{
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    Random_source random(seed);
+    std::vector<Vec3d> points;
+    std::vector<int> even;
+    for (int i = 0; i < 600; ++i) {
+      points.push_back({random() - 0.5, random() - 0.5, seed % 2 ? 0 : random() - 0.5});
+      if (i % 2 == 0) even.push_back(i);
+    }
+    for (const double radius : {1e-9, 0.03, 0.2, 2.}) {
+      const Point_grid grid(points, even, 0.1);
+      for (int q = 0; q < 50; ++q) {
+        std::set<int> found, expected;
+        grid.for_each_near(points[q], radius, [&](int i, double) { CHECK(found.insert(i).second); });
+        for (const int i : even)
+          if (length(points[i] - points[q]) <= radius) expected.insert(i);
+        CHECK(found == expected);
+      }
+    }
+  }
+  const Point_grid empty({}, {}, 0.1);
+  empty.for_each_near({0, 0, 0}, 1, [](int, double) { FAIL("there is no point"); });
+}
+
+TEST_CASE("elimination against its definition")
+{
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    Random_source random(seed);
+    std::vector<Vec3d> points, normals;
+    std::vector<double> radii;
+    for (int i = 0; i < 200; ++i) {
+      points.push_back({random(), random(), 0});
+      normals.push_back({0, 0, i % 5 == 0 ? -1. : 1.});
+      radii.push_back(0.02 * (1 + 9 * random())); // four levels of grids
+    }
+    const auto weight = [&](int i, const std::vector<int>& alive)
+    {
+      double w = 0;
+      for (const int j : alive) {
+        const double x = 1 - length(points[i] - points[j]) / (radii[i] + radii[j]);
+        if (j != i && x > 0 && dot(normals[i], normals[j]) > 0) w += std::pow(x, 8);
+      }
+      return w;
+    };
+    std::vector<int> alive(points.size());
+    std::iota(alive.begin(), alive.end(), 0);
+    while (alive.size() > 60)
+      alive.erase(std::max_element(alive.begin(), alive.end(), [&](int a, int b)
+                                   {
+                                     return std::pair(weight(a, alive), a) <
+                                            std::pair(weight(b, alive), b);
+                                   }));
+    CHECK(eliminate_samples(points, normals, radii, 0.5, 60) == alive);
+  }
+}

@@ -1,0 +1,83 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The progress bar and Ctrl-C: the program's visitor of a remeshing run.
+#ifndef POWER_RTF_TOOLS_PROGRESS_H
+#define POWER_RTF_TOOLS_PROGRESS_H
+
+#include <CGAL/PowerRTF/Remeshing_visitor.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <unistd.h>
+
+namespace tools {
+
+/// Set by Ctrl-C; the run ends at the next chance.
+inline volatile std::sig_atomic_t interrupted = 0;
+
+/// The user cancelled the run; the program ends with exit code 130.
+struct Cancelled {};
+
+/// Lets the first Ctrl-C set `interrupted` and the second end the program at once.
+inline void handle_interrupts()
+{
+  struct sigaction action = {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_flags = SA_RESETHAND;
+  sigaction(SIGINT, &action, nullptr);
+}
+
+inline void stop_if_interrupted()
+{
+  if (interrupted) throw Cancelled();
+}
+
+class Progress : public CGAL::PowerRTF::Remeshing_default_visitor {
+public:
+  /// Draws on stderr when that is a terminal, unless `quiet`.
+  explicit Progress(bool quiet) : m_draws(!quiet && ::isatty(STDERR_FILENO)) {}
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void on_stage(const char* name)
+  {
+    m_stage = name;
+    draw(0);
+  }
+  void on_iteration(const CGAL::PowerRTF::Iteration_report&, double progress)
+  {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - m_last < std::chrono::milliseconds(50) && progress < 1) return;
+    m_last = now;
+    draw(progress);
+  }
+  bool go_further() const { return !interrupted; }
+  void clear() const
+  {
+    if (m_draws) std::fputs("\r\033[K", stderr);
+  }
+
+private:
+  void draw(double progress) const
+  {
+    if (!m_draws) return;
+    constexpr int width = 40;
+    const auto done = static_cast<std::size_t>(width * progress);
+    const std::string bar = std::string(done, '#') + std::string(width - done, '.');
+    std::fprintf(stderr, "\r\033[K%-12s [%s] %3d %%", m_stage.c_str(), bar.c_str(),
+                 static_cast<int>(100 * progress));
+    std::fflush(stderr);
+  }
+
+  bool m_draws;
+  std::string m_stage;
+  std::chrono::steady_clock::time_point m_last;
+};
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_PROGRESS_H

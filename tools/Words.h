@@ -1,0 +1,97 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The words of a text, and the numbers that they are.
+#ifndef POWER_RTF_TOOLS_WORDS_H
+#define POWER_RTF_TOOLS_WORDS_H
+
+#include <CGAL/PowerRTF/internal/errors.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace tools {
+
+/// Walks over the words of a text, which has to outlive it. '#' begins a comment.
+class Words {
+public:
+  explicit Words(std::string_view text) : m_text(text) {}
+
+  /// Goes to the next word; `false` at the end of the text.
+  bool next()
+  {
+    while (!next_in_line()) {
+      if (m_at == m_text.size()) return false;
+      ++m_at; // the end of the line
+      ++m_line;
+    }
+    return true;
+  }
+  /// Goes to the next word of the same line; `false` at its end.
+  bool next_in_line()
+  {
+    while (m_at < m_text.size() && is_blank(m_text[m_at])) ++m_at;
+    if (m_at < m_text.size() && m_text[m_at] == '#') skip_line();
+    const std::size_t begin = m_at;
+    while (m_at < m_text.size() && !is_blank(m_text[m_at]) && m_text[m_at] != '\n') ++m_at;
+    m_word = m_text.substr(begin, m_at - begin);
+    return !m_word.empty();
+  }
+  void skip_line() { m_at = std::min(m_text.find('\n', m_at), m_text.size()); }
+
+  std::string_view word() const { return m_word; }
+
+  /// The word as a finite number.
+  double number() const
+  {
+    const std::string_view digits = m_word.substr(m_word[0] == '+');
+    const char* const end = digits.data() + digits.size();
+    double x = 0;
+    const auto [stop, error] = std::from_chars(digits.data(), end, x);
+    if (stop != end || error == std::errc::invalid_argument) reject("is not a number");
+    if (error == std::errc::result_out_of_range) // too large, or so small that it is 0
+      x = std::strtod(std::string(digits).c_str(), nullptr);
+    if (!std::isfinite(x)) reject("is not a finite number");
+    return x;
+  }
+
+  /// The word, or its part before '/', as a whole number; beyond the limits of its type: the limit.
+  long long whole_number(bool before_slash = false) const
+  {
+    const char* const end = m_word.data() + m_word.size();
+    long long x = 0;
+    const auto [stop, error] = std::from_chars(m_word.data(), end, x);
+    if (error == std::errc::invalid_argument || (stop != end && !(before_slash && *stop == '/')))
+      reject("is not a whole number");
+    if (error == std::errc::result_out_of_range)
+      x = m_word[0] == '-' ? std::numeric_limits<long long>::min()
+                           : std::numeric_limits<long long>::max();
+    return x;
+  }
+
+  /// \throws Invalid_input_error always: the word `is` what it must not be
+  [[noreturn]] void reject(const std::string& is) const
+  {
+    std::string shown(m_word.substr(0, 24));
+    for (char& c : shown)
+      if (c < ' ' || c > '~') c = '?';
+    throw CGAL::PowerRTF::Invalid_input_error(at() + "'" + shown + "' " + is);
+  }
+  /// "line 7: "
+  std::string at() const { return "line " + std::to_string(m_line) + ": "; }
+
+private:
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+  std::string_view m_text, m_word;
+  std::size_t m_at = 0, m_line = 1;
+};
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_WORDS_H

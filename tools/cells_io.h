@@ -1,0 +1,31 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Files of the cells and of the samples, in the coordinates and units of the input.
+#ifndef POWER_RTF_TOOLS_CELLS_IO_H
+#define POWER_RTF_TOOLS_CELLS_IO_H
+
+#include "mesh_io.h"
+
+#include <CGAL/PowerRTF/engines/Cell_polygon.h>
+#include <CGAL/PowerRTF/surface/Surface.h>
+
+#include <iosfwd>
+#include <vector>
+
+namespace tools {
+
+/// The polygons F_i with the number of their sample (from 0), weight w_i, mass m_i, density rho_i
+/// and status (0: ok, 1: guarded, 2: empty, 3: incomplete). Empty cells have no polygon. `format`
+/// is ply or vtp.
+void write_cells(std::ostream& out, Format format,
+                 const std::vector<CGAL::PowerRTF::Cell_polygon>& cells,
+                 const CGAL::PowerRTF::Normalization& normalization);
+
+/// The samples with normals n_i, weights w_i and densities rho_i.
+void write_samples(std::ostream& out, Format format, const CGAL::PowerRTF::Samples& samples,
+                   const CGAL::PowerRTF::Normalization& normalization);
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_CELLS_IO_H

@@ -1,0 +1,145 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_io.h"
+
+#include "dataset.h"
+#include "mesh_diagnosis.h"
+#include "text_mesh.h"
+
+#include <CGAL/PowerRTF/internal/errors.h>
+
+#include <CGAL/IO/OBJ.h>
+#include <CGAL/IO/OFF.h>
+#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/STL.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+using CGAL::PowerRTF::Invalid_input_error;
+using CGAL::PowerRTF::Triangle;
+using CGAL::PowerRTF::Vec3d;
+using Point = CGAL::Simple_cartesian<double>::Point_3;
+
+/// What keeps the file from being opened at all, or nothing.
+std::string file_error(const std::string& file)
+{
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status))
+    return error && error != std::errc::no_such_file_or_directory ? error.message()
+                                                                  : "there is no such file";
+  if (fs::is_directory(status)) return "it is a directory";
+  if (!fs::is_regular_file(status)) return "it is not a regular file";
+  if (fs::file_size(file, error) == 0) return "the file is empty";
+  errno = 0;
+  if (!std::ifstream(file)) return std::strerror(errno);
+  return {};
+}
+
+/// \throws Invalid_input_error the reason
+Polygon_mesh read_off_or_obj(const std::string& file, Format format)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string text(static_cast<std::size_t>(fs::file_size(file)), ' ');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return format == Format::off ? parse_off(text) : parse_obj(text);
+}
+
+/// \throws Invalid_input_error the reason
+Polygon_mesh read_ply_or_stl(const std::string& file, Format format)
+{
+  const std::string reason = header_error(file, format);
+  if (!reason.empty()) throw Invalid_input_error(reason);
+  std::ifstream in(file, std::ios::binary);
+  const auto quiet = CGAL::parameters::verbose(false);
+  std::vector<Point> points;
+  Polygon_mesh mesh;
+  bool done = false;
+  try {
+    done = format == Format::ply ? CGAL::IO::read_PLY(in, points, mesh.polygons, quiet)
+                                 : CGAL::IO::read_STL(in, points, mesh.polygons, quiet);
+  } catch (const std::logic_error&) { // absurd sizes and CGAL's failed assertions
+  }
+  if (!done) throw Invalid_input_error(content_error(file, format));
+  mesh.points.reserve(points.size());
+  for (const Point& p : points) mesh.points.push_back({p.x(), p.y(), p.z()});
+  return mesh;
+}
+
+/// \throws Invalid_input_error there is no facet, a coordinate is not finite, an index out of range
+void check(const Polygon_mesh& mesh)
+{
+  if (mesh.polygons.empty()) throw Invalid_input_error("it has no facets");
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    for (const double x : {mesh.points[v].x, mesh.points[v].y, mesh.points[v].z})
+      if (!std::isfinite(x))
+        throw Invalid_input_error("vertex " + std::to_string(v + 1) +
+                                  " has a coordinate that is not finite");
+  for (std::size_t f = 0; f < mesh.polygons.size(); ++f)
+    for (const std::size_t v : mesh.polygons[f])
+      if (v >= mesh.points.size())
+        throw Invalid_input_error("facet " + std::to_string(f + 1) +
+                                  " refers to a vertex that does not exist: the index is out of range");
+}
+
+} // namespace
+
+Format format_of(const std::string& file)
+{
+  std::string end = fs::path(file).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (end == ".off") return Format::off;
+  if (end == ".obj") return Format::obj;
+  if (end == ".ply") return Format::ply;
+  if (end == ".stl") return Format::stl;
+  if (end == ".vtp") return Format::vtp;
+  return Format::unknown;
+}
+
+Polygon_mesh read_mesh(const std::string& file)
+{
+  const Format format = format_of(file);
+  try {
+    std::string reason = file_error(file);
+    if (reason.empty() && (format == Format::unknown || format == Format::vtp))
+      reason = "its name does not end in .off, .obj, .ply or .stl";
+    if (!reason.empty()) throw Invalid_input_error(reason);
+    Polygon_mesh mesh = format == Format::off || format == Format::obj
+                            ? read_off_or_obj(file, format) : read_ply_or_stl(file, format);
+    check(mesh);
+    return mesh;
+  } catch (const Invalid_input_error& e) {
+    throw Invalid_input_error(file + ": cannot be read: " + e.what());
+  }
+}
+
+void write_mesh(std::ostream& out, Format format, const std::vector<Vec3d>& points,
+                const std::vector<Triangle>& triangles)
+{
+  if (format == Format::ply || format == Format::vtp) {
+    Dataset data;
+    data.points = points;
+    for (const Triangle& t : triangles) data.polygons.emplace_back(t.begin(), t.end());
+    return format == Format::ply ? write_ply(out, data) : write_vtp(out, data);
+  }
+  std::vector<Point> copies;
+  copies.reserve(points.size());
+  for (const Vec3d& p : points) copies.emplace_back(p.x, p.y, p.z);
+  const auto exact = CGAL::parameters::stream_precision(17);
+  if (format == Format::off) CGAL::IO::write_OFF(out, copies, triangles, exact);
+  if (format == Format::obj) CGAL::IO::write_OBJ(out, copies, triangles, exact);
+  if (format == Format::stl) CGAL::IO::write_STL(out, copies, triangles, exact);
+}
+
+} // namespace tools

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Mesh files: what can be read is finite and consistent, what cannot is told why.
+#ifndef POWER_RTF_TOOLS_MESH_IO_H
+#define POWER_RTF_TOOLS_MESH_IO_H
+
+#include <CGAL/PowerRTF/surface/Surface.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+enum class Format { unknown, off, obj, ply, stl, vtp };
+
+/// By the end of the file's name, in upper or lower case.
+Format format_of(const std::string& file);
+
+struct Polygon_mesh {
+  std::vector<CGAL::PowerRTF::Vec3d> points;
+  std::vector<std::vector<std::size_t>> polygons; ///< indices into `points`
+};
+
+/// Reads OFF, OBJ, PLY or STL. All coordinates are finite, all indices in range, there is a facet.
+/// \throws Invalid_input_error naming file and reason
+Polygon_mesh read_mesh(const std::string& file);
+
+/// Writes triangles as any of the formats, with coordinates that read back the same.
+void write_mesh(std::ostream& out, Format format, const std::vector<CGAL::PowerRTF::Vec3d>& points,
+                const std::vector<CGAL::PowerRTF::Triangle>& triangles);
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_MESH_IO_H

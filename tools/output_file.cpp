@@ -1,0 +1,91 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output_file.h"
+
+#include <CGAL/PowerRTF/internal/errors.h>
+
+#include <cerrno>
+#include <cstring>
+#include <unistd.h>
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& file, const std::string& reason)
+{ throw CGAL::PowerRTF::Invalid_input_error(file + ": cannot be written: " + reason); }
+
+/// The file itself, not a symbolic link to it: the link stays.
+fs::path target_of(const std::string& file)
+{
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(fs::absolute(file, error), error);
+  return error ? fs::path(file) : path;
+}
+
+bool is_device_or_pipe(const fs::path& path)
+{
+  std::error_code ignored;
+  return fs::is_other(path, ignored);
+}
+
+fs::path temporary_for(const fs::path& target)
+{
+  static int count = 0;
+  return target.parent_path() / (".power_rtf_" + std::to_string(::getpid()) + '_' +
+                                 std::to_string(count++) + ".tmp");
+}
+
+} // namespace
+
+void check_writable(const std::string& file)
+{
+  const fs::path target = target_of(file);
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored)) fail(file, "it is a directory");
+  if (fs::exists(target, ignored) && ::access(target.c_str(), W_OK) != 0)
+    fail(file, std::strerror(errno));
+  if (is_device_or_pipe(target)) return;
+  const fs::path folder = target.parent_path();
+  if (!fs::exists(folder, ignored)) fail(file, "there is no directory " + folder.string());
+  if (!fs::is_directory(folder, ignored)) fail(file, folder.string() + " is not a directory");
+  const fs::path trial = temporary_for(target);
+  errno = 0;
+  if (!std::ofstream(trial)) fail(file, folder.string() + ": " + std::strerror(errno));
+  fs::remove(trial, ignored);
+}
+
+Output_file::Output_file(const std::string& file) : m_name(file), m_target(target_of(file))
+{
+  if (!is_device_or_pipe(m_target)) m_temporary = temporary_for(m_target);
+  errno = 0;
+  m_stream.open(m_temporary.empty() ? m_target : m_temporary, std::ios::binary);
+  if (!m_stream) fail(m_name, std::strerror(errno));
+}
+
+Output_file::~Output_file()
+{
+  std::error_code ignored;
+  if (!m_temporary.empty()) fs::remove(m_temporary, ignored);
+}
+
+void Output_file::close()
+{
+  errno = 0;
+  m_stream.close();
+  if (!m_stream) fail(m_name, errno != 0 ? std::strerror(errno) : "not all could be written");
+}
+
+void Output_file::commit()
+{
+  if (m_temporary.empty()) return;
+  std::error_code error;
+  if (fs::exists(m_target, error))
+    fs::permissions(m_temporary, fs::status(m_target).permissions(), error);
+  fs::rename(m_temporary, m_target, error);
+  if (error) fail(m_name, error.message());
+  m_temporary.clear();
+}
+
+} // namespace tools

@@ -1,0 +1,43 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Files that are written whole or not at all.
+#ifndef POWER_RTF_TOOLS_OUTPUT_FILE_H
+#define POWER_RTF_TOOLS_OUTPUT_FILE_H
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace tools {
+
+/// Checks that `file` can be made or replaced, without changing it.
+/// \throws Invalid_input_error naming file and reason
+void check_writable(const std::string& file);
+
+/// Writes to a temporary file in the target's folder, which takes the target's place at `commit()`;
+/// until then the target stays as it was, and without it for good. (A device or a pipe is written
+/// directly.)
+class Output_file {
+public:
+  /// \throws Invalid_input_error when the temporary file cannot be made
+  explicit Output_file(const std::string& file);
+  ~Output_file();
+  Output_file(const Output_file&) = delete;
+  Output_file& operator=(const Output_file&) = delete;
+
+  std::ostream& stream() { return m_stream; }
+  /// Brings all that was written to the disk. \throws Invalid_input_error when that fails
+  void close();
+  /// Replaces the target; after `close()`. \throws Invalid_input_error when that fails
+  void commit();
+
+private:
+  std::string m_name;                      ///< as the user gave it
+  std::filesystem::path m_target, m_temporary; ///< no temporary: writes to the target
+  std::ofstream m_stream;
+};
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_OUTPUT_FILE_H

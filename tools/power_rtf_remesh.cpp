@@ -1,0 +1,188 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// power_rtf_remesh INPUT OUTPUT [options]: remeshes a surface from file to file.
+#include "Progress.h"
+#include "cells_io.h"
+#include "mesh_io.h"
+#include "options.h"
+#include "output_file.h"
+#include "report_json.h"
+
+#include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF_remesher.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#endif
+
+#include <iostream>
+#include <list>
+#include <new>
+#include <optional>
+
+namespace {
+
+using namespace CGAL::PowerRTF;
+using namespace tools;
+using internal::Stopwatch;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Remesher = CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel>>;
+
+enum Exit_code { done = 0, unusable_input = 1, wrong_usage = 2, missed_guarantee = 3, cancelled = 130 };
+
+/// \throws Invalid_input_error when n is too small, or too large for this machine
+void check_number_of_samples(const Program_options& options)
+{
+  const std::size_t n = options.remeshing.number_of_samples;
+  const std::string what = options.input + ": cannot be remeshed with the asked number of samples (--samples): ";
+  if (n < 4) throw Invalid_input_error(what + "at least 4 are needed");
+  const double bytes_per_sample = 1000; // measured, see the manual
+  const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
+  const double most = std::min(memory / bytes_per_sample, 3e8); // halfedges are numbered by int
+  if (double(n) > most)
+    throw Invalid_input_error(what + "at most " + std::to_string(std::size_t(most)) +
+                              " fit into the memory of this machine");
+}
+
+/// \throws Invalid_input_error when one of the files cannot be written in the end
+void check_outputs(const Program_options& o)
+{
+  if (o.write_mesh && format_of(o.output) == Format::unknown)
+    throw Invalid_input_error(o.output + ": cannot be written: its name does not end in .off, .obj, "
+                                         ".ply, .stl or .vtp");
+  for (const std::string& file : {o.cells_file, o.samples_file})
+    if (!file.empty() && format_of(file) != Format::ply && format_of(file) != Format::vtp)
+      throw Invalid_input_error(file + ": cannot be written: its name does not end in .ply or .vtp");
+  for (const std::string& file : {o.write_mesh ? o.output : "", o.cells_file, o.samples_file, o.report_file})
+    if (!file.empty()) check_writable(file);
+}
+
+Surface load(const Program_options& options, Remeshing_report& report)
+{
+  Polygon_mesh mesh;
+  {
+    Stopwatch watch(report.seconds.load);
+    mesh = read_mesh(options.input);
+  }
+  stop_if_interrupted();
+  Stopwatch watch(report.seconds.surface);
+  try {
+    Surface surface = import_soup(mesh.points, mesh.polygons, report.repairs);
+    set_density(surface, options.remeshing);
+    return surface;
+  } catch (const Invalid_input_error& e) {
+    throw Invalid_input_error(options.input + ": cannot be remeshed: " + e.what());
+  }
+}
+
+/// The files of one run: all appear at the end, or none.
+class Outputs {
+public:
+  template <class Write>
+  void add(const std::string& file, Write&& write)
+  {
+    if (file.empty()) return;
+    m_files.emplace_back(file);
+    write(m_files.back().stream());
+    m_files.back().close();
+  }
+  void commit()
+  {
+    for (Output_file& file : m_files) file.commit();
+  }
+
+private:
+  std::list<Output_file> m_files;
+};
+
+Exit_code remesh(const Program_options& options)
+{
+  Run run;
+  run.options = options;
+  Outputs outputs;
+  std::optional<Stopwatch> total(run.report.seconds.total);
+#ifdef CGAL_LINKED_WITH_TBB
+  run.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(run.threads));
+#endif
+  check_number_of_samples(options);
+  check_outputs(options);
+
+  Progress progress(options.quiet);
+  progress.on_stage("surface");
+  Remesher remesher(load(options, run.report), options.remeshing);
+  if (!remesher.optimize(progress)) throw Cancelled();
+  Extracted_mesh mesh;
+  if (options.write_mesh) mesh = remesher.extract(progress);
+  stop_if_interrupted();
+  progress.clear();
+
+  const Stage_seconds before = run.report.seconds;
+  const Repair_counts repairs = run.report.repairs;
+  run.report = remesher.report();
+  run.report.repairs = repairs;
+  run.report.seconds.load = before.load;
+  run.report.seconds.surface = before.surface;
+  if (options.write_mesh) run.missed = run.report.missed_guarantees();
+  {
+    Stopwatch watch(run.report.seconds.write);
+    const Normalization& normalization = remesher.surface().normalization;
+    for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
+    if (options.write_mesh)
+      outputs.add(options.output, [&](std::ostream& out) {
+        write_mesh(out, format_of(options.output), mesh.points, mesh.triangles);
+      });
+    outputs.add(options.cells_file, [&](std::ostream& out) {
+      write_cells(out, format_of(options.cells_file), remesher.cells(), normalization);
+    });
+    outputs.add(options.samples_file, [&](std::ostream& out) {
+      write_samples(out, format_of(options.samples_file), remesher.samples(), normalization);
+    });
+  }
+  total.reset();
+  outputs.add(options.report_file, [&](std::ostream& out) { write_json(out, run); });
+  stop_if_interrupted();
+  outputs.commit();
+
+  if (!options.quiet) print_table(std::cout, run);
+  for (const std::string& missed : run.missed)
+    std::cerr << "power_rtf_remesh: " << options.output << ": a guarantee is missed: " << missed << '\n';
+  return run.missed.empty() ? done : missed_guarantee;
+}
+
+Exit_code fail(Exit_code code, const std::string& message)
+{
+  std::cerr << "power_rtf_remesh: " << message << '\n';
+  return code;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  handle_interrupts();
+  std::string input;
+  try {
+    std::string information;
+    const Program_options options = parse_command_line(argc, argv, information);
+    if (!information.empty()) return std::cout << information, done;
+    input = options.input;
+    return remesh(options);
+  } catch (const Usage_error& e) {
+    return fail(wrong_usage, e.what() + std::string("\npower_rtf_remesh --help shows the options"));
+  } catch (const Cancelled&) {
+    return fail(cancelled, "cancelled; nothing was written");
+  } catch (const std::bad_alloc&) {
+    return fail(unusable_input, input + ": cannot be remeshed: the memory does not suffice");
+  } catch (const Invalid_input_error& e) {
+    return fail(unusable_input, e.what());
+  } catch (const std::exception& e) {
+    return fail(unusable_input, input + ": cannot be remeshed: " + e.what());
+  }
+}

@@ -1,0 +1,127 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report_json.h"
+
+#include "parameters.h"
+
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+#include <type_traits>
+
+namespace tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace CGAL::PowerRTF;
+
+Json to_json(const Cell_counts& c)
+{ return {{"ok", c.ok}, {"guarded", c.guarded}, {"empty", c.empty}, {"incomplete", c.incomplete}}; }
+
+Json to_json(const Stage_seconds& s)
+{
+  return {{"load", s.load},
+          {"surface", s.surface},
+          {"sampling", s.sampling},
+          {"optimization", s.optimization},
+          {"extraction", s.extraction},
+          {"improvement", s.improvement},
+          {"quality", s.quality},
+          {"write", s.write},
+          {"total", s.total}};
+}
+
+Json to_json(const Repair_counts& r)
+{
+  return {{"duplicate_vertices", r.duplicate_vertices},
+          {"unused_vertices", r.unused_vertices},
+          {"degenerate_facets", r.degenerate_facets},
+          {"triangulated_polygons", r.triangulated_polygons}};
+}
+
+Json parameters(const Remeshing_options& o)
+{
+  Json json;
+  for_each_parameter([&](const Parameter& p, auto member) {
+    const std::string names = p.name, name = names.substr(0, names.find(','));
+    if constexpr (std::is_enum<std::decay_t<decltype(o.*member)>>::value)
+      json[name] = name_of(o.*member);
+    else
+      json[name] = o.*member;
+  });
+  return json;
+}
+
+Json iterations(const Remeshing_report& report)
+{
+  Json json = Json::array();
+  for (const Iteration_report& i : report.iterations)
+    json.push_back({{"constructions", i.constructions},
+                    {"inside_capacity_interval", i.capacity.inside_interval},
+                    {"capacity_rms", i.capacity.rms},
+                    {"displacement", i.displacement},
+                    {"cells", to_json(i.cells)}});
+  return json;
+}
+
+void add_mesh(Json& json, const Run& run)
+{
+  const Remeshing_report& r = run.report;
+  json["vertices"] = r.topology.vertices;
+  json["faces"] = r.topology.faces;
+  json["euler_characteristic"] = r.topology.euler_characteristic;
+  json["components"] = r.topology.components;
+  json["border_edges"] = r.topology.border_edges;
+  json["border_loops"] = r.topology.border_loops;
+  json["non_manifold_edges"] = r.topology.non_manifold_edges;
+  json["non_manifold_vertices"] = r.topology.non_manifold_vertices;
+  json["oriented"] = r.topology.oriented;
+  json["self_intersections"] = r.self_intersections;
+  json["input_vertices"] = r.input_topology.vertices;
+  json["input_faces"] = r.input_topology.faces;
+  json["input_euler_characteristic"] = r.input_topology.euler_characteristic;
+  json["input_components"] = r.input_topology.components;
+  json["input_border_edges"] = r.input_topology.border_edges;
+  json["input_border_loops"] = r.input_topology.border_loops;
+  json["q_min"] = r.quality.q_min;
+  json["q_avg"] = r.quality.q_avg;
+  json["theta_min"] = r.quality.theta_min;
+  json["theta_min_avg"] = r.quality.theta_min_avg;
+  json["below_30"] = r.quality.below_30;
+  json["above_90"] = r.quality.above_90;
+  json["distance_rms"] = r.distance.rms;
+  json["distance_mean"] = r.distance.mean;
+  json["distance_max"] = r.distance.max;
+  json["missed_guarantees"] = run.missed;
+}
+
+} // namespace
+
+void write_json(std::ostream& out, const Run& run)
+{
+  const Remeshing_report& r = run.report;
+  Json json;
+  json["program"] = "power_rtf_remesh " POWER_RTF_VERSION;
+  json["input"] = run.options.input;
+  if (run.options.write_mesh) json["output"] = run.options.output;
+  json["samples"] = r.samples_asked;
+  json["traits"] = run.options.traits;
+  json["preset"] = name_of(run.options.remeshing.preset);
+  json["seed"] = run.options.remeshing.random_seed;
+  json["threads"] = run.threads;
+  if (run.options.write_mesh) add_mesh(json, run);
+  json["inside_capacity_interval"] = r.capacity.inside_interval;
+  json["capacity_rms"] = r.capacity.rms;
+  json["capacity_largest_deviation"] = r.capacity.largest_deviation;
+  json["constructions"] = r.constructions;
+  json["outer_iterations"] = r.outer_iterations;
+  json["cells"] = to_json(r.cells);
+  json["repairs"] = to_json(r.repairs);
+  json["seconds"] = to_json(r.seconds);
+  json["parameters"] = parameters(run.options.remeshing);
+  json["iterations"] = iterations(r);
+  // a file's name need not be valid UTF-8
+  out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+} // namespace tools

@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The report as JSON and as a table to read.
+#ifndef POWER_RTF_TOOLS_REPORT_JSON_H
+#define POWER_RTF_TOOLS_REPORT_JSON_H
+
+#include "options.h"
+
+#include <CGAL/PowerRTF/Remeshing_report.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// What the program did.
+struct Run {
+  Program_options options;
+  CGAL::PowerRTF::Remeshing_report report;
+  int threads = 1;                 ///< used
+  std::vector<std::string> missed; ///< guarantees
+};
+
+/// Everything, for programs. Without a mesh (--no-mesh) the fields about it are left out.
+void write_json(std::ostream& out, const Run& run);
+
+/// The main results, for people.
+void print_table(std::ostream& out, const Run& run);
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_REPORT_JSON_H

@@ -1,0 +1,94 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report_json.h"
+
+#include <cstdio>
+#include <ostream>
+
+namespace tools {
+namespace {
+
+using namespace CGAL::PowerRTF;
+
+std::string number(double x, int digits)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", digits, x);
+  return text;
+}
+
+std::string percent(double share) { return number(100 * share, 2) + " %"; }
+
+void row(std::ostream& out, const std::string& name, const std::string& value,
+         const std::string& of_input = {})
+{
+  char text[256];
+  std::snprintf(text, sizeof(text), "  %-34s %14s %14s", name.c_str(), value.c_str(),
+                of_input.c_str());
+  std::string line = text;
+  line.erase(line.find_last_not_of(' ') + 1);
+  out << line << '\n';
+}
+
+template <class T>
+void counts(std::ostream& out, const std::string& name, T value, T of_input)
+{ row(out, name, std::to_string(value), std::to_string(of_input)); }
+
+void print_mesh(std::ostream& out, const Remeshing_report& r)
+{
+  const Topology_statistics &a = r.topology, &b = r.input_topology;
+  row(out, "", "output", "input");
+  counts(out, "vertices", a.vertices, b.vertices);
+  counts(out, "triangles", a.faces, b.faces);
+  counts(out, "Euler characteristic", a.euler_characteristic, b.euler_characteristic);
+  counts(out, "components", a.components, b.components);
+  counts(out, "borders", a.border_loops, b.border_loops);
+  row(out, "self-intersections", std::to_string(r.self_intersections));
+  const Quality_statistics& q = r.quality;
+  row(out, "triangle quality, least", number(q.q_min, 4));
+  row(out, "triangle quality, mean", number(q.q_avg, 4));
+  row(out, "smallest angle, least", number(q.theta_min, 2));
+  row(out, "smallest angle, mean", number(q.theta_min_avg, 2));
+  row(out, "triangles with an angle below 30", percent(q.below_30));
+  row(out, "triangles with an angle above 90", percent(q.above_90));
+  row(out, "distance, RMS (% of diagonal)", number(r.distance.rms, 4));
+  row(out, "distance, mean", number(r.distance.mean, 4));
+  row(out, "distance, largest", number(r.distance.max, 4));
+}
+
+void print_repairs(std::ostream& out, const Repair_counts& r)
+{
+  const auto repair = [&out](std::size_t count, const char* what) {
+    if (count > 0) row(out, what, std::to_string(count));
+  };
+  repair(r.duplicate_vertices, "duplicate vertices merged");
+  repair(r.unused_vertices, "unused vertices dropped");
+  repair(r.degenerate_facets, "degenerate facets removed");
+  repair(r.triangulated_polygons, "polygons triangulated");
+}
+
+} // namespace
+
+void print_table(std::ostream& out, const Run& run)
+{
+  const Remeshing_report& r = run.report;
+  const Program_options& o = run.options;
+  out << o.input << (o.write_mesh ? " -> " + o.output : ": " + std::to_string(r.samples_asked) + " samples")
+      << '\n';
+  if (o.write_mesh) print_mesh(out, r);
+  const std::string tolerance = number(100 * o.remeshing.capacity_tolerance, 1);
+  row(out, "cells inside the mean capacity +-" + tolerance + " %", percent(r.capacity.inside_interval));
+  row(out, "capacity, RMS deviation", percent(r.capacity.rms));
+  if (r.cells.guarded > 0) row(out, "cells with too few neighbours", std::to_string(r.cells.guarded));
+  if (r.cells.empty > 0) row(out, "empty cells", std::to_string(r.cells.empty));
+  if (r.cells.incomplete > 0) row(out, "incomplete cells", std::to_string(r.cells.incomplete));
+  print_repairs(out, r.repairs);
+  row(out, "constructions of all cells", std::to_string(r.constructions));
+  row(out, "seconds", number(r.seconds.total, 2));
+  for (const auto& [name, file] : {std::pair{"cells", &o.cells_file},
+                                   std::pair{"samples", &o.samples_file},
+                                   std::pair{"report", &o.report_file}})
+    if (!file->empty()) out << "  " << name << ": " << *file << '\n';
+}
+
+} // namespace tools

@@ -1,0 +1,121 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "text_mesh.h"
+
+#include "Words.h"
+
+namespace tools {
+namespace {
+
+using CGAL::PowerRTF::Invalid_input_error;
+using CGAL::PowerRTF::Vec3d;
+
+[[noreturn]] void reject(const std::string& reason) { throw Invalid_input_error(reason); }
+
+std::string out_of_range(const Words& words, std::size_t facet, long long vertex, std::size_t count)
+{
+  return words.at() + "facet " + std::to_string(facet + 1) + " refers to vertex " +
+         std::to_string(vertex) + ": the index is out of range, there are " +
+         std::to_string(count) + " vertices";
+}
+
+} // namespace
+
+Polygon_mesh parse_off(const std::string& text)
+{
+  Words words(text);
+  // OFF, with prefixes for more values per vertex: ST (texture), C (colour), N (normal)
+  const bool is_off = words.next() && words.word().size() <= 7 && words.word().size() >= 3 &&
+                      words.word().substr(words.word().size() - 3) == "OFF";
+  if (!is_off) reject("it is not an OFF file: it does not begin with OFF");
+  const std::string_view prefixes = words.word().substr(0, words.word().size() - 3);
+  if (prefixes.find_first_not_of("STCN") != std::string_view::npos)
+    words.reject("is a kind of OFF that is not read");
+
+  std::size_t counts[2]; // vertices, facets
+  for (std::size_t& count : counts) {
+    if (!words.next()) reject("the file is truncated in its header");
+    if (words.word() == "BINARY") words.reject("is a kind of OFF that is not read");
+    const long long value = words.whole_number();
+    if (value < 0) words.reject("is not a number of vertices or facets");
+    count = static_cast<std::size_t>(value);
+  }
+  words.skip_line(); // the number of edges
+  const std::string announced = ", its header announces " + std::to_string(counts[0]) +
+                                " vertices and " + std::to_string(counts[1]) + " facets";
+  // every vertex and every facet takes a few bytes
+  if (counts[0] > text.size() || counts[1] > text.size())
+    reject("the file is truncated: it has only " + std::to_string(text.size()) + " bytes" + announced);
+
+  Polygon_mesh mesh;
+  mesh.points.resize(counts[0]);
+  mesh.polygons.resize(counts[1]);
+  for (std::size_t i = 0; i < counts[0]; ++i) {
+    Vec3d& p = mesh.points[i];
+    for (double* x : {&p.x, &p.y, &p.z}) {
+      if (!words.next())
+        reject("the file is truncated: it ends in vertex " + std::to_string(i + 1) + announced);
+      *x = words.number();
+    }
+    if (!prefixes.empty()) words.skip_line();
+  }
+  for (std::size_t i = 0; i < counts[1]; ++i) {
+    const auto next = [&] {
+      if (!words.next())
+        reject("the file is truncated: it ends in facet " + std::to_string(i + 1) + announced);
+      return words.whole_number();
+    };
+    const long long size = next();
+    if (size < 0) words.reject("is not a number of vertices");
+    for (long long k = 0; k < size; ++k) {
+      const long long v = next();
+      if (v < 0 || v >= static_cast<long long>(counts[0])) reject(out_of_range(words, i, v, counts[0]));
+      mesh.polygons[i].push_back(static_cast<std::size_t>(v));
+    }
+    words.skip_line(); // its colour
+  }
+  return mesh;
+}
+
+Polygon_mesh parse_obj(const std::string& text)
+{
+  Words words(text);
+  Polygon_mesh mesh;
+  long long largest = 0; // index of all facets, and where it is
+  Words at_largest = words;
+  std::size_t facet_of_largest = 0;
+  while (words.next()) {
+    if (words.word() == "v") {
+      Vec3d p{0, 0, 0};
+      for (double* x : {&p.x, &p.y, &p.z}) {
+        if (!words.next_in_line())
+          reject(words.at() + "a vertex with fewer than three coordinates (a truncated file?)");
+        *x = words.number();
+      }
+      mesh.points.push_back(p);
+    } else if (words.word() == "f") {
+      std::vector<std::size_t> polygon;
+      const long long n = static_cast<long long>(mesh.points.size());
+      while (words.next_in_line()) {
+        const long long v = words.whole_number(true);
+        if (v == 0 || v < -n)
+          reject(out_of_range(words, mesh.polygons.size(), v, mesh.points.size()));
+        polygon.push_back(static_cast<std::size_t>(v > 0 ? v - 1 : n + v)); // negative: from the last
+        if (v <= largest) continue;
+        largest = v;
+        at_largest = words;
+        facet_of_largest = mesh.polygons.size();
+      }
+      if (polygon.size() < 3)
+        reject(words.at() + "a facet with fewer than three vertices (a truncated file?)");
+      mesh.polygons.push_back(std::move(polygon));
+    }
+    words.skip_line();
+  }
+  if (mesh.points.empty()) reject("it is not an OBJ file: it has no vertices");
+  if (largest > static_cast<long long>(mesh.points.size()))
+    reject(out_of_range(at_largest, facet_of_largest, largest, mesh.points.size()));
+  return mesh;
+}
+
+} // namespace tools
