@@ -13,13 +13,15 @@
 #include <string>
 #include <unistd.h>
 
-namespace tools {
+namespace tools
+{
 
 /// Set by Ctrl-C; the run ends at the next chance.
 inline volatile std::sig_atomic_t interrupted = 0;
 
 /// The user cancelled the run; the program ends with exit code 130.
-struct Cancelled {};
+struct Cancelled {
+};
 
 /// Lets the first Ctrl-C set `interrupted` and the second end the program at once.
 inline void handle_interrupts()
@@ -35,7 +37,8 @@ inline void stop_if_interrupted()
   if (interrupted) throw Cancelled();
 }
 
-class Progress : public CGAL::PowerRTF::Remeshing_default_visitor {
+class Progress : public CGAL::PowerRTF::Remeshing_default_visitor
+{
 public:
   /// Draws on stderr when that is a terminal, unless `quiet`.
   explicit Progress(bool quiet) : m_draws(!quiet && ::isatty(STDERR_FILENO)) {}

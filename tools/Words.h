@@ -15,10 +15,12 @@
 #include <string>
 #include <string_view>
 
-namespace tools {
+namespace tools
+{
 
 /// Walks over the words of a text, which has to outlive it. '#' begins a comment.
-class Words {
+class Words
+{
 public:
   explicit Words(std::string_view text) : m_text(text) {}
 

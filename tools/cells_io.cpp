@@ -6,19 +6,25 @@
 
 #include <numeric>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 using CGAL::PowerRTF::Cell_polygon;
 using CGAL::PowerRTF::Normalization;
 using CGAL::PowerRTF::Samples;
 
 void write(std::ostream& out, Format format, const Dataset& data)
-{ format == Format::ply ? write_ply(out, data) : write_vtp(out, data); }
+{
+  format == Format::ply ? write_ply(out, data) : write_vtp(out, data);
+}
 
 /// Of areas and of squared lengths.
 double outside_square(const Normalization& normalization)
-{ return 1 / (normalization.scale * normalization.scale); }
+{
+  return 1 / (normalization.scale * normalization.scale);
+}
 
 } // namespace
 

@@ -13,7 +13,8 @@
 #include <iosfwd>
 #include <vector>
 
-namespace tools {
+namespace tools
+{
 
 /// The polygons F_i with the number of their sample (from 0), weight w_i, mass m_i, density rho_i
 /// and status (0: ok, 1: guarded, 2: empty, 3: incomplete). Empty cells have no polygon. `format`

@@ -5,13 +5,16 @@
 #include <charconv>
 #include <ostream>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 using CGAL::PowerRTF::Vec3d;
 
 /// Collects text; numbers in their shortest form that reads back the same.
-class Text {
+class Text
+{
 public:
   explicit Text(std::ostream& out) : m_out(out) {}
   ~Text() { flush(); }

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-namespace tools {
+namespace tools
+{
 
 /// A value per point or polygon; `integers` is taken instead of `values` when it is not empty.
 struct Field {

@@ -12,8 +12,10 @@
 #include <set>
 #include <sstream>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 /// What keeps the first word that is not a finite number from being one, or nothing.
 std::string number_error(Words& words)
@@ -78,7 +80,8 @@ Ply_header read_ply_header(std::istream& in)
     ended = keyword == "end_header";
   }
   if (!header.error.empty()) return header;
-  if (!ended) header.error = "the file is truncated in its header";
+  if (!ended)
+    header.error = "the file is truncated in its header";
   else if (!coordinates.count("x") || !coordinates.count("y") || !coordinates.count("z"))
     header.error = "its vertices have no coordinates x, y, z of type float or double";
   else if (!has_facets || header.facets == 0)
@@ -142,7 +145,8 @@ std::string header_error(const std::string& file, Format format)
   if (!header.error.empty()) return header.error;
   // every vertex and every facet takes a few bytes
   if (header.vertices <= size && header.facets <= size) return {};
-  return "the file is truncated: it has only " + std::to_string(size) + " bytes, " + header.counts();
+  return "the file is truncated: it has only " + std::to_string(size) + " bytes, " +
+         header.counts();
 }
 
 std::string content_error(const std::string& file, Format format)

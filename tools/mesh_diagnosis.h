@@ -9,7 +9,8 @@
 
 #include <string>
 
-namespace tools {
+namespace tools
+{
 
 /// What is wrong with the beginning of the file, or nothing. Finds what a reader should not be
 /// given: another kind of file, counts that the file is too small for, unknown types.

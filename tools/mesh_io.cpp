@@ -22,8 +22,10 @@
 #include <filesystem>
 #include <fstream>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 namespace fs = std::filesystem;
 using CGAL::PowerRTF::Invalid_input_error;
@@ -89,8 +91,9 @@ void check(const Polygon_mesh& mesh)
   for (std::size_t f = 0; f < mesh.polygons.size(); ++f)
     for (const std::size_t v : mesh.polygons[f])
       if (v >= mesh.points.size())
-        throw Invalid_input_error("facet " + std::to_string(f + 1) +
-                                  " refers to a vertex that does not exist: the index is out of range");
+        throw Invalid_input_error(
+            "facet " + std::to_string(f + 1) +
+            " refers to a vertex that does not exist: the index is out of range");
 }
 
 } // namespace
@@ -98,7 +101,8 @@ void check(const Polygon_mesh& mesh)
 Format format_of(const std::string& file)
 {
   std::string end = fs::path(file).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   if (end == ".off") return Format::off;
   if (end == ".obj") return Format::obj;
   if (end == ".ply") return Format::ply;
@@ -116,7 +120,8 @@ Polygon_mesh read_mesh(const std::string& file)
       reason = "its name does not end in .off, .obj, .ply or .stl";
     if (!reason.empty()) throw Invalid_input_error(reason);
     Polygon_mesh mesh = format == Format::off || format == Format::obj
-                            ? read_off_or_obj(file, format) : read_ply_or_stl(file, format);
+                            ? read_off_or_obj(file, format)
+                            : read_ply_or_stl(file, format);
     check(mesh);
     return mesh;
   } catch (const Invalid_input_error& e) {

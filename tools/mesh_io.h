@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-namespace tools {
+namespace tools
+{
 
 enum class Format { unknown, off, obj, ply, stl, vtp };
 

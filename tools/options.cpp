@@ -13,8 +13,10 @@
 #include <type_traits>
 #include <vector>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 namespace po = boost::program_options;
 using CGAL::PowerRTF::Preset;
@@ -22,7 +24,9 @@ using CGAL::PowerRTF::Remeshing_options;
 
 [[noreturn]] void reject(const std::string& option, const std::string& value,
                          const std::string& expected)
-{ throw Usage_error("--" + option + ": '" + value + "' is not " + expected); }
+{
+  throw Usage_error("--" + option + ": '" + value + "' is not " + expected);
+}
 
 template <class T>
 std::string show(const T& value)
@@ -38,14 +42,16 @@ template <class E>
 std::string choices(E)
 {
   std::string text;
-  for (const auto& [value, name] : names(E())) text += (text.empty() ? "" : "|") + std::string(name);
+  for (const auto& [value, name] : names(E()))
+    text += (text.empty() ? "" : "|") + std::string(name);
   return text;
 }
 
 std::string show(const Range& range)
 {
   const std::string lowest = range.lowest == std::numeric_limits<double>::min()
-                                 ? "above 0" : "at least " + show(range.lowest);
+                                 ? "above 0"
+                                 : "at least " + show(range.lowest);
   if (range.highest == std::numeric_limits<double>::max()) return lowest;
   return lowest + " and at most " + show(range.highest);
 }
@@ -89,10 +95,13 @@ T parse_value(const std::string& option, const std::string& text, const Range& r
 std::string long_name(const std::string& name) { return name.substr(0, name.find(',')); }
 
 po::typed_value<std::string>* text(const std::string& value_name)
-{ return po::value<std::string>()->value_name(value_name); }
+{
+  return po::value<std::string>()->value_name(value_name);
+}
 
 /// The options that --help shows, by group, and the other names that are understood too.
-class Descriptions {
+class Descriptions
+{
 public:
   Descriptions()
   {
@@ -113,17 +122,16 @@ public:
       group(p.group).add_options()(p.name, text(argument), help.c_str());
       if (*p.other_name) m_hidden.add_options()(p.other_name, text(argument));
     });
-    group("Files").add_options()
-      ("report", text("FILE.json"), "write what was done and what the result is worth")
-      ("cells", text("FILE"), "write the polygons F_i with weight, mass, density, status (PLY, VTP)")
-      ("samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")
-      ("no-mesh", "stop at the samples: OUTPUT is not needed and not written");
-    group("Program").add_options()
-      ("traits", text("NAME"), "auto|cpu|exact|cuda: what runs the algorithm (auto)")
-      ("threads", text("N"), "number of threads; 0: all (0)")
-      ("quiet,q", "no progress, no table")
-      ("help,h", "show this")
-      ("version", "show the version");
+    group("Files").add_options()("report", text("FILE.json"),
+                                 "write what was done and what the result is worth")(
+        "cells", text("FILE"),
+        "write the polygons F_i with weight, mass, density, status (PLY, VTP)")(
+        "samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")(
+        "no-mesh", "stop at the samples: OUTPUT is not needed and not written");
+    group("Program").add_options()("traits", text("NAME"),
+                                   "auto|cpu|exact|cuda: what runs the algorithm (auto)")(
+        "threads", text("N"), "number of threads; 0: all (0)")("quiet,q", "no progress, no table")(
+        "help,h", "show this")("version", "show the version");
     m_hidden.add_options()("file", po::value<std::vector<std::string>>());
   }
 
@@ -152,8 +160,9 @@ public:
     po::variables_map values;
     const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
     try {
-      po::store(po::command_line_parser(argc, argv).options(all).positional(files).style(style).run(),
-                values);
+      po::store(
+          po::command_line_parser(argc, argv).options(all).positional(files).style(style).run(),
+          values);
     } catch (const po::error& e) {
       throw Usage_error(e.what());
     }
@@ -214,9 +223,9 @@ void set_files(const po::variables_map& values, Program_options& o)
 
   std::vector<std::pair<std::string, std::string>> written;
   if (o.write_mesh) written.emplace_back("OUTPUT", o.output);
-  for (const auto& [option, file] : {std::pair{"report", &o.report_file},
-                                     std::pair{"cells", &o.cells_file},
-                                     std::pair{"samples-out", &o.samples_file}}) {
+  for (const auto& [option, file] :
+       {std::pair{"report", &o.report_file}, std::pair{"cells", &o.cells_file},
+        std::pair{"samples-out", &o.samples_file}}) {
     if (!values.count(option)) continue;
     *file = values[option].as<std::string>();
     written.emplace_back("--" + std::string(option), *file);
@@ -224,7 +233,8 @@ void set_files(const po::variables_map& values, Program_options& o)
   if (written.empty())
     throw Usage_error("--no-mesh leaves nothing to write: give --samples-out, --cells or --report");
   for (std::size_t i = 0; i < written.size(); ++i) {
-    if (written[i].second.empty()) throw Usage_error(written[i].first + ": the file's name is empty");
+    if (written[i].second.empty())
+      throw Usage_error(written[i].first + ": the file's name is empty");
     for (std::size_t j = 0; j < i; ++j)
       if (resolved(written[i].second) == resolved(written[j].second))
         throw Usage_error(written[j].first + " and " + written[i].first + " are the same file");
@@ -238,8 +248,10 @@ Program_options parse_command_line(int argc, const char* const* argv, std::strin
   const Descriptions descriptions;
   const po::variables_map values = descriptions.parse(argc, argv);
   Program_options o;
-  if (values.count("help")) information = descriptions.help();
-  else if (values.count("version")) information = "power_rtf_remesh " POWER_RTF_VERSION "\n";
+  if (values.count("help"))
+    information = descriptions.help();
+  else if (values.count("version"))
+    information = "power_rtf_remesh " POWER_RTF_VERSION "\n";
   if (!information.empty()) return o;
 
   o.remeshing = remeshing_options(values);

@@ -10,10 +10,12 @@
 #include <stdexcept>
 #include <string>
 
-namespace tools {
+namespace tools
+{
 
 /// The command line cannot be understood; the program ends with exit code 2.
-class Usage_error : public std::runtime_error {
+class Usage_error : public std::runtime_error
+{
 public:
   using std::runtime_error::runtime_error;
 };

@@ -8,13 +8,17 @@
 #include <cstring>
 #include <unistd.h>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& file, const std::string& reason)
-{ throw CGAL::PowerRTF::Invalid_input_error(file + ": cannot be written: " + reason); }
+{
+  throw CGAL::PowerRTF::Invalid_input_error(file + ": cannot be written: " + reason);
+}
 
 /// The file itself, not a symbolic link to it: the link stays.
 fs::path target_of(const std::string& file)
@@ -33,8 +37,8 @@ bool is_device_or_pipe(const fs::path& path)
 fs::path temporary_for(const fs::path& target)
 {
   static int count = 0;
-  return target.parent_path() / (".power_rtf_" + std::to_string(::getpid()) + '_' +
-                                 std::to_string(count++) + ".tmp");
+  return target.parent_path() /
+         (".power_rtf_" + std::to_string(::getpid()) + '_' + std::to_string(count++) + ".tmp");
 }
 
 } // namespace

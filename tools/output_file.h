@@ -9,7 +9,8 @@
 #include <fstream>
 #include <string>
 
-namespace tools {
+namespace tools
+{
 
 /// Checks that `file` can be made or replaced, without changing it.
 /// \throws Invalid_input_error naming file and reason
@@ -18,7 +19,8 @@ void check_writable(const std::string& file);
 /// Writes to a temporary file in the target's folder, which takes the target's place at `commit()`;
 /// until then the target stays as it was, and without it for good. (A device or a pipe is written
 /// directly.)
-class Output_file {
+class Output_file
+{
 public:
   /// \throws Invalid_input_error when the temporary file cannot be made
   explicit Output_file(const std::string& file);
@@ -33,7 +35,7 @@ public:
   void commit();
 
 private:
-  std::string m_name;                      ///< as the user gave it
+  std::string m_name;                          ///< as the user gave it
   std::filesystem::path m_target, m_temporary; ///< no temporary: writes to the target
   std::ofstream m_stream;
 };

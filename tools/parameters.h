@@ -13,7 +13,8 @@
 #include <string>
 #include <utility>
 
-namespace tools {
+namespace tools
+{
 
 /// The values of an enumeration and their names on the command line.
 template <class E, std::size_t N>
@@ -123,6 +124,8 @@ void for_each_parameter(Visitor&& visit)
   add("normal-neighbors", &O::normal_neighbors, "k_n", "vertices averaged for a normal", {1, most});
   add("density-neighbors", &O::density_neighbors, "k_d", "vertices averaged for a density",
       {1, most});
+  add("normal-smoothing", &O::normal_smoothing, "",
+      "normals are smoothed over this many times the local spacing; 0: not at all", {0, 100});
 
   group = "Cells (Algorithm 1)";
   add("neighbors", &O::neighbors, "k", "samples in the first neighbour search", {1, most});
@@ -147,8 +150,8 @@ void for_each_parameter(Visitor&& visit)
       "half-width of the capacity interval; 0: CCCPD", {0, 1});
   add("max-weight-iterations", &O::max_weight_iterations, "N_m^w",
       "weight steps at most per position step", {0, most});
-  add("weight-step", &O::weight_step, "tau", "step of the paper's rule: Delta s = tau gamma D_i / 4",
-      {tiny, 1000});
+  add("weight-step", &O::weight_step, "tau",
+      "step of the paper's rule: Delta s = tau gamma D_i / 4", {tiny, 1000});
   add("weight-operator", &O::weight_operator, "alpha",
       "rounding in the paper's rule; floor: as printed");
 

@@ -25,7 +25,8 @@
 #include <new>
 #include <optional>
 
-namespace {
+namespace
+{
 
 using namespace CGAL::PowerRTF;
 using namespace tools;
@@ -33,13 +34,20 @@ using internal::Stopwatch;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Remesher = CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel>>;
 
-enum Exit_code { done = 0, unusable_input = 1, wrong_usage = 2, missed_guarantee = 3, cancelled = 130 };
+enum Exit_code {
+  done = 0,
+  unusable_input = 1,
+  wrong_usage = 2,
+  missed_guarantee = 3,
+  cancelled = 130
+};
 
 /// \throws Invalid_input_error when n is too small, or too large for this machine
 void check_number_of_samples(const Program_options& options)
 {
   const std::size_t n = options.remeshing.number_of_samples;
-  const std::string what = options.input + ": cannot be remeshed with the asked number of samples (--samples): ";
+  const std::string what =
+      options.input + ": cannot be remeshed with the asked number of samples (--samples): ";
   if (n < 4) throw Invalid_input_error(what + "at least 4 are needed");
   const double bytes_per_sample = 1000; // measured, see the manual
   const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
@@ -53,12 +61,15 @@ void check_number_of_samples(const Program_options& options)
 void check_outputs(const Program_options& o)
 {
   if (o.write_mesh && format_of(o.output) == Format::unknown)
-    throw Invalid_input_error(o.output + ": cannot be written: its name does not end in .off, .obj, "
-                                         ".ply, .stl or .vtp");
+    throw Invalid_input_error(o.output +
+                              ": cannot be written: its name does not end in .off, .obj, "
+                              ".ply, .stl or .vtp");
   for (const std::string& file : {o.cells_file, o.samples_file})
     if (!file.empty() && format_of(file) != Format::ply && format_of(file) != Format::vtp)
-      throw Invalid_input_error(file + ": cannot be written: its name does not end in .ply or .vtp");
-  for (const std::string& file : {o.write_mesh ? o.output : "", o.cells_file, o.samples_file, o.report_file})
+      throw Invalid_input_error(file +
+                                ": cannot be written: its name does not end in .ply or .vtp");
+  for (const std::string& file :
+       {o.write_mesh ? o.output : "", o.cells_file, o.samples_file, o.report_file})
     if (!file.empty()) check_writable(file);
 }
 
@@ -81,7 +92,8 @@ Surface load(const Program_options& options, Remeshing_report& report)
 }
 
 /// The files of one run: all appear at the end, or none.
-class Outputs {
+class Outputs
+{
 public:
   template <class Write>
   void add(const std::string& file, Write&& write)
@@ -152,7 +164,8 @@ Exit_code remesh(const Program_options& options)
 
   if (!options.quiet) print_table(std::cout, run);
   for (const std::string& missed : run.missed)
-    std::cerr << "power_rtf_remesh: " << options.output << ": a guarantee is missed: " << missed << '\n';
+    std::cerr << "power_rtf_remesh: " << options.output << ": a guarantee is missed: " << missed
+              << '\n';
   return run.missed.empty() ? done : missed_guarantee;
 }
 

@@ -9,14 +9,18 @@
 #include <ostream>
 #include <type_traits>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 using Json = nlohmann::ordered_json;
 using namespace CGAL::PowerRTF;
 
 Json to_json(const Cell_counts& c)
-{ return {{"ok", c.ok}, {"guarded", c.guarded}, {"empty", c.empty}, {"incomplete", c.incomplete}}; }
+{
+  return {{"ok", c.ok}, {"guarded", c.guarded}, {"empty", c.empty}, {"incomplete", c.incomplete}};
+}
 
 Json to_json(const Stage_seconds& s)
 {

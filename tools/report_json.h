@@ -13,7 +13,8 @@
 #include <string>
 #include <vector>
 
-namespace tools {
+namespace tools
+{
 
 /// What the program did.
 struct Run {

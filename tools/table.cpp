@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <ostream>
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 using namespace CGAL::PowerRTF;
 
@@ -32,7 +34,9 @@ void row(std::ostream& out, const std::string& name, const std::string& value,
 
 template <class T>
 void counts(std::ostream& out, const std::string& name, T value, T of_input)
-{ row(out, name, std::to_string(value), std::to_string(of_input)); }
+{
+  row(out, name, std::to_string(value), std::to_string(of_input));
+}
 
 void print_mesh(std::ostream& out, const Remeshing_report& r)
 {
@@ -73,21 +77,24 @@ void print_table(std::ostream& out, const Run& run)
 {
   const Remeshing_report& r = run.report;
   const Program_options& o = run.options;
-  out << o.input << (o.write_mesh ? " -> " + o.output : ": " + std::to_string(r.samples_asked) + " samples")
+  out << o.input
+      << (o.write_mesh ? " -> " + o.output : ": " + std::to_string(r.samples_asked) + " samples")
       << '\n';
   if (o.write_mesh) print_mesh(out, r);
   const std::string tolerance = number(100 * o.remeshing.capacity_tolerance, 1);
-  row(out, "cells inside the mean capacity +-" + tolerance + " %", percent(r.capacity.inside_interval));
+  row(out, "cells inside the mean capacity +-" + tolerance + " %",
+      percent(r.capacity.inside_interval));
   row(out, "capacity, RMS deviation", percent(r.capacity.rms));
-  if (r.cells.guarded > 0) row(out, "cells with too few neighbours", std::to_string(r.cells.guarded));
+  if (r.cells.guarded > 0)
+    row(out, "cells with too few neighbours", std::to_string(r.cells.guarded));
   if (r.cells.empty > 0) row(out, "empty cells", std::to_string(r.cells.empty));
   if (r.cells.incomplete > 0) row(out, "incomplete cells", std::to_string(r.cells.incomplete));
   print_repairs(out, r.repairs);
   row(out, "constructions of all cells", std::to_string(r.constructions));
   row(out, "seconds", number(r.seconds.total, 2));
-  for (const auto& [name, file] : {std::pair{"cells", &o.cells_file},
-                                   std::pair{"samples", &o.samples_file},
-                                   std::pair{"report", &o.report_file}})
+  for (const auto& [name, file] :
+       {std::pair{"cells", &o.cells_file}, std::pair{"samples", &o.samples_file},
+        std::pair{"report", &o.report_file}})
     if (!file->empty()) out << "  " << name << ": " << *file << '\n';
 }
 

@@ -4,8 +4,10 @@
 
 #include "Words.h"
 
-namespace tools {
-namespace {
+namespace tools
+{
+namespace
+{
 
 using CGAL::PowerRTF::Invalid_input_error;
 using CGAL::PowerRTF::Vec3d;
@@ -45,7 +47,8 @@ Polygon_mesh parse_off(const std::string& text)
                                 " vertices and " + std::to_string(counts[1]) + " facets";
   // every vertex and every facet takes a few bytes
   if (counts[0] > text.size() || counts[1] > text.size())
-    reject("the file is truncated: it has only " + std::to_string(text.size()) + " bytes" + announced);
+    reject("the file is truncated: it has only " + std::to_string(text.size()) + " bytes" +
+           announced);
 
   Polygon_mesh mesh;
   mesh.points.resize(counts[0]);
@@ -69,7 +72,8 @@ Polygon_mesh parse_off(const std::string& text)
     if (size < 0) words.reject("is not a number of vertices");
     for (long long k = 0; k < size; ++k) {
       const long long v = next();
-      if (v < 0 || v >= static_cast<long long>(counts[0])) reject(out_of_range(words, i, v, counts[0]));
+      if (v < 0 || v >= static_cast<long long>(counts[0]))
+        reject(out_of_range(words, i, v, counts[0]));
       mesh.polygons[i].push_back(static_cast<std::size_t>(v));
     }
     words.skip_line(); // its colour
@@ -100,7 +104,8 @@ Polygon_mesh parse_obj(const std::string& text)
         const long long v = words.whole_number(true);
         if (v == 0 || v < -n)
           reject(out_of_range(words, mesh.polygons.size(), v, mesh.points.size()));
-        polygon.push_back(static_cast<std::size_t>(v > 0 ? v - 1 : n + v)); // negative: from the last
+        polygon.push_back(
+            static_cast<std::size_t>(v > 0 ? v - 1 : n + v)); // negative: from the last
         if (v <= largest) continue;
         largest = v;
         at_largest = words;

@@ -10,7 +10,8 @@
 
 #include <string>
 
-namespace tools {
+namespace tools
+{
 
 /// \throws Invalid_input_error the reason, with the line where it has one
 Polygon_mesh parse_off(const std::string& text);

@@ -15,6 +15,7 @@
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/surface/smooth_normals.h>
 
 #include <utility>
 
@@ -34,7 +35,10 @@ public:
   /// option has no meaning for it.
   PowerRTF_remesher(PowerRTF::Surface surface, const Options& options)
       : m_surface(std::move(surface)), m_options(options), m_engine(m_surface, m_options)
-  { m_report.samples_asked = options.number_of_samples; }
+  {
+    m_report.samples_asked = options.number_of_samples;
+    PowerRTF::smooth_normals(m_surface, options.number_of_samples, options.normal_smoothing);
+  }
 
   PowerRTF_remesher(const PowerRTF_remesher&) = delete; // the engine refers to the surface
   PowerRTF_remesher& operator=(const PowerRTF_remesher&) = delete;

@@ -141,7 +141,7 @@ inline Soup box(int divisions)
   return s;
 }
 
-// --- surfaces with borders, several components, close sheets --------------------------------------
+// --- surfaces with borders, several components, close sheets -------------------------------------
 
 /// The unit square in z = 0, seen from above: `nx * ny` squares, one border loop.
 inline Soup plane_patch(int nx, int ny)

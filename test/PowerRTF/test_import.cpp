@@ -111,7 +111,8 @@ TEST_CASE("closed shapes keep their topology, area and orientation")
                         {shapes::icosphere(2), 2},           {shapes::torus(30, 20, 2, 1), 0},
                         {shapes::box(5), 2},                 {shapes::ellipsoid(3, 2, 1, 2), 2},
                         {shapes::thin_disc(0.01), 2},        {shapes::two_spheres(1), 4},
-                        {shapes::plane_patch(4, 7), 1},      {shapes::open_cylinder(20, 6, 1, 2), 0}};
+                        {shapes::plane_patch(4, 7), 1},
+                        {shapes::open_cylinder(20, 6, 1, 2), 0}};
   for (const Case& c : cases) {
     Repair_counts repairs;
     const Surface s = import_soup(c.soup.points, c.soup.triangles, repairs);
@@ -194,8 +195,9 @@ TEST_CASE("Surface_mesh and Polyhedron_3, own and foreign point maps")
     mesh.add_vertex({7, 7, 7});
     const auto removed = mesh.add_vertex({8, 8, 8});
     std::vector<Mesh::Vertex_index> v;
-    for (const Vec3d& p : shapes::tetrahedron().points) v.push_back(mesh.add_vertex({p.x, p.y, p.z}));
-    for (const Triangle& t : shapes::tetrahedron().triangles)
+    const shapes::Soup tetrahedron = shapes::tetrahedron();
+    for (const Vec3d& p : tetrahedron.points) v.push_back(mesh.add_vertex({p.x, p.y, p.z}));
+    for (const Triangle& t : tetrahedron.triangles)
       mesh.add_face(v[t[0]], v[t[1]], v[t[2]]);
     mesh.remove_vertex(removed);
     const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);

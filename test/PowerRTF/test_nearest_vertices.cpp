@@ -49,7 +49,8 @@ TEST_CASE("the k nearest vertices, compared with sorting all")
         Vec3d q{random() - 0.5, random() - 0.5, random() - 0.5};
         if (query % 3 == 1) q = s.points[query % s.points.size()];
         if (query % 3 == 2) q = 100. * q; // far away
-        for (const int k : {1, 3, 12, 16, 64}) CHECK(by_tree(tree, q, k) == by_sorting(s.points, q, k));
+        for (const int k : {1, 3, 12, 16, 64})
+          CHECK(by_tree(tree, q, k) == by_sorting(s.points, q, k));
       }
     }
   }
@@ -62,7 +63,8 @@ TEST_CASE("equal distances come by index")
     lattice.push_back({double(i / 100), double(i / 10 % 10), double(i % 10)});
   const Nearest_vertices tree(lattice);
   for (const Vec3d& q : {Vec3d{4.5, 4.5, 4.5}, Vec3d{3, 3, 3}, Vec3d{-1, 5, 5}})
-    for (const int k : {1, 2, 7, 20, 33, 64}) CHECK(by_tree(tree, q, k) == by_sorting(lattice, q, k));
+    for (const int k : {1, 2, 7, 20, 33, 64})
+      CHECK(by_tree(tree, q, k) == by_sorting(lattice, q, k));
   const std::vector<Vec3d> same(50, Vec3d{1, 2, 3});
   CHECK(by_tree(Nearest_vertices(same), {0, 0, 0}, 20) == by_sorting(same, {0, 0, 0}, 20));
 }

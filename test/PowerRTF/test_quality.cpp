@@ -22,10 +22,13 @@ using namespace CGAL::PowerRTF;
 using doctest::Approx;
 using shapes::Soup;
 
-namespace {
+namespace
+{
 
 Soup soup(std::vector<Vec3d> points, std::vector<Triangle> triangles)
-{ return {std::move(points), std::move(triangles)}; }
+{
+  return {std::move(points), std::move(triangles)};
+}
 
 /// The flat ring 1 <= |p| <= 2 in z = 0.
 Soup annulus(int n)
@@ -72,10 +75,14 @@ std::size_t cgal_self_intersections(const Soup& s)
 }
 
 std::size_t self_intersections(const Soup& s)
-{ return CGAL::PowerRTF::self_intersections(s.points, s.triangles); }
+{
+  return CGAL::PowerRTF::self_intersections(s.points, s.triangles);
+}
 
 Distance_statistics distance(const Soup& a, const Soup& b)
-{ return surface_distance(a.points, a.triangles, b.points, b.triangles); }
+{
+  return surface_distance(a.points, a.triangles, b.points, b.triangles);
+}
 
 Soup without_last(Soup s)
 {
@@ -111,8 +118,8 @@ TEST_CASE("triangle quality: known angles")
 
   // with a facet of 20, 20, 140 degrees and one of 60, 60, 60: means over the three
   const double u = 20 * shapes::pi / 180;
-  s.points.insert(s.points.end(), {{1, 0, 0}, {2, 0, 0}, {1.5, 0.5 * std::tan(u), 0},
-                                   {1.5, std::sqrt(3.) / 2, 0}});
+  s.points.insert(s.points.end(),
+                  {{1, 0, 0}, {2, 0, 0}, {1.5, 0.5 * std::tan(u), 0}, {1.5, std::sqrt(3.) / 2, 0}});
   s.triangles.insert(s.triangles.end(), {{{3, 4, 5}}, {{3, 4, 6}}});
   q = triangle_quality(s.points, s.triangles);
   CHECK(q.theta_min == Approx(20));
@@ -125,7 +132,8 @@ TEST_CASE("triangle quality: known angles")
 TEST_CASE("triangle quality: no triangle, no area")
 {
   CHECK(triangle_quality({}, {}).q_avg == 0);
-  const Soup s = soup({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 0, 0}}, {{0, 1, 3}}});
+  const Soup s =
+      soup({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 0, 0}}, {{0, 1, 3}}});
   const Quality_statistics q = triangle_quality(s.points, s.triangles);
   CHECK(q.q_min == 0);
   CHECK(q.theta_min == 0);
@@ -135,7 +143,11 @@ TEST_CASE("triangle quality: no triangle, no area")
 
 TEST_CASE("topology: closed surfaces")
 {
-  struct Case { Soup soup; long euler; std::size_t components; };
+  struct Case {
+    Soup soup;
+    long euler;
+    std::size_t components;
+  };
   for (const Case& c : {Case{shapes::tetrahedron(), 2, 1}, Case{shapes::icosphere(3), 2, 1},
                         Case{shapes::torus(30, 12, 3, 1), 0, 1}, Case{shapes::box(4), 2, 1},
                         Case{shapes::two_spheres(2), 4, 2}}) {
@@ -163,7 +175,8 @@ TEST_CASE("topology: borders")
   CHECK(ring.border_loops == 2);
   CHECK(ring.non_manifold_vertices == 0);
 
-  const Topology_statistics patch = topology(shapes::permuted(shapes::plane_patch(5, 3), 1).triangles);
+  const Topology_statistics patch =
+      topology(shapes::permuted(shapes::plane_patch(5, 3), 1).triangles);
   CHECK(patch.euler_characteristic == 1);
   CHECK(patch.border_edges == 16);
   CHECK(patch.border_loops == 1);
@@ -182,7 +195,8 @@ TEST_CASE("topology: borders")
 
 TEST_CASE("topology: defects")
 {
-  SUBCASE("a bow-tie: two facets at a vertex") {
+  SUBCASE("a bow-tie: two facets at a vertex")
+  {
     const Topology_statistics t = topology({{{0, 1, 2}}, {{0, 3, 4}}});
     CHECK(t.non_manifold_vertices == 1);
     CHECK(t.non_manifold_edges == 0);
@@ -190,7 +204,8 @@ TEST_CASE("topology: defects")
     CHECK(t.border_loops == 2);
     CHECK(t.oriented);
   }
-  SUBCASE("two closed surfaces at a vertex") {
+  SUBCASE("two closed surfaces at a vertex")
+  {
     Soup s = shapes::joined(shapes::tetrahedron(), shapes::tetrahedron());
     for (Triangle& t : s.triangles)
       for (int& v : t)
@@ -201,7 +216,8 @@ TEST_CASE("topology: defects")
     CHECK(t.border_edges == 0);
     CHECK(t.euler_characteristic == 3);
   }
-  SUBCASE("three facets on an edge") {
+  SUBCASE("three facets on an edge")
+  {
     const Topology_statistics t = topology({{{0, 1, 2}}, {{1, 0, 3}}, {{0, 1, 4}}});
     CHECK(t.non_manifold_edges == 1);
     CHECK(t.non_manifold_vertices == 2);
@@ -209,7 +225,8 @@ TEST_CASE("topology: defects")
     CHECK(t.border_edges == 6);
     CHECK_FALSE(t.oriented);
   }
-  SUBCASE("an edge traversed twice in the same direction") {
+  SUBCASE("an edge traversed twice in the same direction")
+  {
     const Topology_statistics t = topology({{{0, 1, 2}}, {{0, 1, 3}}});
     CHECK(t.non_manifold_edges == 0);
     CHECK(t.non_manifold_vertices == 0);
@@ -220,7 +237,8 @@ TEST_CASE("topology: defects")
     CHECK_FALSE(topology(s.triangles).oriented);
     CHECK(topology(s.triangles).non_manifold_vertices == 0);
   }
-  SUBCASE("unused vertices and facets with a repeated vertex do not count") {
+  SUBCASE("unused vertices and facets with a repeated vertex do not count")
+  {
     const Topology_statistics t = topology({{{2, 5, 9}}, {{5, 5, 7}}});
     CHECK(t.vertices == 3);
     CHECK(t.edges == 3);
@@ -252,7 +270,7 @@ TEST_CASE("self-intersections: pairs")
     CHECK(pair({{0, .5, 0}}, t) == 1);
     CHECK(pair({{0, -1, 0}}, t) == 0);
   }
-  CHECK(pair({}, {0, 2, 1}) == 1);     // the same facet, turned over
+  CHECK(pair({}, {0, 2, 1}) == 1);          // the same facet, turned over
   CHECK(pair({{2, 0, 0}}, {0, 1, 3}) == 1); // no area: a pair with itself
 }
 
@@ -276,7 +294,8 @@ TEST_CASE("distance: parallel squares")
 {
   const Soup square = shapes::plane_patch(7, 7);
   for (const double d : {0., 1e-3, 0.25}) {
-    const Distance_statistics s = distance(square, shapes::translated(shapes::plane_patch(3, 5), {0, 0, d}));
+    const Distance_statistics s =
+        distance(square, shapes::translated(shapes::plane_patch(3, 5), {0, 0, d}));
     const double percent = 100 * d / std::sqrt(2.);
     CHECK(s.mean == Approx(percent));
     CHECK(s.rms == Approx(percent));
@@ -327,7 +346,8 @@ TEST_CASE("distance: spheres, and invariance")
     return shapes::translated(shapes::rotated(shapes::scaled(t, 1000), 0.7), {5000, -3000, 800});
   };
   const auto coarse = shapes::icosphere(3);
-  const Distance_statistics before = distance(fine, coarse), after = distance(moved(fine), moved(coarse));
+  const Distance_statistics before = distance(fine, coarse),
+                            after = distance(moved(fine), moved(coarse));
   const auto diagonal = [](const Soup& t) {
     const Box3<double> box = internal::bounding_box(t.points, t.triangles);
     return length(box.hi - box.lo);
@@ -336,8 +356,8 @@ TEST_CASE("distance: spheres, and invariance")
   CHECK(after.mean == Approx(before.mean * change).epsilon(0.02));
   CHECK(after.rms == Approx(before.rms * change).epsilon(0.02));
 
-  const Distance_statistics parallel =
-      surface_distance<CGAL::Parallel_if_available_tag>(fine.points, fine.triangles, coarse.points, coarse.triangles);
+  const Distance_statistics parallel = surface_distance<CGAL::Parallel_if_available_tag>(
+      fine.points, fine.triangles, coarse.points, coarse.triangles);
   CHECK(parallel.mean == before.mean);
   CHECK(parallel.rms == before.rms);
   CHECK(parallel.max == before.max);

@@ -39,7 +39,8 @@ void check_is_sound(const Surface& s, const Samples& samples, std::size_t n)
     REQUIRE(f >= 0);
     REQUIRE(f < static_cast<int>(s.triangles.size()));
     const Triangle& t = s.triangles[f];
-    const Vec3d &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]], p = samples.points[i];
+    const Vec3d &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]];
+    const Vec3d p = samples.points[i];
     CHECK(std::abs(dot(p - a, s.facet_normals[f])) < 1e-13);
     const double areas = length(cross(b - p, c - p)) + length(cross(c - p, a - p)) +
                          length(cross(a - p, b - p));
@@ -285,8 +286,9 @@ TEST_CASE("components share the samples by mass, at least four each")
     CHECK(*std::min_element(counts.begin(), counts.end()) >= 4);
   }
 
-  const shapes::Soup far_and_small = shapes::joined(
-      shapes::icosphere(3), shapes::translated(shapes::scaled(shapes::icosphere(1), 1e-4), {2, 0, 0}));
+  const shapes::Soup small = shapes::scaled(shapes::icosphere(1), 1e-4);
+  const shapes::Soup far_and_small =
+      shapes::joined(shapes::icosphere(3), shapes::translated(small, {2, 0, 0}));
   const Surface s = shapes::make_surface(far_and_small);
   for (const Sampling sampling : both) {
     const Samples samples = sample_surface(s, options(500, sampling));
@@ -311,7 +313,8 @@ TEST_CASE("grid: points within a radius, compared with all pairs")
       const Point_grid grid(points, even, 0.1);
       for (int q = 0; q < 50; ++q) {
         std::set<int> found, expected;
-        grid.for_each_near(points[q], radius, [&](int i, double) { CHECK(found.insert(i).second); });
+        grid.for_each_near(points[q], radius,
+                           [&](int i, double) { CHECK(found.insert(i).second); });
         for (const int i : even)
           if (length(points[i] - points[q]) <= radius) expected.insert(i);
         CHECK(found == expected);

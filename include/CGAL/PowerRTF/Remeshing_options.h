@@ -42,10 +42,12 @@ struct Remeshing_options {
   Attributes attributes = Attributes::facet;
   int normal_neighbors = 12;  ///< k_n: vertices averaged for a normal  (Attributes::nearest_vertices)
   int density_neighbors = 12; ///< k_d: vertices averaged for a density (Attributes::nearest_vertices)
+  /// Normals are smoothed over this many times the local spacing (standard deviation); 0: not at all.
+  double normal_smoothing = 0.7;
 
   // Cells (Algorithm 1)
   int neighbors = 32;        ///< k: samples in the first neighbour search; enlarged until complete
-  double normal_angle = 100; ///< Theta, degrees: larger angles make two samples incompatible (NVISPC)
+  double normal_angle = 140; ///< Theta, degrees: larger angles make two samples incompatible (NVISPC)
 
   // Positions (Algorithm 3)
   Position_method position_method = Position_method::lbfgs;
@@ -74,6 +76,7 @@ struct Remeshing_options {
     o.sampling = Sampling::random;
     o.oversampling = 2;
     o.attributes = Attributes::nearest_vertices;
+    o.normal_smoothing = 0;
     o.normal_angle = 60;
     o.position_method = Position_method::lloyd;
     o.projection = Projection::nearest_vertices;

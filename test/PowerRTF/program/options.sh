@@ -42,6 +42,7 @@ refuse normal-angle 0 'above 0'
 refuse normal-angle 180.5 'at most 180'
 refuse normal-angle -60 'above 0'
 refuse gradation -1 'at least 0'
+refuse normal-smoothing -1 'at least 0'
 refuse density-power -1 'at least 0'
 refuse oversampling 0.5 'at least 1'
 refuse weight-step 0 'above 0'
@@ -58,7 +59,7 @@ for traits in exact cuda; do run 2 "$traits" 'not built' -- torus.off out.off --
 # --- understood
 run 0 -- --help
 for word in --samples --density --density-power --gradation --sampling --oversampling \
-  --relaxation-iterations --attributes --normal-neighbors --density-neighbors --neighbors \
+  --relaxation-iterations --attributes --normal-neighbors --density-neighbors --normal-smoothing --neighbors \
   --normal-angle --position-method --iterations --lbfgs-memory --projection --projection-neighbors \
   --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
   --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
@@ -100,6 +101,11 @@ accept '"sampling": "random"' --sampling random
 accept '"oversampling": 3.5' --oversampling 3.5
 accept '"extraction": "insertion"' --extraction insertion
 accept '"lbfgs-memory": 3' --lbfgs-memory 3
+accept '"normal-smoothing": 0.0' --preset paper
+accept '"normal-smoothing": 1.5' --normal-smoothing 1.5
+run 0 -- torus.off out.off -n 400 --iterations 20 --density uniform --report r.json \
+  --extraction restricted-delaunay
+expect 'restricted Delaunay is reported' grep -q '"extraction": "restricted-delaunay"' r.json
 run 0 -- -n100 --iterations=2 -q torus.off out.off
 run 0 -- --quiet torus.off --iterations 2 -n 100 -- out.off
 

@@ -80,6 +80,7 @@ private:
   void center_weights();
   std::vector<Capacity_edge> capacity_edges();
   std::vector<Vec3d> lbfgs_steps();
+  bool residual_explodes();
 
   Remeshing_options m_options;
   const Surface& m_surface;
@@ -95,7 +96,11 @@ private:
   std::vector<Vec3d> m_offsets;     // c_i - s_i
   std::vector<double> m_nearest;    // D_i, for the weights; empty after the samples have moved
   Lbfgs<ConcurrencyTag> m_lbfgs;
-  double m_least_energy = std::numeric_limits<double>::infinity(); // since L-BFGS began anew
+  struct Best_state { // the least sum of |s_i - c_i|^2 that L-BFGS has seen
+    double residual = std::numeric_limits<double>::infinity();
+    std::vector<Site<double>> sites;
+    std::vector<int> facets;
+  } m_best;
   std::size_t m_constructions = 0;
 };
 
@@ -112,6 +117,7 @@ void Cpu_engine<Tag>::set_samples(const Samples& samples)
   m_moments.assign(n, {});
   m_offsets.assign(n, {0, 0, 0});
   m_lbfgs.clear();
+  m_best = {};
   int i = 0;
   for (int k : internal::spatial_order(samples.points)) {
     m_tree.sites[i] = {samples.points[k], 0};
@@ -241,22 +247,37 @@ std::vector<Vec3d> Cpu_engine<Tag>::lbfgs_steps()
     gradient[i] = m_offsets[i] * (-2 * m_moments[i].mass);
     inverse_diagonal[i] = 1 / (2 * m_moments[i].mass);
   });
-  const double energy = internal::sum<Tag>(size(), [&](int i) {
+  return m_lbfgs.direction(positions, gradient, inverse_diagonal);
+}
+
+template <class Tag>
+bool Cpu_engine<Tag>::residual_explodes()
+{
+  const double residual = internal::sum<Tag>(size(), [&](int i) {
     return usable(i) ? squared_length(m_offsets[i]) : 0;
   });
-  constexpr double restart = 4; // growth of the residual after which the memory is not believed
-  if (energy > restart * m_least_energy) {
-    m_lbfgs.clear();
-    m_least_energy = energy;
+  constexpr double largest_growth = 16;
+  if (residual > largest_growth * m_best.residual) return true;
+  if (residual < m_best.residual) {
+    m_best.residual = residual;
+    m_best.sites = m_tree.sites;
+    m_best.facets = m_facets;
   }
-  m_least_energy = std::min(m_least_energy, energy);
-  return m_lbfgs.direction(positions, gradient, inverse_diagonal);
+  return false;
 }
 
 template <class Tag>
 void Cpu_engine<Tag>::move_samples(Position_method method)
 {
-  const bool lbfgs = method == Position_method::lbfgs;
+  bool lbfgs = method == Position_method::lbfgs;
+  if (lbfgs && residual_explodes()) { // back to the best state, and on from there by Lloyd's method
+    m_tree.sites = m_best.sites;
+    m_facets = m_best.facets;
+    update_attributes();
+    build_cells();
+    m_lbfgs.clear();
+    lbfgs = false;
+  }
   std::vector<Vec3d> steps;
   if (lbfgs) steps = lbfgs_steps();
   internal::for_each_index<Tag>(size(), [&](int i) {

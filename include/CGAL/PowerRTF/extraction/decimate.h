@@ -33,12 +33,12 @@ public:
   /// \returns the number of vertices that could not be removed.
   std::size_t run()
   {
-    // Smallest cosine between new triangles and the surface; then: may borders move inwards?
+    // Smallest cosine between new triangles and the surface; then: may borders recede?
     const std::pair<double, bool> stages[] = {
       {0.7, false}, {0.4, false}, {0.1, false}, {0.1, true}, {-0.5, true}, {-2, true}};
     for (const auto& stage : stages) {
       m_min_agreement = stage.first;
-      m_borders_may_move = stage.second;
+      m_borders_may_recede = stage.second;
       do_passes();
     }
     for (bool progress = true; progress && !m_rest.empty();) {
@@ -86,15 +86,23 @@ private:
     bool operator<(const Candidate& o) const { return shape > o.shape; }
   };
 
-  // Collapses u into the neighbour that leaves the best triangles.
+  // Collapses u into the neighbour that leaves the best triangles. At a border without samples there
+  // may be none: the border then recedes to the samples.
   bool remove(Vertex u)
   {
     m_ring.clear();
     for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
     const bool on_border = m.mesh.is_border(u);
+    return collapse_to_neighbour(u, on_border) ||
+           (on_border && m_borders_may_recede && cut_off(u)) ||
+           (on_border && m_borders_may_recede && collapse_to_neighbour(u, false));
+  }
+
+  bool collapse_to_neighbour(Vertex u, bool along_border_only)
+  {
     m_candidates.clear();
     for (const Halfedge h : m_ring) {
-      if (on_border && !m_borders_may_move && !m.mesh.is_border(m.mesh.edge(h))) continue;
+      if (along_border_only && !m.mesh.is_border(m.mesh.edge(h))) continue;
       const double shape = shape_after(u, m.mesh.target(h));
       if (shape >= 0) m_candidates.push_back({shape, h});
     }
@@ -105,6 +113,24 @@ private:
         return true;
       }
     return false;
+  }
+
+  // Removes a border vertex with its triangles; the opposite edges become the border. The surface
+  // stays the same up to homeomorphism if these triangles meet the border in no other place.
+  bool cut_off(Vertex u)
+  {
+    const auto gap = std::find_if(m_ring.begin(), m_ring.end(),
+                                  [this](Halfedge h) { return m.mesh.is_border(h); });
+    std::rotate(m_ring.begin(), gap, m_ring.end()); // the triangles from one border edge to the other
+    for (std::size_t i = 1; i < m_ring.size(); ++i) {
+      if (m.mesh.is_border(m.mesh.edge(m.mesh.next(m_ring[i])))) return false;
+      if (i + 1 < m_ring.size() && m.mesh.is_border(m.mesh.target(m_ring[i])) !=
+                                     m.mesh.is_border(m.mesh.edge(m_ring[i])))
+        return false;
+    }
+    for (const Halfedge h : m_ring) m_touched[m.mesh.target(h)] = m_pass;
+    for (std::size_t i = 1; i < m_ring.size(); ++i) Euler::remove_face(m_ring[i], m.mesh);
+    return true;
   }
 
   // The worst shape of the triangles that collapsing u into v leaves; -1 if one of them does not
@@ -176,7 +202,7 @@ private:
   std::vector<Candidate> m_candidates;
   int m_pass = 0;
   double m_min_agreement = 1;
-  bool m_borders_may_move = false;
+  bool m_borders_may_recede = false;
 };
 
 } // namespace internal

@@ -1,8 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Edge flips: an edge is flipped when the angles opposite to it sum up to more than pi (Delaunay),
-// unless the new triangles lie worse on the surface; and when the new ones lie clearly better.
+// Edge flips: an edge is flipped when the angles opposite to it have a larger sum than those
+// opposite to the new edge (in a plane: more than pi, Delaunay), unless the new triangles lie worse
+// on the surface; and when the new ones lie clearly better.
 // Never when the new edge exists already: the mesh stays a 2-manifold of the same topology.
 #ifndef CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H
 #define CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H
@@ -12,6 +13,8 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -28,7 +31,8 @@ public:
   /// Triangles whose normals have at least the cosine `good_agreement` with the surface's at their
   /// corners lie well enough: among them only the angles count.
   Edge_flipper(Working_mesh& mesh, double good_agreement)
-    : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.num_edges(), false)
+    : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.num_edges(), false),
+      m_flips(mesh.mesh.num_edges(), 0)
   {}
 
   /// Marks an edge to be looked at by the next `run()`.
@@ -73,6 +77,8 @@ private:
   // Two triangles folded by more than 135 degrees never lie well.
   static constexpr double fold = -0.7;
   static constexpr double clearly = 0.05;
+  static constexpr double tolerance = 1e-9; // cocircular: no flip
+  static constexpr unsigned int max_flips_for_fit = 5; // fit and angles may take turns for ever
 
   Vertex apex(Halfedge h) const { return m.mesh.target(m.mesh.next(h)); }
 
@@ -89,16 +95,28 @@ private:
     return std::min(agreement, m_good_agreement) - (cosine < fold ? 1 : 0);
   }
 
-  // Positive if the angles at c and d, opposite to ab, sum up to more than pi: the sine of the sum,
-  // negated.
-  double excess(Vertex a, Vertex b, Vertex c, Vertex d) const
+  // Direction (cosine, sine) of the sum of the angles at c and d in the triangles abc and bad.
+  std::array<double, 2> opposite_angles(Vertex a, Vertex b, Vertex c, Vertex d) const
   {
     const Vec3d ca = m.point(a) - m.point(c), cb = m.point(b) - m.point(c),
                 da = m.point(a) - m.point(d), db = m.point(b) - m.point(d);
-    const double sine = length(cross(ca, cb)) * dot(da, db) + dot(ca, cb) * length(cross(da, db));
+    const double cosine_c = dot(ca, cb), sine_c = length(cross(ca, cb)), cosine_d = dot(da, db),
+                 sine_d = length(cross(da, db));
     const double scale =
       std::sqrt(squared_length(ca) * squared_length(cb) * squared_length(da) * squared_length(db));
-    return scale > 0 ? -sine / scale : 0;
+    if (!(scale > 0)) return {1, 0};
+    return {(cosine_c * cosine_d - sine_c * sine_d) / scale,
+            (sine_c * cosine_d + cosine_c * sine_d) / scale};
+  }
+
+  // True if the angles opposite to ab have a larger sum than those opposite to cd have after a flip.
+  // In a plane the two sums make 2 pi; on a curved surface less, and both may be below pi.
+  bool has_larger_angles(Vertex a, Vertex b, Vertex c, Vertex d) const
+  {
+    const auto now = opposite_angles(a, b, c, d);
+    if (now[1] < -tolerance) return true;
+    const auto then = opposite_angles(d, c, a, b);
+    return then[1] > 0 && now[0] < then[0] - tolerance;
   }
 
   bool flip_if_better(Edge e)
@@ -108,11 +126,13 @@ private:
     const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = apex(h),
                  d = apex(m.mesh.opposite(h));
     const double fit_now = fit(a, b, c, d);
-    const bool not_delaunay = excess(a, b, c, d) > 1e-9;
+    const bool not_delaunay = has_larger_angles(a, b, c, d);
     if (!not_delaunay && fit_now >= m_good_agreement) return false;
     const double fit_then = fit(d, c, a, b);
-    if (!(fit_then > fit_now + clearly || (not_delaunay && fit_then >= fit_now))) return false;
+    const bool lies_better = fit_then > fit_now + clearly && m_flips[e] < max_flips_for_fit;
+    if (!(lies_better || (not_delaunay && fit_then >= fit_now))) return false;
     if (m.are_adjacent(c, d)) return false;
+    ++m_flips[e];
     flip(e);
     return true;
   }
@@ -120,7 +140,8 @@ private:
   Working_mesh& m;
   double m_good_agreement;
   std::vector<Edge> m_stack;
-  std::vector<char> m_waiting; // by edge
+  std::vector<char> m_waiting;          // by edge
+  std::vector<unsigned int> m_flips;    // by edge
 };
 
 } // namespace internal

@@ -58,7 +58,7 @@ inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples
       }
   careful_flipper.run(20 * mesh.mesh.number_of_edges());
   internal::Decimator(mesh, careful_flipper).run();
-  internal::Edge_flipper flipper(mesh, -0.5);
+  internal::Edge_flipper flipper(mesh, -0.7);
   for (const auto e : mesh.mesh.edges()) flipper.push(e);
   flipper.run(20 * mesh.mesh.number_of_edges());
   internal::Intersection_remover(mesh, flipper).run();

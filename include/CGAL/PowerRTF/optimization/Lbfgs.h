@@ -10,7 +10,6 @@
 #include <CGAL/PowerRTF/cells/vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <cmath>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -37,7 +36,7 @@ public:
                     const std::vector<double>& inverse_diagonal)
   {
     const int n = static_cast<int>(positions.size());
-    if (!m_last_positions.empty()) remember(positions, gradient, inverse_diagonal);
+    if (!m_last_positions.empty()) remember(positions, gradient);
     m_last_positions = positions;
     m_last_gradient = gradient;
 
@@ -58,30 +57,18 @@ public:
   }
 
 private:
-  /// Bound on the Hessian in units of its initial diagonal (in a regular tessellation it is <= 1).
-  static constexpr double largest_curvature = 2;
-
   struct Pair {
     Vectors step, change; ///< of the positions, of the gradient
     double curvature;     ///< their product, > 0
   };
 
-  void remember(const Vectors& positions, const Vectors& gradient,
-                const std::vector<double>& inverse_diagonal)
+  void remember(const Vectors& positions, const Vectors& gradient)
   {
     const int n = static_cast<int>(positions.size());
     Pair p{Vectors(n), Vectors(n), 0};
     internal::for_each_index<ConcurrencyTag>(n, [&](int i) {
       p.step[i] = positions[i] - m_last_positions[i];
       p.change[i] = gradient[i] - m_last_gradient[i];
-    });
-    const double mean_step = std::sqrt(dot_product(p.step, p.step) / n);
-    // A gradient that changes by more than the steps can explain has jumped (a neighbour came into
-    // or went out of sight): such points would spoil the pair for all others.
-    internal::for_each_index<ConcurrencyTag>(n, [&](int i) {
-      const double explained = largest_curvature * (length(p.step[i]) + mean_step);
-      if (inverse_diagonal[i] > 0 && length(p.change[i]) * inverse_diagonal[i] <= explained) return;
-      p.step[i] = p.change[i] = {0, 0, 0};
     });
     p.curvature = dot_product(p.step, p.change);
     if (!(p.curvature > 0)) return; // not convex along the step: the pair would spoil the memory

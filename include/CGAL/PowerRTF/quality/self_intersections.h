@@ -15,19 +15,24 @@
 
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 /// Decides whether two facets of a soup meet in more than the vertices and edges that they share.
-class Facets_intersect {
+class Facets_intersect
+{
   using Kernel = Exact_predicates_inexact_constructions_kernel;
   using Point = Kernel::Point_3;
 
 public:
   Facets_intersect(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
       : m_points(points), m_triangles(triangles)
-  {}
+  {
+  }
 
   bool is_degenerate(int f) const
   {
@@ -38,7 +43,7 @@ public:
   bool operator()(int f, int g) const
   {
     const Triangle &s = m_triangles[f], &t = m_triangles[g];
-    int shared = 0, k_s = 0, k_t = 0;     // the last pair of corners with the same vertex
+    int shared = 0, k_s = 0, k_t = 0; // the last pair of corners with the same vertex
     bool s_is_shared[3] = {false, false, false}, t_is_shared[3] = {false, false, false};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
@@ -64,9 +69,13 @@ public:
 private:
   Point point(int v) const { return Point(m_points[v].x, m_points[v].y, m_points[v].z); }
   Kernel::Triangle_3 triangle(const Triangle& t) const
-  { return Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2])); }
+  {
+    return Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
+  }
   Kernel::Segment_3 opposite_edge(const Triangle& t, int k) const
-  { return Kernel::Segment_3(point(t[(k + 1) % 3]), point(t[(k + 2) % 3])); }
+  {
+    return Kernel::Segment_3(point(t[(k + 1) % 3]), point(t[(k + 2) % 3]));
+  }
 
   const std::vector<Vec3d>& m_points;
   const std::vector<Triangle>& m_triangles;
@@ -74,13 +83,13 @@ private:
 
 } // namespace internal
 
-/// The number of pairs of facets of the soup that meet in more than a shared vertex or edge; a facet
-/// without area counts as a pair with itself. `points` must be finite.
+/// The number of pairs of facets of the soup that meet in more than a shared vertex or edge; a
+/// facet without area counts as a pair with itself. `points` must be finite.
 inline std::size_t self_intersections(const std::vector<Vec3d>& points,
                                       const std::vector<Triangle>& triangles)
 {
-  using Box = Box_intersection_d::Box_with_info_d<double, 3, int,
-                                                  Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+  using Box =
+      Box_intersection_d::Box_with_info_d<double, 3, int, Box_intersection_d::ID_FROM_BOX_ADDRESS>;
   const internal::Facets_intersect intersect(points, triangles);
   std::size_t count = 0;
   std::vector<Box> boxes;

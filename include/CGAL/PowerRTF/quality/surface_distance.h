@@ -18,9 +18,12 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 inline Box3<double> bounding_box(const std::vector<Vec3d>& points,
                                  const std::vector<Triangle>& triangles)
@@ -32,7 +35,8 @@ inline Box3<double> bounding_box(const std::vector<Vec3d>& points,
 }
 
 /// Walks over a triangulated surface in spatial order: its vertices, and points spread over it.
-class Surface_samples {
+class Surface_samples
+{
 public:
   Surface_samples(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                   const Facet_tree& tree)

@@ -13,14 +13,22 @@
 #include <numeric>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 /// Disjoint sets over 0 .. n-1.
-class Disjoint_sets {
+class Disjoint_sets
+{
 public:
-  explicit Disjoint_sets(std::size_t n) : m_parent(n) { std::iota(m_parent.begin(), m_parent.end(), 0); }
+  explicit Disjoint_sets(std::size_t n)
+  {
+    m_parent.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) m_parent.push_back(static_cast<int>(i));
+  }
 
   int find(int x)
   {
@@ -41,7 +49,8 @@ private:
 
 /// Halfedge 3f + k runs from corner k of facet f to corner k + 1.
 /// Halfedges with the same two ends are paired when they are exactly two.
-class Soup_edges {
+class Soup_edges
+{
 public:
   enum : int { border = -1, non_manifold = -2 };
 
@@ -55,7 +64,9 @@ public:
     std::vector<int> begin(m_corner.size() + 1, 0); // buckets by the smaller end
     for_each_halfedge([&](int, int a, int b) { ++begin[std::min(a, b) + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    struct Entry { int far_end, halfedge; };
+    struct Entry {
+      int far_end, halfedge;
+    };
     std::vector<Entry> entries(static_cast<std::size_t>(begin.back()));
     std::vector<int> end(begin.begin(), begin.end() - 1);
     for_each_halfedge([&](int h, int a, int b) {
@@ -92,7 +103,10 @@ public:
   std::size_t number_of_edges() const { return m_edges; }
   std::size_t number_of_non_manifold_edges() const { return m_non_manifold; }
   bool oriented() const { return m_oriented; }
-  const std::vector<int>& corner_of_vertex() const { return m_corner; } ///< a halfedge from v, or -1
+  const std::vector<int>& corner_of_vertex() const
+  {
+    return m_corner;
+  } ///< a halfedge from v, or -1
   int opposite(int h) const { return m_opposite[h]; }
   int source(int h) const { return m_triangles[h / 3][h % 3]; }
   int target(int h) const { return m_triangles[h / 3][(h + 1) % 3]; }

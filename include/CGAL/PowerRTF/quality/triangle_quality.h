@@ -14,13 +14,15 @@
 #include <cmath>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL
+{
+namespace PowerRTF
+{
 
 /// Quality of the `triangles` (#F indices into `points`). Per triangle
 /// Q_t = 6/sqrt(3) * A_t / (S_t E_t) (area, half-perimeter, longest edge; 1: equilateral, 0: flat).
-/// A triangle without area has quality 0 and smallest angle 0, and no angle that counts as above 90.
-/// All zero when there is no triangle.
+/// A triangle without area has quality 0 and smallest angle 0, and no angle that counts as
+/// above 90. All zero when there is no triangle.
 inline Quality_statistics triangle_quality(const std::vector<Vec3d>& points,
                                            const std::vector<Triangle>& triangles)
 {
@@ -42,8 +44,7 @@ inline Quality_statistics triangle_quality(const std::vector<Vec3d>& points,
       double largest = 0;
       theta = 180;
       for (int k = 0; k < 3; ++k) {
-        const double angle =
-            std::atan2(twice_area, -dot(e[(k + 1) % 3], e[(k + 2) % 3])) * degrees;
+        const double angle = std::atan2(twice_area, -dot(e[(k + 1) % 3], e[(k + 2) % 3])) * degrees;
         theta = std::min(theta, angle);
         largest = std::max(largest, angle);
       }

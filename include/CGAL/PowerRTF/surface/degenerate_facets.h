@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Removes facets without area and keeps the rest of the surface as it is: needles lose their short
-// edge, caps are flipped away (Botsch and Kobbelt 2001). Only ever called when there are such facets.
+// edge, caps are flipped away (Botsch and Kobbelt 2001).
 #ifndef CGAL_POWER_RTF_SURFACE_DEGENERATE_FACETS_H
 #define CGAL_POWER_RTF_SURFACE_DEGENERATE_FACETS_H
 
@@ -52,7 +52,7 @@ namespace internal {
 
 inline double edge_length(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                           int h)
-{ return length(points[target(triangles, h)] - points[source(triangles, h)]); }
+{ return length(points[halfedge_target(triangles, h)] - points[halfedge_source(triangles, h)]); }
 
 /// The longest halfedge of facet `f`.
 inline int longest_halfedge(const std::vector<Vec3d>& points,
@@ -79,7 +79,8 @@ inline std::size_t collapse_needles(const std::vector<Vec3d>& points,
     const double limit = (std::max)(degenerate_aspect * longest, unit_box_rounding);
     for (int h = 3 * f; h < 3 * f + 3; ++h) {
       if (edge_length(points, triangles, h) > limit) continue;
-      const int a = merged.find_set(source(triangles, h)), b = merged.find_set(target(triangles, h));
+      const int a = merged.find_set(halfedge_source(triangles, h));
+      const int b = merged.find_set(halfedge_target(triangles, h));
       if (a == b) continue;
       merged.link(a, b);
       ++count;
@@ -105,7 +106,7 @@ inline bool flip_caps(const std::vector<Vec3d>& points, std::vector<Triangle>& t
   const Facet_adjacency adjacency = facet_adjacency(triangles, points.size());
   std::unordered_set<std::uint64_t> edges;
   for (int h = 0; h < static_cast<int>(3 * triangles.size()); ++h)
-    edges.insert(key(source(triangles, h), target(triangles, h)));
+    edges.insert(key(halfedge_source(triangles, h), halfedge_target(triangles, h)));
 
   std::vector<char> touched(triangles.size(), 0), dropped(triangles.size(), 0);
   bool changed = false;
@@ -118,8 +119,8 @@ inline bool flip_caps(const std::vector<Vec3d>& points, std::vector<Triangle>& t
       continue;
     }
     const int g = o / 3;
-    const int b = source(triangles, h), c = target(triangles, h);
-    const int a = apex(triangles, h), d = apex(triangles, o);
+    const int b = halfedge_source(triangles, h), c = halfedge_target(triangles, h);
+    const int a = opposite_vertex(triangles, h), d = opposite_vertex(triangles, o);
     if (touched[g] || a == d || edges.count(key(a, d))) continue;
     const bool both = is_degenerate(points[b], points[c], points[d]);
     if (both && length(points[d] - points[a]) >= length(points[c] - points[b])) continue;

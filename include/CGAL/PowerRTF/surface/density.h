@@ -53,8 +53,8 @@ inline void set_density(Surface& surface, const Remeshing_options& options)
 
 /// Sets `surface.vertex_density` from the user's own densities, with their growth limited by
 /// `options.gradation`.
-/// \param densities one per vertex of the *input* (see `Surface::input_vertices`); those of vertices
-///   that the surface does not use are ignored
+/// \param densities one per vertex of the *input* (see `Surface::input_vertices`); those of
+///   vertices that the surface does not use are ignored
 /// \throws Invalid_input_error a density is missing, not positive or not finite, or `gradation` is
 ///   negative
 inline void set_density(Surface& surface, const Remeshing_options& options,

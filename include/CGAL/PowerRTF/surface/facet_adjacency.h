@@ -17,11 +17,13 @@ namespace CGAL {
 namespace PowerRTF {
 
 /// Halfedge `h = 3 f + i` runs from corner `i` to corner `i + 1` of facet `f`.
-inline int source(const std::vector<Triangle>& triangles, int h) { return triangles[h / 3][h % 3]; }
-inline int target(const std::vector<Triangle>& triangles, int h)
+inline int halfedge_source(const std::vector<Triangle>& triangles, int h)
+{ return triangles[h / 3][h % 3]; }
+inline int halfedge_target(const std::vector<Triangle>& triangles, int h)
 { return triangles[h / 3][(h + 1) % 3]; }
 /// The facet's corner that is not on halfedge `h`.
-inline int apex(const std::vector<Triangle>& triangles, int h) { return triangles[h / 3][(h + 2) % 3]; }
+inline int opposite_vertex(const std::vector<Triangle>& triangles, int h)
+{ return triangles[h / 3][(h + 2) % 3]; }
 inline int next_halfedge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
@@ -54,7 +56,7 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
   std::vector<std::pair<int, int>> entries(halfedges); // larger vertex, halfedge
   std::vector<int> end(first.begin(), first.end() - 1);
   for (int h = 0; h < halfedges; ++h) {
-    const int a = source(triangles, h), b = target(triangles, h);
+    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
     entries[end[(std::min)(a, b)]++] = {(std::max)(a, b), h};
   }
 
@@ -65,7 +67,7 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
       auto f = e + 1;
       while (f != bucket_end && f->first == e->first) {
         for (auto g = e; g != f; ++g)
-          if (apex(triangles, g->second) == apex(triangles, f->second))
+          if (opposite_vertex(triangles, g->second) == opposite_vertex(triangles, f->second))
             result.repeated_facets = true;
         ++f;
       }
@@ -74,7 +76,8 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
         const int h = e->second, o = (e + 1)->second;
         result.opposite[h] = o;
         result.opposite[o] = h;
-        if (source(triangles, h) == source(triangles, o)) result.same_direction = true;
+        if (halfedge_source(triangles, h) == halfedge_source(triangles, o))
+          result.same_direction = true;
       } else ++result.non_manifold_edges;
       e = f;
     }
@@ -130,7 +133,7 @@ inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& tria
       if (visited[h]) break;
       visited[h] = 1;
     }
-    char& n = fans[source(triangles, start)];
+    char& n = fans[halfedge_source(triangles, start)];
     if (n == 1) ++count;
     n = static_cast<char>((std::min)(n + 1, 2));
   }
@@ -156,7 +159,7 @@ inline bool orient_facets(std::vector<Triangle>& triangles, const Facet_adjacenc
       for (int h = 3 * f; h < 3 * f + 3; ++h) {
         const int o = adjacency.opposite[h];
         if (o == Facet_adjacency::none) continue;
-        const bool differ = source(triangles, h) == source(triangles, o);
+        const bool differ = halfedge_source(triangles, h) == halfedge_source(triangles, o);
         const char expected = differ ? 1 - side[f] : side[f];
         if (side[o / 3] < 0) {
           side[o / 3] = expected;

@@ -101,7 +101,8 @@ private:
     std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
                      [&](int a, int b)
                      {
-                       const double x = coordinate(points[a], axis), y = coordinate(points[b], axis);
+                       const double x = coordinate(points[a], axis);
+                       const double y = coordinate(points[b], axis);
                        return x < y || (x == y && a < b);
                      });
     build(points, order, begin, middle);
@@ -113,8 +114,8 @@ private:
   /// Rounded like the distance to a point, so that it never exceeds that of a point in the box.
   static double squared_distance(const Vec3d& q, const Node& box)
   {
-    const auto outside = [](double q, double low, double high)
-    { return (std::max)((std::max)(low - q, q - high), 0.); };
+    const auto outside = [](double x, double low, double high)
+    { return (std::max)((std::max)(low - x, x - high), 0.); };
     return squared_length(Vec3d{outside(q.x, box.low.x, box.high.x),
                                 outside(q.y, box.low.y, box.high.y),
                                 outside(q.z, box.low.z, box.high.z)});

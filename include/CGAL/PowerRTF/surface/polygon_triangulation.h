@@ -55,7 +55,7 @@ inline void triangulate_polygon(const std::vector<Vec3d>& points, std::vector<in
 
   while (polygon.size() > 3) {
     const int n = static_cast<int>(polygon.size());
-    int i = 0; // of ears that are equal up to rounding the first: scaling must not change the choice
+    int i = 0; // of ears that are equal up to rounding the first: it must not decide
     for (int j = 1; j < n; ++j)
       if (quality[j] > quality[i] + 1e-6) i = j;
     triangles.push_back({polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]});

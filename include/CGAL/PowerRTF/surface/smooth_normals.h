@@ -23,6 +23,7 @@ namespace PowerRTF {
 /// smoothed over. At most 64 passes are made: very fine input is smoothed less.
 inline void smooth_normals(Surface& surface, std::size_t n, double width)
 {
+  if (!(width > 0)) return;
   constexpr int max_passes = 64;
   const Surface_edges edges = surface_edges(surface);
   const std::size_t size = surface.points.size();

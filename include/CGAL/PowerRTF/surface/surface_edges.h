@@ -32,15 +32,15 @@ inline Surface_edges surface_edges(const Surface& surface)
   Surface_edges edges;
   edges.first.assign(vertices + 1, 0);
   for (int h = 0; h < halfedges; ++h) {
-    ++edges.first[source(triangles, h) + 1];
-    if (is_border(h)) ++edges.first[target(triangles, h) + 1];
+    ++edges.first[halfedge_source(triangles, h) + 1];
+    if (is_border(h)) ++edges.first[halfedge_target(triangles, h) + 1];
   }
   for (std::size_t v = 0; v < vertices; ++v) edges.first[v + 1] += edges.first[v];
   edges.neighbor.resize(edges.first[vertices]);
   edges.length.resize(edges.first[vertices]);
   std::vector<int> end(edges.first.begin(), edges.first.end() - 1);
   for (int h = 0; h < halfedges; ++h) {
-    const int a = source(triangles, h), b = target(triangles, h);
+    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
     const double l = length(surface.points[b] - surface.points[a]);
     edges.neighbor[end[a]] = b;
     edges.length[end[a]++] = l;

@@ -86,7 +86,8 @@ inline void compute_geometry(Surface& surface)
 }
 
 /// The barycentric combination of the vertices' normals of facet `f`, of length 1.
-inline Vec3d interpolated_normal(const Surface& surface, int f, const std::array<double, 3>& weights)
+inline Vec3d interpolated_normal(const Surface& surface, int f,
+                                 const std::array<double, 3>& weights)
 {
   const Triangle& t = surface.triangles[f];
   const auto& n = surface.vertex_normals;
