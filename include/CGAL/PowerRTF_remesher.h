@@ -125,6 +125,7 @@ private:
   void equalize_capacities()
   {
     m_engine.build_cells();
+    if (m_options.position_method == PowerRTF::Position_method::lbfgs) m_engine.restore_best();
     if (m_options.weight_method != Weight_method::newton) return;
     for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass)
       if (!m_engine.newton_weights()) break;

@@ -21,7 +21,8 @@
 
 using namespace CGAL::PowerRTF;
 
-namespace {
+namespace
+{
 
 Samples samples_on(const Surface& surface, std::size_t n, unsigned seed = 0,
                    Sampling sampling = Sampling::elimination)
@@ -124,9 +125,8 @@ TEST_CASE("insertion keeps the topology of every shape, for any number of sample
           const Samples samples = samples_on(surface, n, seed, sampling);
           const Extracted_mesh mesh = extract_by_insertion(surface, samples);
           check_topology(surface, samples, mesh);
-          // Closed shapes with enough samples need no other vertex.
-          if (n >= 20 && topology(surface.triangles).border_loops == 0)
-            CHECK(mesh.points.size() == n);
+          const bool is_closed = topology(surface.triangles).border_loops == 0;
+          if (n >= (is_closed ? 20 : 500)) CHECK(mesh.points.size() == n);
         }
   }
 }
@@ -191,8 +191,7 @@ TEST_CASE("samples on edges, from both sides, and at vertices")
     const Samples samples = samples_at(surface, places);
     const Extracted_mesh mesh = extract_by_insertion(surface, samples);
     check_topology(surface, samples, mesh);
-    if (topology(surface.triangles).border_loops == 0)
-      CHECK(mesh.points.size() == samples.size());
+    if (topology(surface.triangles).border_loops == 0) CHECK(mesh.points.size() == samples.size());
   }
 }
 
@@ -219,7 +218,8 @@ TEST_CASE("fewer samples than the topology needs: vertices of the surface stay")
   check_topology(sphere, Samples(), none);
   CHECK(none.points.size() == 8);
   const Samples all_on_one = samples_at(
-    sphere, {{0, .3, .3, .4}, {10, .3, .3, .4}, {20, .3, .3, .4}, {30, .3, .3, .4}, {40, .3, .3, .4}});
+      sphere,
+      {{0, .3, .3, .4}, {10, .3, .3, .4}, {20, .3, .3, .4}, {30, .3, .3, .4}, {40, .3, .3, .4}});
   const Extracted_mesh mesh = extract_by_insertion(sphere, all_on_one);
   check_topology(sphere, all_on_one, mesh);
   CHECK(mesh.points.size() == 9);
@@ -257,8 +257,7 @@ TEST_CASE("the order of the samples does not matter")
       std::vector<int> order(samples.size());
       std::iota(order.begin(), order.end(), 0);
       std::mt19937_64 random(seed + 1);
-      for (std::size_t i = order.size(); i > 1; --i)
-        std::swap(order[i - 1], order[random() % i]);
+      for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
       Samples permuted;
       for (const int s : order) {
         permuted.points.push_back(samples.points[s]);
@@ -293,13 +292,13 @@ TEST_CASE("dense samples: the restricted Delaunay triangulation")
       const Extracted_mesh inserted = extract_by_insertion(surface, samples),
                            restricted = extract_restricted_delaunay(surface, samples);
       check_topology(surface, samples, restricted);
-      const std::set<Triangle> a = canonical(inserted.triangles), b = canonical(restricted.triangles);
+      const std::set<Triangle> a = canonical(inserted.triangles),
+                               b = canonical(restricted.triangles);
       CHECK(a.size() == b.size());
       std::vector<Triangle> only_one;
       std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(),
                                     std::back_inserter(only_one));
-      MESSAGE(only_one.size() << " of " << a.size() + b.size());
-      CHECK(only_one.size() < a.size() / 50);
+      CHECK(only_one.size() < a.size() / 200); // nearly cocircular
     }
 }
 
@@ -316,8 +315,8 @@ TEST_CASE("restricted Delaunay triangulation with borders, in space and in a pla
       CHECK(mesh.points == samples.points);
       double area = 0, wrong = 0;
       for (const Triangle& t : mesh.triangles) {
-        const Vec3d n = cross(mesh.points[t[1]] - mesh.points[t[0]],
-                              mesh.points[t[2]] - mesh.points[t[0]]);
+        const Vec3d n =
+            cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
         area += length(n) / 2;
         wrong += dot(n, samples.normals[t[0]]) < 0;
       }

@@ -31,7 +31,7 @@ struct Remeshing_options {
   // Density (Section 4.3, "Initial Sampling")
   Density density = Density::curvature;
   double density_power = 1; ///< p of rho = kappa^p: 1, 2, 3 are f, f^2, f^3 (Figure 9)
-  double gradation = 0.2;   ///< largest growth of the spacing per unit of length; 0: not limited
+  double gradation = 0.1;   ///< largest growth of the spacing per unit of length; 0: not limited
 
   // Initial sampling
   Sampling sampling = Sampling::elimination;

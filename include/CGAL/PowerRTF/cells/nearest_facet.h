@@ -47,6 +47,16 @@ CGAL_POWER_RTF_HD inline Vec3<FT> nearest_point_on_triangle(const Vec3<FT>& p, c
   return a + ab * (vb * denominator) + ac * (vc * denominator);
 }
 
+template <class FT>
+CGAL_POWER_RTF_HD inline Box3<FT> triangle_box(const Vec3<FT>& a, const Vec3<FT>& b,
+                                               const Vec3<FT>& c)
+{
+  const auto low = [](FT x, FT y, FT z) { const FT m = x < y ? x : y; return m < z ? m : z; };
+  const auto high = [](FT x, FT y, FT z) { const FT m = x > y ? x : y; return m > z ? m : z; };
+  return {{low(a.x, b.x, c.x), low(a.y, b.y, c.y), low(a.z, b.z, c.z)},
+          {high(a.x, b.x, c.x), high(a.y, b.y, c.y), high(a.z, b.z, c.z)}};
+}
+
 /// Non-owning view of a triangulated surface with its facets in spatial order.
 template <class FT>
 struct Facets_view {
@@ -71,10 +81,7 @@ CGAL_POWER_RTF_HD inline void fit_facets_node(const Packed_tree_layout& tree, in
   const int begin = tree.children_begin(k), end = tree.children_end(level, k);
   const auto child = [&](int c) {
     if (level > 0) return boxes[tree.first[level - 1] + c];
-    Box3<FT> box{facets[c].a, facets[c].a};
-    box.add(facets[c].b);
-    box.add(facets[c].c);
-    return box;
+    return triangle_box(facets[c].a, facets[c].b, facets[c].c);
   };
   Box3<FT> box = child(begin);
   for (int c = begin + 1; c < end; ++c) box.add(child(c));
@@ -92,8 +99,10 @@ CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& 
   Surface_point<FT> best;
   int best_place = -1;
   const auto test = [&](int place) {
-    if (cos_angle > -1 && !(dot(view.normals[place], normal) > cos_angle)) return;
     const auto& f = view.facets[place];
+    if (best.facet >= 0 && squared_distance(triangle_box(f.a, f.b, f.c), p) > best.squared_distance)
+      return;
+    if (cos_angle > -1 && !(dot(view.normals[place], normal) > cos_angle)) return;
     const Vec3<FT> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
     const FT d = squared_length(q - p);
     if (best.facet < 0 || d < best.squared_distance ||

@@ -54,6 +54,10 @@ public:
   /// be those of the current samples.
   void move_samples(Position_method method);
 
+  /// Goes back to the most centroidal samples that L-BFGS has passed, when the current ones are
+  /// less so (it descends by leaps); the cells are built again.
+  void restore_best();
+
   Capacity_statistics capacity() const
   {
     return capacity_statistics<ConcurrencyTag>(size(), [&](int i) { return mass(i); },
@@ -80,7 +84,8 @@ private:
   void center_weights();
   std::vector<Capacity_edge> capacity_edges();
   std::vector<Vec3d> lbfgs_steps();
-  bool residual_explodes();
+  /// Returns the residual, the sum of |s_i - c_i|^2, over the least one so far.
+  double remember_best();
 
   Remeshing_options m_options;
   const Surface& m_surface;
@@ -96,7 +101,7 @@ private:
   std::vector<Vec3d> m_offsets;     // c_i - s_i
   std::vector<double> m_nearest;    // D_i, for the weights; empty after the samples have moved
   Lbfgs<ConcurrencyTag> m_lbfgs;
-  struct Best_state { // the least sum of |s_i - c_i|^2 that L-BFGS has seen
+  struct Best_state { // where the residual of L-BFGS was least
     double residual = std::numeric_limits<double>::infinity();
     std::vector<Site<double>> sites;
     std::vector<int> facets;
@@ -251,31 +256,37 @@ std::vector<Vec3d> Cpu_engine<Tag>::lbfgs_steps()
 }
 
 template <class Tag>
-bool Cpu_engine<Tag>::residual_explodes()
+double Cpu_engine<Tag>::remember_best()
 {
   const double residual = internal::sum<Tag>(size(), [&](int i) {
     return usable(i) ? squared_length(m_offsets[i]) : 0;
   });
-  constexpr double largest_growth = 16;
-  if (residual > largest_growth * m_best.residual) return true;
   if (residual < m_best.residual) {
     m_best.residual = residual;
     m_best.sites = m_tree.sites;
     m_best.facets = m_facets;
   }
-  return false;
+  return residual / m_best.residual;
+}
+
+template <class Tag>
+void Cpu_engine<Tag>::restore_best()
+{
+  if (!(remember_best() > 1)) return;
+  m_tree.sites = m_best.sites;
+  m_facets = m_best.facets;
+  update_attributes();
+  build_cells();
+  m_lbfgs.clear();
 }
 
 template <class Tag>
 void Cpu_engine<Tag>::move_samples(Position_method method)
 {
   bool lbfgs = method == Position_method::lbfgs;
-  if (lbfgs && residual_explodes()) { // back to the best state, and on from there by Lloyd's method
-    m_tree.sites = m_best.sites;
-    m_facets = m_best.facets;
-    update_attributes();
-    build_cells();
-    m_lbfgs.clear();
+  constexpr double explosion = 16;
+  if (lbfgs && remember_best() > explosion) { // back, and on from there by Lloyd's method
+    restore_best();
     lbfgs = false;
   }
   std::vector<Vec3d> steps;

@@ -9,8 +9,10 @@
 
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL
+{
+namespace PowerRTF
+{
 
 /// Triangles on the samples, in the coordinates of the unit box.
 struct Extracted_mesh {

@@ -15,9 +15,12 @@
 #include <cmath>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 struct Working_mesh {
   using Point = Exact_predicates_inexact_constructions_kernel::Point_3;
@@ -31,7 +34,7 @@ struct Working_mesh {
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
 
   explicit Working_mesh(Refined_surface&& surface)
-    : normals(std::move(surface.normals)), samples(std::move(surface.samples))
+      : normals(std::move(surface.normals)), samples(std::move(surface.samples))
   {
     const auto vertices = Mesh::size_type(surface.points.size());
     mesh.reserve(vertices, 3 * vertices, Mesh::size_type(surface.triangles.size()));

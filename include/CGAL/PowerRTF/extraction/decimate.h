@@ -17,14 +17,18 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
-class Decimator {
+class Decimator
+{
 public:
   Decimator(Working_mesh& mesh, Edge_flipper& flipper)
-    : m(mesh), m_flipper(flipper), m_touched(mesh.samples.size(), 0)
+      : m(mesh), m_flipper(flipper), m_touched(mesh.samples.size(), 0)
   {
     for (const Vertex v : m.mesh.vertices())
       if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
@@ -34,8 +38,8 @@ public:
   std::size_t run()
   {
     // Smallest cosine between new triangles and the surface; then: may borders recede?
-    const std::pair<double, bool> stages[] = {
-      {0.7, false}, {0.4, false}, {0.1, false}, {0.1, true}, {-0.5, true}, {-2, true}};
+    const std::pair<double, bool> stages[] = {{0.7, false}, {0.4, false}, {0.1, false},
+                                              {0.1, true},  {-0.5, true}, {-2, true}};
     for (const auto& stage : stages) {
       m_min_agreement = stage.first;
       m_borders_may_recede = stage.second;
@@ -76,8 +80,9 @@ private:
 
   void forget_removed()
   {
-    m_rest.erase(std::remove_if(m_rest.begin(), m_rest.end(), [this](Vertex u) { return !is_left(u); }),
-                 m_rest.end());
+    m_rest.erase(
+        std::remove_if(m_rest.begin(), m_rest.end(), [this](Vertex u) { return !is_left(u); }),
+        m_rest.end());
   }
 
   struct Candidate {
@@ -86,15 +91,15 @@ private:
     bool operator<(const Candidate& o) const { return shape > o.shape; }
   };
 
-  // Collapses u into the neighbour that leaves the best triangles. At a border without samples there
-  // may be none: the border then recedes to the samples.
+  // Collapses u into the neighbour that leaves the best triangles. At a border without samples
+  // there may be none: the border then recedes to the samples.
   bool remove(Vertex u)
   {
     m_ring.clear();
     for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
     const bool on_border = m.mesh.is_border(u);
     return collapse_to_neighbour(u, on_border) ||
-           (on_border && m_borders_may_recede && cut_off(u)) ||
+           (on_border && m_borders_may_recede && cut_off()) ||
            (on_border && m_borders_may_recede && collapse_to_neighbour(u, false));
   }
 
@@ -115,18 +120,18 @@ private:
     return false;
   }
 
-  // Removes a border vertex with its triangles; the opposite edges become the border. The surface
-  // stays the same up to homeomorphism if these triangles meet the border in no other place.
-  bool cut_off(Vertex u)
+  // Removes the border vertex in the middle of the ring with its triangles; the opposite edges
+  // become the border. The surface stays the same up to homeomorphism if these triangles meet the
+  // border in no other place.
+  bool cut_off()
   {
     const auto gap = std::find_if(m_ring.begin(), m_ring.end(),
                                   [this](Halfedge h) { return m.mesh.is_border(h); });
-    std::rotate(m_ring.begin(), gap, m_ring.end()); // the triangles from one border edge to the other
+    std::rotate(m_ring.begin(), gap,
+                m_ring.end()); // the triangles from one border edge to the other
     for (std::size_t i = 1; i < m_ring.size(); ++i) {
       if (m.mesh.is_border(m.mesh.edge(m.mesh.next(m_ring[i])))) return false;
-      if (i + 1 < m_ring.size() && m.mesh.is_border(m.mesh.target(m_ring[i])) !=
-                                     m.mesh.is_border(m.mesh.edge(m_ring[i])))
-        return false;
+      if (i + 1 < m_ring.size() && m.mesh.is_border(m.mesh.target(m_ring[i]))) return false;
     }
     for (const Halfedge h : m_ring) m_touched[m.mesh.target(h)] = m_pass;
     for (std::size_t i = 1; i < m_ring.size(); ++i) Euler::remove_face(m_ring[i], m.mesh);
@@ -196,8 +201,8 @@ private:
 
   Working_mesh& m;
   Edge_flipper& m_flipper;
-  std::vector<Vertex> m_rest;    // no samples: still to be removed
-  std::vector<int> m_touched;    // by vertex: the last pass that changed something around it
+  std::vector<Vertex> m_rest; // no samples: still to be removed
+  std::vector<int> m_touched; // by vertex: the last pass that changed something around it
   std::vector<Halfedge> m_ring;
   std::vector<Candidate> m_candidates;
   int m_pass = 0;

@@ -18,11 +18,15 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
-class Edge_flipper {
+class Edge_flipper
+{
 public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
@@ -31,9 +35,10 @@ public:
   /// Triangles whose normals have at least the cosine `good_agreement` with the surface's at their
   /// corners lie well enough: among them only the angles count.
   Edge_flipper(Working_mesh& mesh, double good_agreement)
-    : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.num_edges(), false),
-      m_flips(mesh.mesh.num_edges(), 0)
-  {}
+      : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.num_edges(), false),
+        m_flips(mesh.mesh.num_edges(), 0)
+  {
+  }
 
   /// Marks an edge to be looked at by the next `run()`.
   void push(Edge e)
@@ -41,6 +46,18 @@ public:
     if (m_waiting[e]) return;
     m_waiting[e] = true;
     m_stack.push_back(e);
+  }
+
+  /// Marks the edges of all triangles at samples: inserted into large facets they make long ones,
+  /// which must be gone before vertices are removed.
+  void push_around_samples()
+  {
+    for (const Vertex v : m.mesh.vertices())
+      if (m.samples[v] >= 0)
+        for (const Halfedge h : halfedges_around_target(v, m.mesh)) {
+          push(m.mesh.edge(h));
+          push(m.mesh.edge(m.mesh.prev(h)));
+        }
   }
 
   /// Looks at the marked edges and at those around every flipped edge. At most `max_flips`.
@@ -77,7 +94,7 @@ private:
   // Two triangles folded by more than 135 degrees never lie well.
   static constexpr double fold = -0.7;
   static constexpr double clearly = 0.05;
-  static constexpr double tolerance = 1e-9; // cocircular: no flip
+  static constexpr double tolerance = 1e-9;            // cocircular: no flip
   static constexpr unsigned int max_flips_for_fit = 5; // fit and angles may take turns for ever
 
   Vertex apex(Halfedge h) const { return m.mesh.target(m.mesh.next(h)); }
@@ -102,15 +119,15 @@ private:
                 da = m.point(a) - m.point(d), db = m.point(b) - m.point(d);
     const double cosine_c = dot(ca, cb), sine_c = length(cross(ca, cb)), cosine_d = dot(da, db),
                  sine_d = length(cross(da, db));
-    const double scale =
-      std::sqrt(squared_length(ca) * squared_length(cb) * squared_length(da) * squared_length(db));
+    const double scale = std::sqrt(squared_length(ca) * squared_length(cb) * squared_length(da) *
+                                   squared_length(db));
     if (!(scale > 0)) return {1, 0};
     return {(cosine_c * cosine_d - sine_c * sine_d) / scale,
             (sine_c * cosine_d + cosine_c * sine_d) / scale};
   }
 
-  // True if the angles opposite to ab have a larger sum than those opposite to cd have after a flip.
-  // In a plane the two sums make 2 pi; on a curved surface less, and both may be below pi.
+  // True if the angles opposite to ab have a larger sum than those opposite to cd have after a
+  // flip. In a plane the two sums make 2 pi; on a curved surface less, and both may be below pi.
   bool has_larger_angles(Vertex a, Vertex b, Vertex c, Vertex d) const
   {
     const auto now = opposite_angles(a, b, c, d);
@@ -140,8 +157,8 @@ private:
   Working_mesh& m;
   double m_good_agreement;
   std::vector<Edge> m_stack;
-  std::vector<char> m_waiting;          // by edge
-  std::vector<unsigned int> m_flips;    // by edge
+  std::vector<char> m_waiting;       // by edge
+  std::vector<unsigned int> m_flips; // by edge
 };
 
 } // namespace internal

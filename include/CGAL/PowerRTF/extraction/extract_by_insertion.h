@@ -12,9 +12,12 @@
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/remove_intersections.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Samples& samples)
 {
@@ -31,7 +34,7 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
   for (const auto f : mesh.faces()) {
     const auto h = mesh.halfedge(f);
     result.triangles.push_back(
-      {name[mesh.source(h)], name[mesh.target(h)], name[mesh.target(mesh.next(h))]});
+        {name[mesh.source(h)], name[mesh.target(h)], name[mesh.target(mesh.next(h))]});
   }
   return result;
 }
@@ -49,13 +52,10 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
 inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples)
 {
   internal::Working_mesh mesh(internal::insert_samples(surface, samples));
+  // While the mesh is fine, normals that differ by more than 84 degrees are a fold; among the
+  // samples alone even 134 degrees occur on thin parts, and refusing more costs good triangles.
   internal::Edge_flipper careful_flipper(mesh, 0.1);
-  for (const auto v : mesh.mesh.vertices())
-    if (mesh.samples[v] >= 0)
-      for (const auto h : halfedges_around_target(v, mesh.mesh)) {
-        careful_flipper.push(mesh.mesh.edge(h));
-        careful_flipper.push(mesh.mesh.edge(mesh.mesh.prev(h)));
-      }
+  careful_flipper.push_around_samples();
   careful_flipper.run(20 * mesh.mesh.number_of_edges());
   internal::Decimator(mesh, careful_flipper).run();
   internal::Edge_flipper flipper(mesh, -0.7);

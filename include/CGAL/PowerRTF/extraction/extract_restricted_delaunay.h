@@ -21,14 +21,18 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
-class Restricted_delaunay_extractor {
+class Restricted_delaunay_extractor
+{
 public:
   Restricted_delaunay_extractor(const Surface& surface, const Samples& samples)
-    : m_surface(surface), m_samples(samples)
+      : m_surface(surface), m_samples(samples)
   {
     m_facets.reserve(surface.triangles.size());
     for (const Triangle& t : surface.triangles)
@@ -58,7 +62,8 @@ private:
   using Vector = Kernel::Vector_3;
   using Vertex_base = Triangulation_vertex_base_with_info_3<int, Kernel>;
   using Cell_base = Delaunay_triangulation_cell_base_with_circumcenter_3<Kernel>;
-  using Delaunay = Delaunay_triangulation_3<Kernel, Triangulation_data_structure_3<Vertex_base, Cell_base>>;
+  using Delaunay =
+      Delaunay_triangulation_3<Kernel, Triangulation_data_structure_3<Vertex_base, Cell_base>>;
   using Facet = Delaunay::Facet;
   using Facets = std::vector<Kernel::Triangle_3>;
   using Primitive = AABB_triangle_primitive_3<Kernel, Facets::const_iterator>;
@@ -92,7 +97,8 @@ private:
     }
     const Facet mirror = m_delaunay.mirror_facet(f);
     Point here, there;
-    const bool is_here = finite_center(f.first, here), is_there = finite_center(mirror.first, there);
+    const bool is_here = finite_center(f.first, here),
+               is_there = finite_center(mirror.first, there);
     if (is_here && is_there)
       return here != there && m_tree.do_intersect(Kernel::Segment_3(here, there));
     if (is_here) return m_tree.do_intersect(Kernel::Ray_3(here, axis));
@@ -110,8 +116,8 @@ private:
   Vec3d normal_of(int s) const
   {
     return m_samples.normals.size() == m_samples.size()
-             ? m_samples.normals[s]
-             : m_surface.facet_normals[m_samples.facets[s]];
+               ? m_samples.normals[s]
+               : m_surface.facet_normals[m_samples.facets[s]];
   }
 
   Triangle oriented(const std::array<Delaunay::Vertex_handle, 3>& v) const

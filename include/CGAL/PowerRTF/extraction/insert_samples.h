@@ -30,9 +30,12 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 /// The surface with the samples as additional vertices.
 struct Refined_surface {
@@ -43,11 +46,12 @@ struct Refined_surface {
 };
 
 /// Builds a `Refined_surface`. The result does not depend on the samples' order.
-class Sample_inserter {
+class Sample_inserter
+{
 public:
   /// \throw Invalid_input_error if a sample names no facet of the surface or is not finite.
   Sample_inserter(const Surface& surface, const Samples& samples)
-    : m_surface(surface), m_samples(samples)
+      : m_surface(surface), m_samples(samples)
   {
     sort_samples();
     start_from_surface();
@@ -67,7 +71,8 @@ public:
 private:
   using Kernel = Exact_predicates_inexact_constructions_kernel;
   using Vertex_base = Triangulation_vertex_base_with_info_2<int, Kernel>;
-  using Triangulation = Delaunay_triangulation_2<Kernel, Triangulation_data_structure_2<Vertex_base>>;
+  using Triangulation =
+      Delaunay_triangulation_2<Kernel, Triangulation_data_structure_2<Vertex_base>>;
   using Place = std::array<std::int64_t, 3>; // barycentric, in units of 2^-40
 
   static constexpr std::int64_t one = std::int64_t(1) << 40;
@@ -115,8 +120,8 @@ private:
   Vec3d normal_of(int s) const
   {
     return m_samples.normals.size() == m_samples.size()
-             ? m_samples.normals[s]
-             : m_surface.facet_normals[m_samples.facets[s]];
+               ? m_samples.normals[s]
+               : m_surface.facet_normals[m_samples.facets[s]];
   }
 
   int new_vertex(int s)
@@ -152,8 +157,8 @@ private:
       const int f = m_samples.facets[s];
       const Triangle& t = m_surface.triangles[f];
       Place place = place_of(s);
-      const int small = int(std::count_if(place.begin(), place.end(),
-                                          [](std::int64_t w) { return w < snap; }));
+      const int small =
+          int(std::count_if(place.begin(), place.end(), [](std::int64_t w) { return w < snap; }));
       if (small == 2) {
         const int corner = int(std::max_element(place.begin(), place.end()) - place.begin());
         const int vertex = t[corner];
@@ -218,7 +223,7 @@ private:
     for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end();
          ++face)
       m_refined.triangles.push_back(
-        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+          {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
   }
 
   void add_edge_places(const Triangle& t, int i)
@@ -239,8 +244,9 @@ private:
 
   void add(const Place& place, int vertex)
   {
-    m_places.emplace_back(Kernel::Point_2(std::ldexp(double(place[1]), -40),
-                                          std::ldexp(double(place[2]), -40)), vertex);
+    m_places.emplace_back(
+        Kernel::Point_2(std::ldexp(double(place[1]), -40), std::ldexp(double(place[2]), -40)),
+        vertex);
   }
 
   // The first place not used yet on a walk around `place` (squares of growing size; far smaller

@@ -17,11 +17,15 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
-class Intersection_remover {
+class Intersection_remover
+{
 public:
   Intersection_remover(Working_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper) {}
 
@@ -46,7 +50,7 @@ private:
   using Pairs = std::vector<Pair>;
 
   static constexpr int max_rounds = 5;
-  static constexpr int max_flips = 8;    // for each pair
+  static constexpr int max_flips = 8;     // for each pair
   static constexpr int max_trials = 5000; // of flips, in all: hopeless cases must not cost minutes
   static constexpr int rings = 2;
 
@@ -58,7 +62,8 @@ private:
     return pairs;
   }
 
-  // Flips the edge near the pair that removes most intersections around it, as long as there is one.
+  // Flips the edge near the pair that removes most intersections around it, as long as there is
+  // one.
   void separate(const Pair& pair)
   {
     if (m_trials >= max_trials) return;

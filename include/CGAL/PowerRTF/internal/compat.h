@@ -19,9 +19,12 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
 
 #if CGAL_VERSION_NR >= 1060000000
 template <class GeomTraits, class Primitive>

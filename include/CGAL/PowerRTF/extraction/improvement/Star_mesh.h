@@ -1,0 +1,155 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh that the improvement works on: the working mesh, the place of each vertex on the surface,
+// and which vertices may move. A move is tried on the star of a vertex and kept only if it folds
+// nothing.
+#ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
+#define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
+
+#include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/extraction/Working_mesh.h>
+#include <CGAL/PowerRTF/extraction/improvement/Surface_guide.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
+
+/// The edges around a vertex, one for each of its triangles: the triangle (v, a, b) is
+/// counter-clockwise.
+struct Star {
+  struct Corner {
+    Vec3d a, b;
+    Working_mesh::Vertex vertex_a, vertex_b;
+  };
+  boost::container::small_vector<Corner, 12> corners;
+};
+
+class Star_mesh
+{
+public:
+  using Vertex = Working_mesh::Vertex;
+  using Halfedge = Working_mesh::Halfedge;
+  using Edge = Working_mesh::Edge;
+
+  /// `locked`: by vertex, those that neither move nor get or lose an edge. Border vertices do not
+  /// move either.
+  Star_mesh(const Extracted_mesh& mesh, const Surface_guide& guide, const std::vector<char>& locked)
+      : m_guide(guide), m(refined(mesh, guide)), m_locked(locked), m_movable(mesh.points.size())
+  {
+    const std::size_t n = mesh.points.size();
+    m_facets.reserve(n);
+    for (std::size_t v = 0; v < n; ++v) {
+      const auto place = guide.nearest(mesh.points[v]);
+      m_facets.push_back(place.facet);
+      m.normals[v] = place.normal;
+      const Vertex w = Vertex(Vertex::size_type(v));
+      m_movable[v] = !locked[v] && !m.mesh.is_isolated(w) && !m.mesh.is_border(w);
+    }
+  }
+
+  Working_mesh& working() { return m; }
+  const Surface_guide& guide() const { return m_guide; }
+  std::size_t size() const { return m_facets.size(); }
+  bool is_movable(Vertex v) const { return m_movable[v]; }
+  Vec3d point(Vertex v) const { return m.point(v); }
+  const Vec3d& normal(Vertex v) const { return m.normals[v]; }
+  int facet(Vertex v) const { return m_facets[v]; }
+
+  /// False if one of the four vertices around the edge is locked.
+  bool is_free(Edge e) const
+  {
+    if (m.mesh.is_border(e)) return false;
+    const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
+    return !(m_locked[m.mesh.source(h)] || m_locked[m.mesh.target(h)] ||
+             m_locked[m.mesh.target(m.mesh.next(h))] || m_locked[m.mesh.target(m.mesh.next(o))]);
+  }
+
+  Star star(Vertex v) const
+  {
+    Star s;
+    for (const Halfedge h : halfedges_around_target(v, m.mesh)) {
+      if (m.mesh.is_border(h)) continue;
+      const Vertex a = m.mesh.target(m.mesh.next(h)), b = m.mesh.source(h);
+      s.corners.push_back({m.point(a), m.point(b), a, b});
+    }
+    return s;
+  }
+
+  /// The place on the surface to which `v` would go.
+  Surface_guide::Place project(Vertex v, const Vec3d& p) const
+  {
+    return m_guide.project(p, m.normals[v], m_facets[v]);
+  }
+
+  /// The smallest cosine between the normals of the star's triangles, with its centre at `p`, and
+  /// the surface's normals at their corners.
+  double agreement(const Star& star, const Vec3d& p, const Vec3d& normal) const
+  {
+    double least = 1;
+    for (const Star::Corner& c : star.corners) {
+      const Vec3d n = cross(c.a - p, c.b - p);
+      const double l = length(n);
+      if (!(l > 0)) return -1;
+      const double d =
+          std::min({dot(n, normal), dot(n, m.normals[c.vertex_a]), dot(n, m.normals[c.vertex_b])});
+      least = std::min(least, d / l);
+    }
+    return least;
+  }
+
+  Surface_guide::Place place(Vertex v) const { return {m.point(v), m.normals[v], m_facets[v]}; }
+
+  void move(Vertex v, const Surface_guide::Place& place)
+  {
+    set_point(v, place.point);
+    m.normals[v] = place.normal;
+    m_facets[v] = place.facet;
+  }
+
+  void set_point(Vertex v, const Vec3d& p) { m.mesh.point(v) = Working_mesh::Point(p.x, p.y, p.z); }
+
+  void write(Extracted_mesh& mesh) const
+  {
+    for (std::size_t v = 0; v < size(); ++v) mesh.points[v] = m.point(Vertex(Vertex::size_type(v)));
+    mesh.triangles.clear();
+    for (const auto f : m.mesh.faces()) {
+      const Halfedge h = m.mesh.halfedge(f);
+      mesh.triangles.push_back({int(m.mesh.source(h)), int(m.mesh.target(h)),
+                                int(m.mesh.target(m.mesh.next(h)))});
+    }
+  }
+
+private:
+  static Refined_surface refined(const Extracted_mesh& mesh, const Surface_guide&)
+  {
+    Refined_surface r;
+    r.points = mesh.points;
+    r.normals.assign(mesh.points.size(), {0, 0, 0});
+    r.samples.resize(mesh.points.size());
+    std::iota(r.samples.begin(), r.samples.end(), 0);
+    r.triangles = mesh.triangles;
+    return r;
+  }
+
+  const Surface_guide& m_guide;
+  Working_mesh m;
+  std::vector<int> m_facets; // by vertex: the surface's facet that carries it
+  std::vector<char> m_locked, m_movable;
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H

@@ -1,0 +1,76 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where a vertex of the improved mesh may be: points of the surface, found by projection onto the
+// facets whose normals agree with the vertex's (NVISPC: never onto another sheet).
+#ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_GUIDE_H
+#define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_GUIDE_H
+
+#include <CGAL/PowerRTF/engines/Facet_tree.h>
+#include <CGAL/PowerRTF/surface/Surface.h>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
+
+class Surface_guide
+{
+public:
+  /// A point of the surface.
+  struct Place {
+    Vec3d point, normal; ///< unit normal of the surface, interpolated in the facet
+    int facet = -1;
+  };
+
+  /// Keeps a reference to `surface`.
+  explicit Surface_guide(const Surface& surface)
+      : m_surface(surface), m_tree(surface.points, surface.triangles)
+  {
+  }
+
+  /// The nearest place to `p`.
+  Place nearest(const Vec3d& p) const { return place(m_tree.nearest(p)); }
+
+  /// The nearest place to `p` on the facets that agree with `normal`; its facet is -1 if there is
+  /// none. `hint`: a facet that is probably near, or -1.
+  Place project(const Vec3d& p, const Vec3d& normal, int hint) const
+  {
+    return place(nearest_facet(m_tree.view(), p, normal, largest_turn, hint));
+  }
+
+  const Surface& surface() const { return m_surface; }
+
+private:
+  static constexpr double largest_turn = -0.35; // cosine: about 110 degrees
+
+  Place place(const Surface_point<double>& nearest) const
+  {
+    Place result;
+    result.point = nearest.point;
+    result.facet = nearest.facet;
+    if (nearest.facet < 0) return result;
+    const Triangle& t = m_surface.triangles[nearest.facet];
+    double beta, gamma;
+    barycentric_coordinates(nearest.point, m_surface.points[t[0]], m_surface.points[t[1]],
+                            m_surface.points[t[2]], beta, gamma);
+    const auto& normals = m_surface.vertex_normals;
+    const Vec3d sum =
+        normals[t[0]] * (1 - beta - gamma) + normals[t[1]] * beta + normals[t[2]] * gamma;
+    const Vec3d& facet_normal = m_surface.facet_normals[nearest.facet];
+    // on a fold the vertices' normals may cancel out or point behind the facet
+    result.normal = dot(sum, facet_normal) > 0 ? normalized(sum) : facet_normal;
+    return result;
+  }
+
+  const Surface& m_surface;
+  Facet_tree m_tree;
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_GUIDE_H

@@ -1,0 +1,233 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Targeted optimisation of the few bad triangles that smoothing leaves: the vertices around them
+// search their tangent planes for places with less energy, and edges are flipped where that, with
+// the search after it, lowers the energy. The rest of the mesh stays as it is.
+#ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_MEND_STARS_H
+#define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_MEND_STARS_H
+
+#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
+
+class Star_mender
+{
+public:
+  using Vertex = Star_mesh::Vertex;
+  using Halfedge = Star_mesh::Halfedge;
+  using Edge = Star_mesh::Edge;
+  using Face = Working_mesh::Mesh::Face_index;
+
+  Star_mender(Star_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper) {}
+
+  /// At most `rounds` passes over the bad triangles. \returns how many are left.
+  std::size_t run(int rounds)
+  {
+    std::vector<Face> bad;
+    for (const Face f : m.working().mesh.faces())
+      if (badness(f) > 0) bad.push_back(f);
+    for (int round = 0; round < rounds && !bad.empty(); ++round) {
+      std::vector<Vertex> vertices;
+      for (const Face f : bad)
+        for (const Vertex v : vertices_around(f)) vertices.push_back(v);
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      for (const Vertex v : vertices) search(v);
+      if (round % 2 == 1)
+        for (const Face f : bad)
+          if (badness(f) > 0) flip_around(f);
+      std::vector<Face> left;
+      for (const Vertex v : vertices) // only what is around them has changed
+        for (const Face f : m.working().mesh.faces_around_target(m.working().mesh.halfedge(v)))
+          if (f.is_valid() && f != Working_mesh::Mesh::null_face() && badness(f) > 0)
+            left.push_back(f);
+      std::sort(left.begin(), left.end());
+      left.erase(std::unique(left.begin(), left.end()), left.end());
+      bad.swap(left);
+    }
+    return bad.size();
+  }
+
+private:
+  static constexpr double foldless = 0.5;   // least agreement of a star that had more
+  static constexpr double first_step = 0.2; // in edges of the star
+  static constexpr int halvings = 4;
+  static constexpr int max_steps = 12;
+
+  using Vertices = boost::container::small_vector<Vertex, 16>;
+
+  Vertices vertices_around(Face f) const
+  {
+    const auto& mesh = m.working().mesh;
+    Vertices result;
+    Halfedge h = mesh.halfedge(f);
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      for (const Halfedge g : halfedges_around_target(h, mesh)) result.push_back(mesh.source(g));
+      result.push_back(mesh.target(h));
+    }
+    return result;
+  }
+
+  double badness(Face f) const
+  {
+    const auto& mesh = m.working().mesh;
+    const Halfedge h = mesh.halfedge(f);
+    return triangle_badness(m.point(mesh.source(h)), m.point(mesh.target(h)),
+                            m.point(mesh.target(mesh.next(h))))
+        .badness;
+  }
+
+  static double energy(const Star& star, const Vec3d& p)
+  {
+    double sum = 0;
+    for (const Star::Corner& c : star.corners) sum += triangle_badness(p, c.a, c.b).energy();
+    return sum;
+  }
+
+  // Looks for a place of less energy in eight directions, with shorter and shorter steps.
+  bool search(Vertex v)
+  {
+    if (!m.is_movable(v)) return false;
+    const Star star = m.star(v);
+    const Vec3d p = m.point(v), n = m.normal(v);
+    const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
+                w = cross(n, u);
+    double size = 0;
+    for (const Star::Corner& c : star.corners) size += length(c.a - p);
+    double step = first_step * size / double(star.corners.size());
+    const double start = energy(star, p);
+    double least = start, su = 0, sw = 0;
+    constexpr double d = 0.7071067811865476;
+    constexpr double directions[8][2] = {{1, 0}, {d, d},   {0, 1},  {-d, d},
+                                         {-1, 0}, {-d, -d}, {0, -1}, {d, -d}};
+    int halved = 0;
+    for (int i = 0; i < max_steps && halved < halvings; ++i) {
+      int best = -1;
+      for (int k = 0; k < 8; ++k) {
+        const double e =
+            energy(star, p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w);
+        if (e < least) least = e, best = k;
+      }
+      if (best >= 0) {
+        su += step * directions[best][0];
+        sw += step * directions[best][1];
+      } else {
+        step /= 2;
+        ++halved;
+      }
+    }
+    if (!(least < start)) return false;
+    const auto place = m.project(v, p + su * u + sw * w);
+    if (place.facet < 0 || !(energy(star, place.point) < start)) return false;
+    if (m.agreement(star, place.point, place.normal) < std::min(foldless, m.agreement(star, p, n)))
+      return false;
+    m.move(v, place);
+    return true;
+  }
+
+  // Tries the edges of a bad triangle, and those opposite to its corners.
+  void flip_around(Face f)
+  {
+    const auto& mesh = m.working().mesh;
+    boost::container::small_vector<Edge, 24> edges;
+    Halfedge h = mesh.halfedge(f);
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) edges.push_back(mesh.edge(h));
+    for (int k = 0; k < 3; ++k, h = mesh.next(h))
+      for (const Halfedge g : halfedges_around_target(h, mesh))
+        if (std::find(edges.begin(), edges.end(), mesh.edge(g)) == edges.end())
+          edges.push_back(mesh.edge(g));
+    for (const Edge e : edges)
+      if (flip_if_better(e) && mesh.is_valid(f) && !(badness(f) > 0)) return;
+  }
+
+  struct Corner_state {
+    Vertex vertex;
+    Surface_guide::Place place;
+  };
+
+  bool flip_if_better(Edge e)
+  {
+    auto& mesh = m.working().mesh;
+    if (!m.is_free(e) || !m_flipper.is_legal(e)) return false;
+    const Halfedge h = mesh.halfedge(e), o = mesh.opposite(h);
+    const std::array<Vertex, 4> corners{mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)),
+                                        mesh.target(mesh.next(o))};
+    // a vertex of valence 3 or 4 cannot lose an edge; one of valence 8 is to get no more
+    const auto valence = [&](int k) { return int(mesh.degree(corners[k])); };
+    if (valence(0) < 5 || valence(1) < 5 || valence(2) > 7 || valence(3) > 7) return false;
+    std::array<Surface_guide::Place, 4> before;
+    for (int k = 0; k < 4; ++k) before[k] = m.place(corners[k]);
+    const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);
+    m_flipper.flip(e);
+    for (int pass = 0; pass < 2; ++pass)
+      for (const Vertex v : corners) search(v);
+    if (patch_energy(corners) < energy_before &&
+        patch_agreement(corners) >= std::min(foldless, agreement))
+      return true;
+    m_flipper.flip(e);
+    for (int k = 0; k < 4; ++k) m.move(corners[k], before[k]);
+    return false;
+  }
+
+  boost::container::small_vector<Face, 32> patch(const std::array<Vertex, 4>& corners) const
+  {
+    const auto& mesh = m.working().mesh;
+    boost::container::small_vector<Face, 32> faces;
+    for (const Vertex v : corners)
+      for (const Halfedge h : halfedges_around_target(v, mesh))
+        if (!mesh.is_border(h)) faces.push_back(mesh.face(h));
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+
+  double patch_energy(const std::array<Vertex, 4>& corners) const
+  {
+    const auto& mesh = m.working().mesh;
+    double sum = 0;
+    for (const Face f : patch(corners)) {
+      const Halfedge h = mesh.halfedge(f);
+      sum += triangle_badness(m.point(mesh.source(h)), m.point(mesh.target(h)),
+                              m.point(mesh.target(mesh.next(h))))
+                 .energy();
+    }
+    return sum;
+  }
+
+  double patch_agreement(const std::array<Vertex, 4>& corners)
+  {
+    const auto& mesh = m.working().mesh;
+    double least = 1;
+    for (const Face f : patch(corners)) {
+      const Halfedge h = mesh.halfedge(f);
+      least = std::min(least, m.working().agreement(mesh.source(h), mesh.target(h),
+                                                    mesh.target(mesh.next(h))));
+    }
+    return least;
+  }
+
+  Star_mesh& m;
+  Edge_flipper& m_flipper;
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_MEND_STARS_H

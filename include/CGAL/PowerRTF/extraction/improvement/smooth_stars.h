@@ -1,0 +1,106 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Smoothing of all stars: each vertex in turn makes a Newton step in its tangent plane on the sum of
+// the inverse mean ratios L^2 / (4 sqrt(3) A) of its triangles (1: equilateral), and goes back to
+// the surface. (Freitag and Knupp, "Tetrahedral mesh improvement via optimization of the element
+// condition number", 2002, for triangles.)
+#ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H
+#define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H
+
+#include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
+
+class Star_smoother
+{
+public:
+  using Vertex = Star_mesh::Vertex;
+
+  explicit Star_smoother(Star_mesh& mesh) : m(mesh) {}
+
+  /// One step of every movable vertex.
+  void sweep()
+  {
+    for (const Vertex v : m.working().mesh.vertices())
+      if (m.is_movable(v)) step(v);
+  }
+
+private:
+  // A star on a strongly curved part stands for features that smoothing would slide off.
+  static constexpr double flat = 0.75; // least cosine of the normals of neighbours
+  static constexpr double reach = 0.25; // longest step, in edges of the star
+
+  // Sum of the inverse mean ratios, up to the factor 1 / (2 sqrt(3)).
+  static double energy(const Star& star, const Vec3d& p)
+  {
+    double sum = 0;
+    for (const Star::Corner& c : star.corners) {
+      const Vec3d e = c.a - p, f = c.b - p;
+      const double twice_area = length(cross(e, f));
+      if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+      sum += (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
+    }
+    return sum;
+  }
+
+  void step(Vertex v)
+  {
+    const Star star = m.star(v);
+    const Vec3d p = m.point(v), n = m.normal(v);
+    const double agreement = m.agreement(star, p, n);
+    const double least = std::min(flat, agreement);
+
+    // gradient and Hessian in the plane (u, w); areas are linear there but for the curvature
+    const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
+                w = cross(n, u);
+    double gu = 0, gw = 0, huu = 0, huw = 0, hww = 0, shortest = -1;
+    for (const Star::Corner& c : star.corners) {
+      const Vec3d e = c.a - p, f = c.b - p, area = cross(e, f);
+      const double a = length(area), ee = squared_length(e), ff = squared_length(f),
+                   l = ee + ff + squared_length(f - e);
+      if (!(a > 0)) return;
+      if (shortest < 0 || ee < shortest) shortest = ee;
+      const Vec3d dl = -2 * (e + f), da = cross(area, e - f) * (1 / a);
+      const double lu = dot(dl, u), lw = dot(dl, w), au = dot(da, u), aw = dot(da, w), i = 1 / a,
+                   i2 = i * i, i3 = 2 * l * i2 * i;
+      gu += lu * i - l * au * i2;
+      gw += lw * i - l * aw * i2;
+      huu += 4 * i - 2 * lu * au * i2 + i3 * au * au;
+      huw += -(lu * aw + lw * au) * i2 + i3 * au * aw;
+      hww += 4 * i - 2 * lw * aw * i2 + i3 * aw * aw;
+    }
+    const double determinant = huu * hww - huw * huw;
+    if (!(determinant > 0) || !(huu > 0)) return;
+    double su = -(hww * gu - huw * gw) / determinant, sw = -(huu * gw - huw * gu) / determinant;
+    const double size = std::sqrt(su * su + sw * sw), limit = reach * std::sqrt(shortest);
+    if (!(size > 0)) return;
+    if (size > limit) su *= limit / size, sw *= limit / size;
+
+    const double now = energy(star, p);
+    for (int halving = 0; halving < 3; ++halving, su /= 2, sw /= 2) {
+      const auto place = m.project(v, p + su * u + sw * w);
+      if (place.facet < 0 || !(energy(star, place.point) < now)) continue;
+      if (m.agreement(star, place.point, place.normal) < least) continue;
+      m.move(v, place);
+      return;
+    }
+  }
+
+  Star_mesh& m;
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H

@@ -1,0 +1,68 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far a triangle is from acceptable: 0 as soon as its quality and angles are good, so that only
+// bad triangles pull.
+#ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_TRIANGLE_BADNESS_H
+#define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_TRIANGLE_BADNESS_H
+
+#include <CGAL/PowerRTF/cells/vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
+
+struct Triangle_badness {
+  double badness = 0;            ///< 0 for a triangle that is good enough
+  double inverse_mean_ratio = 1; ///< 1: equilateral
+
+  /// What the search lowers: badness first, then the shape of all.
+  double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }
+};
+
+/// 4 (.77 - Q)+^2 + 4 ((42 - theta_min) / 60)+^2 + 8 ((theta_max - 86) / 60)+^2, Q as in
+/// triangle_quality.h, angles in degrees.
+inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+  constexpr double quality = 0.77, smallest = 42, largest = 86, degrees = 57.29577951308232;
+  constexpr double cos_smallest = 0.7431448254773942, cos_largest = 0.0697564737441253;
+  Triangle_badness result;
+  const Vec3d ab = b - a, ac = c - a;
+  const double twice_area = length(cross(ab, ac));
+  double s[3] = {squared_length(ab), squared_length(ac), squared_length(c - b)};
+  if (!(twice_area > 0)) {
+    result.badness = result.inverse_mean_ratio = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  if (s[0] > s[1]) std::swap(s[0], s[1]);
+  if (s[1] > s[2]) std::swap(s[1], s[2]);
+  if (s[0] > s[1]) std::swap(s[0], s[1]);
+  const double l0 = std::sqrt(s[0]), l1 = std::sqrt(s[1]), l2 = std::sqrt(s[2]);
+  const double q = 2 * 1.7320508075688772 * twice_area / ((l0 + l1 + l2) * l2);
+  result.inverse_mean_ratio = (s[0] + s[1] + s[2]) / (2 * 1.7320508075688772 * twice_area);
+  if (q < quality) result.badness += 4 * (quality - q) * (quality - q);
+  const double cos_min = (s[1] + s[2] - s[0]) / (2 * l1 * l2),
+               cos_max = (s[0] + s[1] - s[2]) / (2 * l0 * l1);
+  if (cos_min > cos_smallest) {
+    const double x = (smallest - std::acos(std::min(1., cos_min)) * degrees) / 60;
+    result.badness += 4 * x * x;
+  }
+  if (cos_max < cos_largest) {
+    const double x = (std::acos(std::max(-1., cos_max)) * degrees - largest) / 60;
+    result.badness += 8 * x * x;
+  }
+  return result;
+}
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_TRIANGLE_BADNESS_H

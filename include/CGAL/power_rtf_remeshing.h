@@ -1,0 +1,226 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The package's free function: a mesh and a number of samples in, a mesh on these samples out.
+#ifndef CGAL_POWER_RTF_REMESHING_H
+#define CGAL_POWER_RTF_REMESHING_H
+
+#include <CGAL/PowerRTF/extraction/export_mesh.h>
+#include <CGAL/PowerRTF/named_parameters.h>
+#include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF_remesher.h>
+
+#include <CGAL/Kernel_traits.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL
+{
+
+namespace PowerRTF
+{
+namespace internal
+{
+
+/// What named parameters say about the options; a parameter of its own wins over `options`.
+template <class NamedParameters>
+Remeshing_options options_of(std::size_t number_of_samples, const NamedParameters& np)
+{
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
+  Remeshing_options options =
+      choose_parameter(get_parameter(np, remeshing_options_t()), Remeshing_options());
+  options.number_of_samples = number_of_samples;
+  options.random_seed =
+      choose_parameter(get_parameter(np, internal_np::random_seed), options.random_seed);
+  options.max_iterations =
+      choose_parameter(get_parameter(np, internal_np::number_of_iterations), options.max_iterations);
+  return options;
+}
+
+/// Imports `mesh` and sets the density that `np` or `options` asks for.
+template <class FaceGraph, class NamedParameters>
+Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
+                   const NamedParameters& np, Repair_counts& repairs)
+{
+  Surface surface = import_surface(mesh, np, repairs);
+  const auto map = CGAL::parameters::get_parameter(np, density_map_t());
+  if constexpr (std::is_same<std::decay_t<decltype(map)>, internal_np::Param_not_found>::value) {
+    set_density(surface, options);
+  } else {
+    std::vector<double> densities;
+    densities.reserve(num_vertices(mesh));
+    for (const auto v : vertices(mesh)) densities.push_back(CGAL::to_double(get(map, v)));
+    set_density(surface, options, densities);
+  }
+  return surface;
+}
+
+} // namespace internal
+} // namespace PowerRTF
+
+/*!
+ * \ingroup PkgPowerRTFRef
+ *
+ * \brief remeshes a surface with `number_of_samples` well-distributed vertices.
+ *
+ * The samples are distributed by the power diagram restricted to their tangent planes, as dense as
+ * the curvature of the input (or a density of the user's own, or uniformly), and triangulated with
+ * the topology of the input.
+ *
+ * \tparam ConcurrencyTag enables sequential versus parallel algorithm. Possible values are
+ *                        `Sequential_tag`, `Parallel_tag`, and `Parallel_if_available_tag`. The
+ *                        result is the same bit for bit.
+ * \tparam InputMesh a model of `FaceListGraph`
+ * \tparam OutputMesh a model of `MutableFaceGraph`
+ * \tparam NamedParametersIn a sequence of \ref bgl_namedparameters "Named Parameters"
+ * \tparam NamedParametersOut a sequence of \ref bgl_namedparameters "Named Parameters"
+ *
+ * \param input the surface: a 2-manifold, with or without borders, of one or several components.
+ *              Facets with more than three sides are triangulated; facets without area and
+ *              isolated vertices are ignored.
+ * \param number_of_samples the number of vertices asked for, at least 4
+ * \param output the result. What it held before is removed; property maps added to a
+ *               `Surface_mesh` stay. Its vertices come in the order of the samples. It may be the
+ *               same object as `input`.
+ * \param np_in an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones
+ *              listed below. Those of this package, in the namespace `PowerRTF::parameters`, come
+ *              first in a sequence: `PowerRTF::parameters::density_map(map).random_seed(3)`.
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `input`}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with
+ *                    `boost::graph_traits<InputMesh>::%vertex_descriptor` as key type and a point
+ *                    type with members `x()`, `y()` and `z()` as value type}
+ *     \cgalParamDefault{`boost::get(CGAL::vertex_point, input)`}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{PowerRTF::parameters::density_map}
+ *     \cgalParamDescription{a property map associating densities to the vertices of `input`. Only
+ *                           their ratios matter: where the density is 4 times as high, the samples
+ *                           are twice as close.}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with
+ *                    `boost::graph_traits<InputMesh>::%vertex_descriptor` as key type and a
+ *                    positive number as value type}
+ *     \cgalParamDefault{the density that `PowerRTF::Remeshing_options::density` names}
+ *     \cgalParamExtra{Its growth is limited by `PowerRTF::Remeshing_options::gradation`.}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{PowerRTF::parameters::remeshing_options}
+ *     \cgalParamDescription{all parameters of the method; the preset of the paper is
+ *                           `PowerRTF::Remeshing_options::paper_preset()`}
+ *     \cgalParamType{`PowerRTF::Remeshing_options`}
+ *     \cgalParamDefault{`PowerRTF::Remeshing_options()`, the preset `quality`}
+ *     \cgalParamExtra{Its `number_of_samples` is not used.}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{random_seed}
+ *     \cgalParamDescription{the seed of the initial sampling. The same seed gives the same result.}
+ *     \cgalParamType{`unsigned int`}
+ *     \cgalParamDefault{`PowerRTF::Remeshing_options::random_seed`, 0}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{number_of_iterations}
+ *     \cgalParamDescription{the largest number of position steps}
+ *     \cgalParamType{`int`}
+ *     \cgalParamDefault{`PowerRTF::Remeshing_options::max_iterations`, 100}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{visitor}
+ *     \cgalParamDescription{is told about stages and iterations, and may stop the run}
+ *     \cgalParamType{a class with the members of `PowerRTF::Remeshing_default_visitor`, or a
+ *                    `std::reference_wrapper` to one: it keeps what it has seen}
+ *     \cgalParamDefault{`PowerRTF::Remeshing_default_visitor`}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{geom_traits}
+ *     \cgalParamDescription{an instance of a geometric traits class; it names the engine}
+ *     \cgalParamType{a class model of `PowerRTFTraits_3`}
+ *     \cgalParamDefault{`PowerRTF_traits_3<Kernel, ConcurrencyTag>`, with a \cgal kernel deduced
+ *                       from the point type of `input`}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
+ *
+ * \param np_out an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones
+ *               listed below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{a property map associating points to the vertices of `output`}
+ *     \cgalParamType{a class model of `WritablePropertyMap` with
+ *                    `boost::graph_traits<OutputMesh>::%vertex_descriptor` as key type and a point
+ *                    type that is constructible from three coordinates as value type}
+ *     \cgalParamDefault{`boost::get(CGAL::vertex_point, output)`}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
+ *
+ * \returns what was done and what the result is worth. `missed_guarantees()` is empty when the
+ *          result has exactly the vertices asked for, is a 2-manifold with the components, borders
+ *          and Euler characteristic of the input and does not intersect itself. When the visitor
+ *          stopped the run, `cancelled` is `true` and `output` is as it was.
+ *
+ * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not
+ *         finite or is no 2-manifold; a density is not a positive, finite number; fewer than 4
+ *         samples are asked for; an option has no meaning. `output` is as it was.
+ */
+template <class ConcurrencyTag = Parallel_if_available_tag, class InputMesh, class OutputMesh,
+          class NamedParametersIn = parameters::Default_named_parameters,
+          class NamedParametersOut = parameters::Default_named_parameters>
+PowerRTF::Remeshing_report
+power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, OutputMesh& output,
+                    const NamedParametersIn& np_in = parameters::default_values(),
+                    const NamedParametersOut& np_out = parameters::default_values())
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter_reference;
+  using PowerRTF::internal::Stopwatch;
+  using Point_map = typename GetVertexPointMap<InputMesh, NamedParametersIn>::const_type;
+  using Kernel = typename Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  using Traits = typename internal_np::Lookup_named_param_def<
+      internal_np::geom_traits_t, NamedParametersIn,
+      PowerRTF_traits_3<Kernel, ConcurrencyTag>>::type;
+  using Default_visitor = PowerRTF::Remeshing_default_visitor;
+  using Visitor =
+      typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParametersIn,
+                                                   Default_visitor>::reference;
+
+  Default_visitor default_visitor;
+  Visitor visitor =
+      choose_parameter(get_parameter_reference(np_in, internal_np::visitor), default_visitor);
+  const PowerRTF::Remeshing_options options =
+      PowerRTF::internal::options_of(number_of_samples, np_in);
+
+  PowerRTF::Remeshing_report report;
+  PowerRTF::Repair_counts repairs;
+  PowerRTF::Stage_seconds seconds;
+  {
+    Stopwatch total(seconds.total);
+    PowerRTF::Surface surface;
+    {
+      Stopwatch watch(seconds.surface);
+      visitor.on_stage("surface");
+      surface = PowerRTF::internal::surface_of(input, options, np_in, repairs);
+    }
+    PowerRTF_remesher<Traits> remesher(std::move(surface), options);
+    if (remesher.optimize(visitor)) {
+      const PowerRTF::Extracted_mesh mesh = remesher.extract(visitor);
+      Stopwatch watch(seconds.write);
+      PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
+    }
+    report = remesher.report();
+  }
+  report.repairs = repairs;
+  report.seconds.surface = seconds.surface;
+  report.seconds.write = seconds.write;
+  report.seconds.total = seconds.total;
+  return report;
+}
+
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_REMESHING_H
