@@ -48,6 +48,9 @@ struct Remeshing_options {
   // Cells (Algorithm 1)
   int neighbors = 32;        ///< k: samples in the first neighbour search; enlarged until complete
   double normal_angle = 140; ///< Theta, degrees: larger angles make two samples incompatible (NVISPC)
+  /// Fast CPU engine: cells whose neighbours the floating-point filter cannot prove are constructed
+  /// again by the oracle, so that all cells have the neighbours of the exact traits.
+  bool certified_combinatorics = false;
 
   // Positions (Algorithm 3)
   Position_method position_method = Position_method::lbfgs;

@@ -14,6 +14,13 @@
 namespace CGAL {
 namespace PowerRTF {
 
+namespace internal {
+template <class FT>
+CGAL_POWER_RTF_HD inline FT larger(FT a, FT b) { return a > b ? a : b; }
+template <class FT>
+CGAL_POWER_RTF_HD inline FT smaller(FT a, FT b) { return a < b ? a : b; }
+} // namespace internal
+
 /// An axis-aligned box.
 template <class FT>
 struct Box3 {
@@ -22,39 +29,34 @@ struct Box3 {
   CGAL_POWER_RTF_HD void add(const Vec3<FT>& p) { add(Box3{p, p}); }
   CGAL_POWER_RTF_HD void add(const Box3& b)
   {
-    if (b.lo.x < lo.x) lo.x = b.lo.x;
-    if (b.lo.y < lo.y) lo.y = b.lo.y;
-    if (b.lo.z < lo.z) lo.z = b.lo.z;
-    if (b.hi.x > hi.x) hi.x = b.hi.x;
-    if (b.hi.y > hi.y) hi.y = b.hi.y;
-    if (b.hi.z > hi.z) hi.z = b.hi.z;
+    lo = {internal::smaller(b.lo.x, lo.x), internal::smaller(b.lo.y, lo.y),
+          internal::smaller(b.lo.z, lo.z)};
+    hi = {internal::larger(b.hi.x, hi.x), internal::larger(b.hi.y, hi.y),
+          internal::larger(b.hi.z, hi.z)};
   }
 };
-
-namespace internal {
-template <class FT>
-CGAL_POWER_RTF_HD inline FT gap(FT alo, FT ahi, FT blo, FT bhi)
-{
-  const FT below = blo - ahi, above = alo - bhi;
-  const FT g = below > above ? below : above;
-  return g > 0 ? g : FT(0);
-}
-} // namespace internal
 
 /// Squared distance of two boxes; 0 where they overlap.
 template <class FT>
 CGAL_POWER_RTF_HD inline FT squared_distance(const Box3<FT>& a, const Box3<FT>& b)
 {
-  const FT dx = internal::gap(a.lo.x, a.hi.x, b.lo.x, b.hi.x);
-  const FT dy = internal::gap(a.lo.y, a.hi.y, b.lo.y, b.hi.y);
-  const FT dz = internal::gap(a.lo.z, a.hi.z, b.lo.z, b.hi.z);
+  using internal::larger;
+  const FT dx = larger(larger(b.lo.x - a.hi.x, a.lo.x - b.hi.x), FT(0));
+  const FT dy = larger(larger(b.lo.y - a.hi.y, a.lo.y - b.hi.y), FT(0));
+  const FT dz = larger(larger(b.lo.z - a.hi.z, a.lo.z - b.hi.z), FT(0));
   return dx * dx + dy * dy + dz * dz;
 }
 
 /// Squared distance of a box and a point; 0 inside.
 template <class FT>
-CGAL_POWER_RTF_HD inline FT squared_distance(const Box3<FT>& a, const Vec3<FT>& p)
-{ return squared_distance(a, Box3<FT>{p, p}); }
+CGAL_POWER_RTF_HD inline FT squared_distance(const Box3<FT>& b, const Vec3<FT>& p)
+{
+  using internal::larger; // one instruction each: a branch would be guessed wrong half of the time
+  const FT dx = larger(larger(b.lo.x - p.x, p.x - b.hi.x), FT(0));
+  const FT dy = larger(larger(b.lo.y - p.y, p.y - b.hi.y), FT(0));
+  const FT dz = larger(larger(b.lo.z - p.z, p.z - b.hi.z), FT(0));
+  return dx * dx + dy * dy + dz * dz;
+}
 
 /// The shape of a packed tree over `items` items: how its nodes lie in one array.
 struct Packed_tree_layout {

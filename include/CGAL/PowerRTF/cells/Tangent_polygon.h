@@ -31,6 +31,7 @@ struct Tangent_frame {
 /// neighbour that made it, or -1 .. -4 for a side of the initial square.
 template <class FT>
 struct Tangent_polygon {
+  using Number = FT;
   static constexpr int capacity = 64;
 
   int size = 0;
@@ -79,13 +80,16 @@ struct Tangent_polygon {
 template <class FT>
 CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
 {
-  FT s[capacity]; // > 0: outside
-  int worst = 0;
+  FT s[capacity], largest = 0; // > 0: outside
+  int worst = -1;
   for (int k = 0; k < size; ++k) {
     s[k] = a * x[k] + b * y[k] - c;
-    if (s[k] > s[worst]) worst = k;
+    if (s[k] > largest) {
+      largest = s[k];
+      worst = k;
+    }
   }
-  if (size == 0 || !(s[worst] > 0)) return false;
+  if (worst < 0) return false;
 
   // The removed vertices form one chain around the worst one (taken so even where rounding says
   // otherwise: the polygon stays a polygon).

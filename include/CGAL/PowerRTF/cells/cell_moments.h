@@ -19,10 +19,10 @@ struct Cell_moments {
 
 /// Moments of cell `i` for the density that is linear on each triangle of the fan around the site.
 /// The density at a polygon vertex is the geometric mean of its three sites' densities;
-/// `root(j)` is the cube root of the density of site `j`.
-template <class FT, class Root>
-CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Tangent_polygon<FT>& polygon, int i,
-                                                       Root&& root)
+/// `root(j)` is the cube root of the density of site `j`. `Polygon`: `Tangent_polygon`, or another
+/// with its members `Number`, `size`, `x`, `y`, `neighbor` and `next()`.
+template <class Polygon, class Root, class FT = typename Polygon::Number>
+CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Polygon& polygon, int i, Root&& root)
 {
   Cell_moments<FT> m;
   const int n = polygon.size;
@@ -55,8 +55,8 @@ CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Tangent_polygon<FT>
 }
 
 /// Moments for the constant density 1.
-template <class FT>
-CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Tangent_polygon<FT>& polygon)
+template <class Polygon, class FT = typename Polygon::Number>
+CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Polygon& polygon)
 { return cell_moments(polygon, 0, [](int) { return FT(1); }); }
 
 } // namespace PowerRTF

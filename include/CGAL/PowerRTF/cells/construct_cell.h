@@ -7,6 +7,7 @@
 #ifndef CGAL_POWER_RTF_CELLS_CONSTRUCT_CELL_H
 #define CGAL_POWER_RTF_CELLS_CONSTRUCT_CELL_H
 
+#include <CGAL/PowerRTF/cells/Polygon_certificate.h>
 #include <CGAL/PowerRTF/cells/Sites_view.h>
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
 
@@ -20,8 +21,9 @@ enum class Cell_status : unsigned char {
   incomplete ///< more vertices than a polygon can hold
 };
 
-/// Gathers half-planes and clips them by increasing distance.
-template <class FT>
+/// Gathers half-planes and clips them by increasing distance. `Filtered`: what is left out is left
+/// out with a margin, so that `is_certain()` can answer.
+template <class FT, bool Filtered = false>
 class Cell_clipper {
 public:
   /// Starts cell `i` from a square of half-size `radius`. `cos_angle`: cosine of Theta; neighbours
@@ -44,11 +46,21 @@ public:
     if (d2 < m_nearest2) m_nearest2 = d2;
     const FT power = d2 + m_site.weight - other.weight;
     // (power / 2d > R): the plane passes outside the radius.
-    if (power > 0 && power * power > 4 * d2 * m_radius * m_radius) return;
+    const bool is_far = power > 0 && power * power > 4 * d2 * m_radius * m_radius;
+    if constexpr (Filtered) {
+      if (is_far && power * power > 4 * d2 * m_radius * m_radius * FT(1.000001) &&
+          is_large(power, d2, other.weight))
+        return;
+    } else if (is_far) {
+      return;
+    }
     if (m_cos_angle > -1 && !(dot(m_normal, m_view.normals[j]) > m_cos_angle)) return;
     const FT a = dot(offset, m_frame.u), b = dot(offset, m_frame.v), t2 = a * a + b * b;
     if (!(t2 > 0)) { // a plane parallel to the tangent plane, or a duplicate: the first one stays
       if (power < 0 || (power == 0 && d2 == 0 && j < m_i)) m_polygon.size = 0;
+      if constexpr (Filtered)
+        if (!is_large(power - std::sqrt(d2) * m_radius * FT(1e-8), d2, other.weight))
+          m_doubtful = true;
       return;
     }
     if (m_size == buffer_capacity) flush();
@@ -68,6 +80,12 @@ public:
     return m_polygon.size == 0 ||
            (m_polygon.squared_radius() <= m_radius * m_radius && !m_polygon.touches_square());
   }
+
+  /// Whether the polygon of `finish()`, complete, is proved to have the exact cycle of neighbours.
+  CGAL_POWER_RTF_HD bool is_certain() const;
+
+  /// Whether the buffer has been emptied more than once: then nothing is certain.
+  CGAL_POWER_RTF_HD bool has_overflown() const { return m_flushes > 1; }
 
   CGAL_POWER_RTF_HD const Tangent_polygon<FT>& polygon() const { return m_polygon; }
   CGAL_POWER_RTF_HD const Tangent_frame<FT>& frame() const { return m_frame; }
@@ -97,7 +115,16 @@ private:
       if (h.distance > 0 && h.distance * h.distance > radius2) break;
       if (m_polygon.clip(h.a, h.b, h.c, h.neighbor)) radius2 = m_polygon.squared_radius();
     }
+    m_last_size = m_size;
     m_size = 0;
+    ++m_flushes;
+  }
+
+  /// Whether twice a line's offset is far above its rounding error.
+  CGAL_POWER_RTF_HD bool is_large(FT power, FT d2, FT weight) const
+  {
+    const FT w_i = m_site.weight;
+    return power > FT(1e-8) * (d2 + (w_i < 0 ? -w_i : w_i) + (weight < 0 ? -weight : weight));
   }
 
   CGAL_POWER_RTF_HD static bool before(const Half_plane& g, const Half_plane& h)
@@ -112,8 +139,45 @@ private:
   FT m_nearest2 = FT(1e30);
   Tangent_polygon<FT> m_polygon;
   Half_plane m_buffer[buffer_capacity];
-  int m_size = 0;
+  int m_size = 0, m_last_size = 0, m_flushes = 0;
+  bool m_doubtful = false; // a plane parallel to the tangent plane is too near
 };
+
+template <class FT, bool Filtered>
+CGAL_POWER_RTF_HD inline bool Cell_clipper<FT, Filtered>::is_certain() const
+{
+  static_assert(Filtered, "the lines left out must be left out with a margin");
+  if (m_flushes > 1 || m_doubtful || m_polygon.size < 3) return false;
+  Polygon_certificate<FT> certificate(m_normal, m_frame);
+  if (!certificate.is_frame_usable()) return false;
+  int edge[buffer_capacity]; // of the polygon, made by line k; -1: none
+  int line[Tangent_polygon<FT>::capacity];
+  for (int k = 0; k < m_last_size; ++k) edge[k] = -1;
+  for (int e = 0; e < m_polygon.size; ++e) {
+    int k = 0;
+    while (k < m_last_size && m_buffer[k].neighbor != m_polygon.neighbor[e]) ++k;
+    if (k == m_last_size || edge[k] >= 0) return false;
+    edge[k] = e;
+    line[e] = k;
+  }
+  const auto rounded = [&](int k) {
+    const Half_plane& h = m_buffer[k];
+    const Site<FT>& other = m_view.sites[h.neighbor];
+    return Polygon_certificate<FT>::line(h.a, h.b, h.c, squared_length(other.point - m_site.point),
+                                         m_site.weight, other.weight);
+  };
+  auto here = rounded(line[0]);
+  const auto first = here;
+  for (int e = 0; e < m_polygon.size; ++e) {
+    const auto next = e + 1 < m_polygon.size ? rounded(line[e + 1]) : first;
+    if (!certificate.add_vertex(here, next)) return false;
+    here = next;
+  }
+  if (!(certificate.radius() * FT(1.000002) < m_radius)) return false;
+  for (int k = 0; k < m_last_size; ++k)
+    if (!certificate.is_outside_polygon(rounded(k), edge[k])) return false;
+  return true;
+}
 
 /// A cell whose farthest vertex lies beyond this many distances to the 6th neighbour is guarded.
 template <class FT> CGAL_POWER_RTF_HD constexpr FT guard_factor() { return 3; }
@@ -123,7 +187,10 @@ template <class FT> CGAL_POWER_RTF_HD constexpr FT guard_factor() { return 3; }
 /// `radius` is the first guess of R; `candidates(radius, f)` calls `f(j)` for a superset of the
 /// sites that can cut a cell of that radius. The result does not depend on the guess: the radius
 /// grows until the cell is complete or is known to exceed the guard radius.
-template <class FT, class Candidates, class Sink>
+///
+/// `Filtered`: `sink(i, status, polygon, frame, certain)`; `certain` when the status and the cycle
+/// of neighbours are proved to be the exact ones.
+template <bool Filtered = false, class FT, class Candidates, class Sink>
 CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, FT radius,
                                              FT cos_angle, Candidates&& candidates, Sink&& sink)
 {
@@ -132,33 +199,50 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
     if (guard < 0) guard = guard_factor<FT>() * distance_to_neighbor(view, i, 6);
     return guard;
   };
-  for (;;) {
-    Cell_clipper<FT> clipper(view, i, radius, cos_angle);
+  const auto deliver = [&](Cell_status status, const auto& clipper, bool certain) {
+    if constexpr (Filtered) sink(i, status, clipper.polygon(), clipper.frame(), certain);
+    else sink(i, status, clipper.polygon(), clipper.frame());
+    (void)certain;
+  };
+  for (bool again = true;;) {
+    Cell_clipper<FT, Filtered> clipper(view, i, radius, cos_angle);
     candidates(radius, [&](int j) { clipper.add(j); });
     const Tangent_polygon<FT>& polygon = clipper.finish();
-    if (polygon.size == 0) return sink(i, Cell_status::empty, polygon, clipper.frame());
-    if (polygon.overflow) return sink(i, Cell_status::incomplete, polygon, clipper.frame());
-    const FT r2 = polygon.squared_radius();
-    if (clipper.is_complete()) {
-      const FT f = guard_factor<FT>();
+    if (polygon.overflow) return deliver(Cell_status::incomplete, clipper, false);
+    if (polygon.size > 0 && clipper.is_complete()) {
+      const FT r2 = polygon.squared_radius(), f = guard_factor<FT>();
       // The 6th neighbour is no nearer than the nearest one.
-      if (r2 <= f * f * clipper.squared_nearest() || r2 <= guard_radius() * guard_radius())
-        return sink(i, Cell_status::ok, polygon, clipper.frame());
+      const bool is_small = r2 <= f * f * clipper.squared_nearest();
+      if (!is_small && r2 > guard_radius() * guard_radius()) break;
+      bool certain = false;
+      if constexpr (Filtered) {
+        if (again && clipper.has_overflown()) { // fewer candidates
+          again = false;
+          radius = FT(1.1) * std::sqrt(r2);
+          continue;
+        }
+        certain = clipper.is_certain() &&
+                  (is_small ? r2 <= f * f * clipper.squared_nearest() * (1 - FT(1e-9))
+                            : r2 <= guard_radius() * guard_radius() * (1 - FT(1e-9)));
+      }
+      return deliver(Cell_status::ok, clipper, certain);
+    }
+    if (radius >= guard_radius()) { // R > guard radius, or nothing within it
+      if (polygon.size == 0) return deliver(Cell_status::empty, clipper, false);
       break;
     }
-    if (radius >= guard_radius()) break; // R > guard radius
     radius = 2 * radius < guard_radius() ? 2 * radius : guard_radius();
   }
 
   // Guarded: all neighbours count, whatever their normals, within the square of the guard radius.
   const FT half = guard_radius();
-  Cell_clipper<FT> clipper(view, i, half * FT(1.41421357), FT(-2));
+  Cell_clipper<FT, Filtered> clipper(view, i, half * FT(1.41421357), FT(-2));
   clipper.set_square(half);
   candidates(half * FT(1.41421357), [&](int j) { clipper.add(j); });
   const Tangent_polygon<FT>& polygon = clipper.finish();
-  sink(i, polygon.size == 0 ? Cell_status::empty
+  deliver(polygon.size == 0 ? Cell_status::empty
           : polygon.overflow ? Cell_status::incomplete : Cell_status::guarded,
-       polygon, clipper.frame());
+          clipper, false);
 }
 
 } // namespace PowerRTF

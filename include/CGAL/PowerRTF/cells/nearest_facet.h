@@ -47,17 +47,44 @@ CGAL_POWER_RTF_HD inline Vec3<FT> nearest_point_on_triangle(const Vec3<FT>& p, c
   return a + ab * (vb * denominator) + ac * (vc * denominator);
 }
 
-template <class FT>
-CGAL_POWER_RTF_HD inline Box3<FT> triangle_box(const Vec3<FT>& a, const Vec3<FT>& b,
-                                               const Vec3<FT>& c)
-{
-  const auto low = [](FT x, FT y, FT z) { const FT m = x < y ? x : y; return m < z ? m : z; };
-  const auto high = [](FT x, FT y, FT z) { const FT m = x > y ? x : y; return m > z ? m : z; };
-  return {{low(a.x, b.x, c.x), low(a.y, b.y, c.y), low(a.z, b.z, c.z)},
-          {high(a.x, b.x, c.x), high(a.y, b.y, c.y), high(a.z, b.z, c.z)}};
-}
+/// The boxes of a tree node's children side by side, so that one loop over them is one run of vector
+/// instructions. Single precision and rounded outwards: distances to them are lower bounds.
+struct Child_boxes {
+  static constexpr int size = Packed_tree_layout::arity;
+  float center[3][size], half[3][size]; ///< per axis
 
-/// Non-owning view of a triangulated surface with its facets in spatial order.
+  /// Coordinates are those of the unit box, at most 1 in size: this covers the rounding of a box
+  /// and of the query.
+  static constexpr float margin = 2.5e-7f;
+
+  template <class FT>
+  CGAL_POWER_RTF_HD void set(int child, const Box3<FT>& box)
+  {
+    const Vec3<FT> c = (box.lo + box.hi) * FT(0.5), h = (box.hi - box.lo) * FT(0.5);
+    const FT cs[3] = {c.x, c.y, c.z}, hs[3] = {h.x, h.y, h.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis][child] = static_cast<float>(cs[axis]);
+      half[axis][child] = static_cast<float>(hs[axis]) + margin;
+    }
+  }
+
+  /// Lower bounds of the squared distances to a point.
+  CGAL_POWER_RTF_HD void squared_distances(const float (&p)[3], float (&d)[size]) const
+  {
+    for (int child = 0; child < size; ++child) {
+      float sum = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float outside = std::fabs(p[axis] - center[axis][child]) - half[axis][child];
+        const float twice = outside + std::fabs(outside); // 2 max(outside, 0), without a branch
+        sum += twice * twice;
+      }
+      d[child] = 0.25f * sum;
+    }
+  }
+};
+
+/// Non-owning view of a triangulated surface with its facets in spatial order. Coordinates are
+/// those of the unit box.
 template <class FT>
 struct Facets_view {
   /// The corners of a facet side by side, and its number in the surface.
@@ -68,24 +95,32 @@ struct Facets_view {
   const Facet* facets = nullptr;      ///< #F, in the order of the tree
   const Vec3<FT>* normals = nullptr;  ///< #F unit normals, in the order of the tree
   const int* places = nullptr;        ///< #F, place in the tree of each facet of the surface
-  const Box3<FT>* boxes = nullptr;
+  const Child_boxes* nodes = nullptr; ///< one per node of `tree`
   Packed_tree_layout tree;
 };
 
-/// Computes the box of node `k` of `level`; the levels are done in ascending order.
+/// Computes node `k` of `level` and its own box `boxes[...]`; the levels are done in ascending order.
 template <class FT>
 CGAL_POWER_RTF_HD inline void fit_facets_node(const Packed_tree_layout& tree, int level, int k,
                                               const typename Facets_view<FT>::Facet* facets,
-                                              Box3<FT>* boxes)
+                                              Box3<FT>* boxes, Child_boxes* nodes)
 {
   const int begin = tree.children_begin(k), end = tree.children_end(level, k);
-  const auto child = [&](int c) {
-    if (level > 0) return boxes[tree.first[level - 1] + c];
-    return triangle_box(facets[c].a, facets[c].b, facets[c].c);
-  };
-  Box3<FT> box = child(begin);
-  for (int c = begin + 1; c < end; ++c) box.add(child(c));
-  boxes[tree.first[level] + k] = box;
+  const int node = tree.first[level] + k;
+  for (int c = begin; c < end; ++c) {
+    Box3<FT> box;
+    if (level > 0) {
+      box = boxes[tree.first[level - 1] + c];
+    } else {
+      box = {facets[c].a, facets[c].a};
+      box.add(facets[c].b);
+      box.add(facets[c].c);
+    }
+    nodes[node].set(c - begin, box);
+    if (c > begin) boxes[node].add(box);
+    else boxes[node] = box;
+  }
+  for (int c = end - begin; c < Child_boxes::size; ++c) nodes[node].set(c, boxes[node]); // unused
 }
 
 /// The nearest point to `p` on the facets whose normals make less than Theta with `normal`
@@ -98,45 +133,48 @@ CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& 
 {
   Surface_point<FT> best;
   int best_place = -1;
+  float bound = 3e38f; // no less than the best squared distance
   const auto test = [&](int place) {
-    const auto& f = view.facets[place];
-    if (best.facet >= 0 && squared_distance(triangle_box(f.a, f.b, f.c), p) > best.squared_distance)
-      return;
     if (cos_angle > -1 && !(dot(view.normals[place], normal) > cos_angle)) return;
+    const auto& f = view.facets[place];
     const Vec3<FT> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
     const FT d = squared_length(q - p);
     if (best.facet < 0 || d < best.squared_distance ||
         (d == best.squared_distance && place < best_place)) {
       best = {q, f.id, d};
       best_place = place;
+      bound = static_cast<float>(d) * (1 + 1e-6f) + 1e-37f;
     }
   };
   const int first = hint >= 0 ? view.places[hint] : -1;
   if (first >= 0) test(first);
 
   if (view.tree.items == 0) return best;
-  struct Pending { int level, node; FT squared_distance; };
+  const float query[3] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  struct Pending { int level, node; float squared_distance; };
   Pending stack[Packed_tree_layout::stack_size];
   int size = 0;
   stack[size++] = {view.tree.levels - 1, 0, 0};
   while (size > 0) {
     const Pending top = stack[--size];
-    if (best.facet >= 0 && top.squared_distance > best.squared_distance) continue;
+    if (top.squared_distance > bound) continue;
     const int begin = view.tree.children_begin(top.node);
     const int end = view.tree.children_end(top.level, top.node);
+    float d[Child_boxes::size];
+    view.nodes[view.tree.first[top.level] + top.node].squared_distances(query, d);
     if (top.level == 0) {
       for (int place = begin; place < end; ++place)
-        if (place != first) test(place);
+        if (d[place - begin] <= bound && place != first) test(place);
       continue;
     }
-    const int bottom = size, offset = view.tree.first[top.level - 1];
+    const int bottom = size;
     for (int child = begin; child < end; ++child) { // the nearest child ends on top of the stack
-      const FT d = squared_distance(view.boxes[offset + child], p);
-      if (best.facet >= 0 && d > best.squared_distance) continue;
+      const float near = d[child - begin];
+      if (near > bound) continue;
       int place = size++;
-      for (; place > bottom && stack[place - 1].squared_distance < d; --place)
+      for (; place > bottom && stack[place - 1].squared_distance < near; --place)
         stack[place] = stack[place - 1];
-      stack[place] = {top.level - 1, child, d};
+      stack[place] = {top.level - 1, child, near};
     }
   }
   return best;

@@ -15,7 +15,7 @@ namespace PowerRTF {
 /// A search structure for the nearest point of a triangle mesh. Queries are read-only.
 class Facet_tree {
 public:
-  /// `points` and `triangles`: the mesh (#V by 3, #F by 3).
+  /// `points` and `triangles`: the mesh (#V by 3, #F by 3), in coordinates of size at most 1.
   Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
       : m_tree(static_cast<int>(triangles.size()))
   {
@@ -31,14 +31,15 @@ public:
       m_normals.push_back(
           normalized(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]])));
     }
-    m_boxes.resize(m_tree.nodes());
+    m_nodes.resize(m_tree.nodes());
+    std::vector<Box3<double>> boxes(m_tree.nodes());
     for (int level = 0; level < m_tree.levels; ++level)
       for (int k = 0; k < m_tree.nodes(level); ++k)
-        fit_facets_node(m_tree, level, k, m_facets.data(), m_boxes.data());
+        fit_facets_node(m_tree, level, k, m_facets.data(), boxes.data(), m_nodes.data());
   }
 
   Facets_view<double> view() const
-  { return {m_facets.data(), m_normals.data(), m_places.data(), m_boxes.data(), m_tree}; }
+  { return {m_facets.data(), m_normals.data(), m_places.data(), m_nodes.data(), m_tree}; }
 
   /// The nearest point of the mesh to `p`; `hint`: a facet that is probably near, or -1.
   Surface_point<double> nearest(const Vec3d& p, int hint = -1) const
@@ -49,7 +50,7 @@ private:
   std::vector<Facets_view<double>::Facet> m_facets;
   std::vector<Vec3d> m_normals;
   std::vector<int> m_places;
-  std::vector<Box3<double>> m_boxes;
+  std::vector<Child_boxes> m_nodes;
 };
 
 } // namespace PowerRTF

@@ -46,8 +46,8 @@ public:
   { return {sites.data(), normals.data(), m_boxes.data(), m_max_weights.data(), m_tree}; }
 
   /// Constructs all cells and calls `sink(i, status, polygon, frame)` for each, concurrently.
-  /// `cos_angle` is the cosine of Theta.
-  template <class Sink>
+  /// `cos_angle` is the cosine of Theta. `Filtered`: see `construct_cell()`.
+  template <bool Filtered = false, class Sink>
   void construct_cells(double cos_angle, Sink&& sink)
   {
     constexpr int leaves_per_chunk = 32, arity = Packed_tree_layout::arity;
@@ -56,13 +56,13 @@ public:
         v.size(), leaves_per_chunk * arity, [&](int begin, int end) {
           std::vector<int> gathered;
           for (int leaf = begin; leaf < end; leaf += arity)
-            construct_leaf(v, leaf, std::min(end, leaf + arity), cos_angle, gathered, sink);
+            construct_leaf<Filtered>(v, leaf, std::min(end, leaf + arity), cos_angle, gathered, sink);
         });
   }
 
 private:
   /// Constructs the cells of the sites of one leaf from candidates gathered for all of them at once.
-  template <class Sink>
+  template <bool Filtered, class Sink>
   void construct_leaf(const View& v, int begin, int end, double cos_angle,
                       std::vector<int>& gathered, Sink& sink)
   {
@@ -84,13 +84,13 @@ private:
           for_each_possible_neighbor(v, Box3<double>{sites[i].point, sites[i].point},
                                      sites[i].weight, radius, f);
       };
-      construct_cell(v, i, growth * m_radii[i], cos_angle, candidates,
-                     [&](int site, Cell_status status, const Tangent_polygon<double>& polygon,
-                         const Tangent_frame<double>& frame) {
-                       if (status == Cell_status::ok)
-                         m_radii[site] = std::sqrt(polygon.squared_radius());
-                       sink(site, status, polygon, frame);
-                     });
+      construct_cell<Filtered>(
+          v, i, growth * m_radii[i], cos_angle, candidates,
+          [&](int site, Cell_status status, const Tangent_polygon<double>& polygon,
+              const Tangent_frame<double>& frame, auto... certain) {
+            if (status == Cell_status::ok) m_radii[site] = std::sqrt(polygon.squared_radius());
+            sink(site, status, polygon, frame, certain...);
+          });
     }
   }
 

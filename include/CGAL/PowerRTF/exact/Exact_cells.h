@@ -101,14 +101,14 @@ public:
   Exact_cell cell(int i, const Exact_square* square = nullptr,
                   Filter_statistics* statistics = nullptr) const
   {
-    if (Exact_cell result; from_triangulation(i, square, result, statistics)) return result;
-    Clipper clipper(i, m_points[i], m_normals[i], m_weights[i], square);
-    m_tree.visit(
-        m_points[i], [&](const internal::Weighted_box& box) { return clipper.may_be_cut_by(box); },
-        [&](int j) {
-          if (j != i && compatible(i, j)) clipper.clip(j, m_points[j], m_weights[j]);
-        });
-    return finish(clipper, statistics);
+    return construct(i, square, statistics, [&](int j) { return compatible(i, j); });
+  }
+
+  /// As `cell()`, but all samples count, whatever their normals.
+  Exact_cell cell_of_all(int i, const Exact_square* square = nullptr,
+                         Filter_statistics* statistics = nullptr) const
+  {
+    return construct(i, square, statistics, [](int) { return true; });
   }
 
   /// Shape of `cell`, a result of `cell(i, square)` with the same square. An unbounded cell
@@ -135,6 +135,20 @@ private:
     return points;
   }
 
+  template <class Counts>
+  Exact_cell construct(int i, const Exact_square* square, Filter_statistics* statistics,
+                       const Counts& counts) const
+  {
+    if (Exact_cell result; from_triangulation(i, square, result, statistics, counts)) return result;
+    Clipper clipper(i, m_points[i], m_normals[i], m_weights[i], square);
+    m_tree.visit(
+        m_points[i], [&](const internal::Weighted_box& box) { return clipper.may_be_cut_by(box); },
+        [&](int j) {
+          if (j != i && counts(j)) clipper.clip(j, m_points[j], m_weights[j]);
+        });
+    return finish(clipper, statistics);
+  }
+
   static Exact_cell finish(Clipper& clipper, Filter_statistics* statistics)
   {
     Exact_cell result;
@@ -146,13 +160,14 @@ private:
   }
 
   /// The first way; false when it cannot answer.
+  template <class Counts>
   bool from_triangulation(int i, const Exact_square* square, Exact_cell& result,
-                          Filter_statistics* statistics) const
+                          Filter_statistics* statistics, const Counts& counts) const
   {
     if (m_power_neighbours.doubtful(i)) return false;
     const std::vector<int>& near = m_power_neighbours.of(i);
     for (int j : near)
-      if (!compatible(i, j)) return false;
+      if (!counts(j)) return false;
     Clipper clipper(i, m_points[i], m_normals[i], m_weights[i], square);
     for (int j : near) clipper.clip(j, m_points[j], m_weights[j]);
 

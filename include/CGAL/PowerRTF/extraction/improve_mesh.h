@@ -5,6 +5,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/extraction/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>
 #include <CGAL/PowerRTF/extraction/improvement/smooth_stars.h>
 
@@ -31,6 +32,11 @@ inline void improve_mesh(const Surface& surface, const Remeshing_options&, Extra
     smoother.sweep();
   }
   internal::Star_mender(stars, flipper).run(getenv("MEND")?atoi(getenv("MEND")):8);
+  const int fits = getenv("FIT") ? atoi(getenv("FIT")) : 1;
+  for (int i = 0; i < fits; ++i) {
+    internal::Surface_fitter(stars).run();
+    internal::Star_mender(stars, flipper).run(getenv("MEND")?atoi(getenv("MEND")):8);
+  }
   stars.write(mesh);
 }
 

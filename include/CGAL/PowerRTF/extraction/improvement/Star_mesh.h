@@ -45,7 +45,7 @@ public:
   /// `locked`: by vertex, those that neither move nor get or lose an edge. Border vertices do not
   /// move either.
   Star_mesh(const Extracted_mesh& mesh, const Surface_guide& guide, const std::vector<char>& locked)
-      : m_guide(guide), m(refined(mesh, guide)), m_locked(locked), m_movable(mesh.points.size())
+      : m_guide(guide), m(refined(mesh, guide)), m_heights(mesh.points.size(), 0), m_locked(locked), m_movable(mesh.points.size())
   {
     const std::size_t n = mesh.points.size();
     m_facets.reserve(n);
@@ -89,7 +89,19 @@ public:
   /// The place on the surface to which `v` would go.
   Surface_guide::Place project(Vertex v, const Vec3d& p) const
   {
-    return m_guide.project(p, m.normals[v], m_facets[v]);
+    const double height = m_heights[v];
+    auto place = m_guide.project(p - height * m.normals[v], m.normals[v], m_facets[v]);
+    place.point += height * place.normal;
+    return place;
+  }
+
+  double height(Vertex v) const { return m_heights[v]; }
+
+  /// Moves `v` along the surface's normal.
+  void raise(Vertex v, double by)
+  {
+    set_point(v, m.point(v) + by * m.normals[v]);
+    m_heights[v] += by;
   }
 
   /// The smallest cosine between the normals of the star's triangles, with its centre at `p`, and
@@ -145,6 +157,7 @@ private:
   const Surface_guide& m_guide;
   Working_mesh m;
   std::vector<int> m_facets; // by vertex: the surface's facet that carries it
+  std::vector<double> m_heights; // by vertex: over the surface
   std::vector<char> m_locked, m_movable;
 };
 

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The reference traits: the same algorithm over cells with exact combinatorics. Slow, simple,
+// right: the oracle that the fast traits are checked against.
+#ifndef CGAL_POWER_RTF_EXACT_TRAITS_3_H
+#define CGAL_POWER_RTF_EXACT_TRAITS_3_H
+
+#include <CGAL/PowerRTF/engines/Exact_engine.h>
+
+#include <CGAL/tags.h>
+
+namespace CGAL {
+
+/// \cgalModels `PowerRTFTraits_3`
+///
+/// \tparam Kernel_ a CGAL kernel; the points of the input and the output are its `Point_3`. The
+/// samples are doubles whatever the kernel; see `PowerRTF::Tangent_cell_traits_3`.
+/// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`.
+template <class Kernel_, class ConcurrencyTag = Sequential_tag>
+struct PowerRTF_exact_traits_3 {
+  using Kernel = Kernel_;
+  using Concurrency_tag = ConcurrencyTag;
+  using Engine = PowerRTF::Exact_engine<Kernel, ConcurrencyTag>;
+  /// The traits' name in reports.
+  static const char* name() { return "exact"; }
+};
+
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXACT_TRAITS_3_H

@@ -1,0 +1,375 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The steps of Algorithms 1 to 3 over all samples at once on the CPU, sequential or with TBB, for any
+// construction of the cells. The result is the same bit for bit for any number of threads.
+#ifndef CGAL_POWER_RTF_ENGINES_HOST_ENGINE_H
+#define CGAL_POWER_RTF_ENGINES_HOST_ENGINE_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/cells/cell_moments.h>
+#include <CGAL/PowerRTF/engines/Cell_polygon.h>
+#include <CGAL/PowerRTF/engines/Spatial_order.h>
+#include <CGAL/PowerRTF/engines/Surface_sampler.h>
+#include <CGAL/PowerRTF/optimization/Lbfgs.h>
+#include <CGAL/PowerRTF/optimization/capacity_statistics.h>
+#include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
+#include <CGAL/PowerRTF/optimization/newton_weights.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// \cgalModels `PowerRTFEngine`
+///
+/// \tparam Cell_tree owns the sites and constructs their cells; `Site_tree` with a constructor from
+/// the options.
+template <class Cell_tree, class ConcurrencyTag>
+class Host_engine {
+public:
+  /// Keeps a reference to `surface`.
+  Host_engine(const Surface& surface, const Remeshing_options& options)
+      : m_options(options), m_surface(surface), m_sampler(surface, options),
+        m_cos_angle(compatibility_cosine(options.normal_angle)), m_tree(options),
+        m_lbfgs(options.lbfgs_memory)
+  {}
+
+  /// Takes the samples' points and facets into spatial order; their weights become 0.
+  void set_samples(const Samples& samples);
+
+  /// Constructs all cells (Algorithm 1) and their moments.
+  void build_cells();
+
+  /// One pass of the paper's rule over all weights (Algorithm 2, lines 3 to 10).
+  void update_weights();
+
+  /// One damped Newton step on the weights; the cells are those of the new weights. `false`: no
+  /// step made the masses more equal, nothing has changed.
+  bool newton_weights();
+
+  /// Moves the samples by one step and projects them (Algorithm 3, lines 15 to 19). The cells must
+  /// be those of the current samples.
+  void move_samples(Position_method method);
+
+  /// Goes back to the most centroidal samples that L-BFGS has passed, when the current ones are
+  /// less so (it descends by leaps); the cells are built again.
+  void restore_best();
+
+  Capacity_statistics capacity() const
+  {
+    return capacity_statistics<ConcurrencyTag>(size(), [&](int i) { return mass(i); },
+                                               m_options.capacity_tolerance);
+  }
+  Cell_counts cell_counts() const;
+  /// Root mean square of |s_i - c_i| over the cells, in units of sqrt(area / n).
+  double displacement() const;
+  std::size_t constructions() const { return m_constructions; }
+
+  Samples samples() const;
+  /// The polygons of the current cells.
+  std::vector<Cell_polygon> cells();
+
+private:
+  using Frame = Tangent_frame<double>;
+
+  int size() const { return static_cast<int>(m_tree.sites.size()); }
+  /// m_i = rho_i A(F_i)
+  double mass(int i) const { return m_density[i] * m_moments[i].area; }
+  bool usable(int i) const { return m_status[i] == Cell_status::ok && m_moments[i].mass > 0; }
+  void update_attributes();
+  void center_weights();
+  std::vector<Capacity_edge> capacity_edges();
+  std::vector<Vec3d> lbfgs_steps();
+  /// Returns the residual, the sum of |s_i - c_i|^2, over the least one so far.
+  double remember_best();
+
+  Remeshing_options m_options;
+  const Surface& m_surface;
+  Surface_sampler m_sampler;
+  double m_cos_angle;
+
+  Cell_tree m_tree;
+  std::vector<int> m_facets;          // that carry the samples
+  std::vector<double> m_density;      // rho_i
+  std::vector<double> m_density_root; // cube root of the density that weights the centroids
+  std::vector<Cell_status> m_status;
+  std::vector<Cell_moments<double>> m_moments;
+  std::vector<Vec3d> m_offsets;     // c_i - s_i
+  std::vector<double> m_nearest;    // D_i, for the weights; empty after the samples have moved
+  Lbfgs<ConcurrencyTag> m_lbfgs;
+  struct Best_state { // where the residual of L-BFGS was least
+    double residual = std::numeric_limits<double>::infinity();
+    std::vector<Site<double>> sites;
+    std::vector<int> facets;
+  } m_best;
+  std::size_t m_constructions = 0;
+};
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::set_samples(const Samples& samples)
+{
+  const std::size_t n = samples.size();
+  // The first neighbour search: a ball of radius 2 R that holds k samples.
+  m_tree.resize(n, std::sqrt(m_options.neighbors * m_surface.area / (4 * 3.14159265358979 * n)));
+  m_facets.resize(n);
+  m_density.resize(n);
+  m_density_root.resize(n);
+  m_status.assign(n, Cell_status::ok);
+  m_moments.assign(n, {});
+  m_offsets.assign(n, {0, 0, 0});
+  m_lbfgs.clear();
+  m_best = {};
+  int i = 0;
+  for (int k : internal::spatial_order(samples.points)) {
+    m_tree.sites[i] = {samples.points[k], 0};
+    m_facets[i++] = samples.facets[k];
+  }
+  update_attributes();
+}
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::update_attributes()
+{
+  internal::for_each_index<Tag>(size(), [&](int i) {
+    m_sampler.attributes(m_tree.sites[i].point, m_facets[i], m_tree.normals[i], m_density[i]);
+    m_density_root[i] = std::cbrt(std::pow(m_density[i], m_options.centroid_density_power));
+  });
+  m_nearest.clear();
+  m_tree.refit();
+}
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::build_cells()
+{
+  ++m_constructions;
+  m_tree.construct_cells(
+      m_cos_angle, [&](int i, Cell_status status, const auto& polygon, const Frame& frame) {
+        m_status[i] = status;
+        m_moments[i] = cell_moments(polygon, i, [&](int j) { return m_density_root[j]; });
+        m_offsets[i] = frame.u * m_moments[i].x + frame.v * m_moments[i].y;
+      });
+}
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::center_weights()
+{
+  const double mean = internal::sum<Tag>(size(), [&](int i) { return m_tree.sites[i].weight; }) / size();
+  internal::for_each_index<Tag>(size(), [&](int i) { m_tree.sites[i].weight -= mean; });
+  m_tree.refit();
+}
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::update_weights()
+{
+  if (m_nearest.empty()) {
+    m_nearest.resize(size());
+    internal::for_each_index<Tag>(size(), [&](int i) {
+      m_nearest[i] = distance_to_neighbor(m_tree.view(), i, 1, m_cos_angle);
+    });
+  }
+  const double mean = internal::sum<Tag>(size(), [&](int i) { return mass(i); }) / size();
+  const Multiplicative_weight_rule change{m_options.capacity_tolerance, m_options.weight_step,
+                                          m_options.weight_operator == Weight_operator::floor, mean};
+  internal::for_each_index<Tag>(size(), [&](int i) {
+    m_tree.sites[i].weight += change(mass(i), m_nearest[i]);
+  });
+  center_weights();
+}
+
+template <class Tree, class Tag>
+std::vector<Capacity_edge> Host_engine<Tree, Tag>::capacity_edges()
+{
+  std::vector<boost::container::small_vector<Capacity_edge, 8>> of_cell(size());
+  ++m_constructions;
+  m_tree.construct_cells(
+      m_cos_angle, [&](int i, Cell_status, const auto& polygon, const Frame& frame) {
+        for (int k = 0; k < polygon.size; ++k) {
+          const int j = polygon.neighbor[k], l = polygon.next(k);
+          if (j < 0) continue;
+          const Vec3d offset = m_tree.sites[j].point - m_tree.sites[i].point;
+          const double distance = std::hypot(dot(offset, frame.u), dot(offset, frame.v));
+          of_cell[i].push_back({i, j, std::hypot(polygon.x[l] - polygon.x[k],
+                                                 polygon.y[l] - polygon.y[k]) / distance});
+        }
+      });
+  std::vector<Capacity_edge> edges;
+  for (const auto& own : of_cell) edges.insert(edges.end(), own.begin(), own.end());
+  return edges;
+}
+
+template <class Tree, class Tag>
+bool Host_engine<Tree, Tag>::newton_weights()
+{
+  struct State { double least, mean, residual; };
+  const auto state = [&]() {
+    State s{std::numeric_limits<double>::infinity(), 0, 0};
+    for (int i = 0; i < size(); ++i) s.least = std::min(s.least, mass(i));
+    s.mean = internal::sum<Tag>(size(), [&](int i) { return mass(i); }) / size();
+    s.residual = internal::sum<Tag>(size(), [&](int i) {
+      const double d = mass(i) / s.mean - 1;
+      return d * d;
+    });
+    return s;
+  };
+  std::vector<double> areas(size());
+  for (int i = 0; i < size(); ++i) areas[i] = m_moments[i].area;
+  const std::vector<double> direction =
+      newton_weights_direction(areas, m_density, capacity_edges());
+  if (direction.empty()) return false;
+
+  const State before = state();
+  const std::vector<Site<double>> sites = m_tree.sites;
+  for (double step : {1.0, 0.5, 0.25, 0.125}) {
+    for (int i = 0; i < size(); ++i)
+      m_tree.sites[i].weight = sites[i].weight + step * direction[i];
+    center_weights();
+    build_cells();
+    const State after = state();
+    // No cell may come near to vanishing: there the areas stop being differentiable.
+    if (after.residual < before.residual && after.least > 0.3 * std::min(before.least, before.mean))
+      return true;
+  }
+  m_tree.sites = sites;
+  m_tree.refit();
+  build_cells();
+  return false;
+}
+
+template <class Tree, class Tag>
+std::vector<Vec3d> Host_engine<Tree, Tag>::lbfgs_steps()
+{
+  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). Cells
+  // that are not ok say nothing about it and would poison the memory.
+  std::vector<Vec3d> positions(size()), gradient(size(), {0, 0, 0});
+  std::vector<double> inverse_diagonal(size(), 0);
+  internal::for_each_index<Tag>(size(), [&](int i) {
+    positions[i] = m_tree.sites[i].point;
+    if (!usable(i)) return;
+    gradient[i] = m_offsets[i] * (-2 * m_moments[i].mass);
+    inverse_diagonal[i] = 1 / (2 * m_moments[i].mass);
+  });
+  return m_lbfgs.direction(positions, gradient, inverse_diagonal);
+}
+
+template <class Tree, class Tag>
+double Host_engine<Tree, Tag>::remember_best()
+{
+  const double residual = internal::sum<Tag>(size(), [&](int i) {
+    return usable(i) ? squared_length(m_offsets[i]) : 0;
+  });
+  if (residual < m_best.residual) {
+    m_best.residual = residual;
+    m_best.sites = m_tree.sites;
+    m_best.facets = m_facets;
+  }
+  return residual / m_best.residual;
+}
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::restore_best()
+{
+  if (!(remember_best() > 1)) return;
+  m_tree.sites = m_best.sites;
+  m_facets = m_best.facets;
+  update_attributes();
+  build_cells();
+  m_lbfgs.clear();
+}
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::move_samples(Position_method method)
+{
+  bool lbfgs = method == Position_method::lbfgs;
+  constexpr double explosion = 16;
+  if (lbfgs && remember_best() > explosion) { // back, and on from there by Lloyd's method
+    restore_best();
+    lbfgs = false;
+  }
+  std::vector<Vec3d> steps;
+  if (lbfgs) steps = lbfgs_steps();
+  internal::for_each_index<Tag>(size(), [&](int i) {
+    if (m_status[i] == Cell_status::empty) return;
+    Vec3d step = m_offsets[i]; // Lloyd: to the centre of mass
+    if (!usable(i)) {
+      step *= 0.5;
+    } else if (lbfgs) {
+      const double longest = 0.5 * std::sqrt(m_moments[i].area), l = length(steps[i]);
+      step = l > longest ? steps[i] * (longest / l) : steps[i];
+    }
+    Site<double>& site = m_tree.sites[i];
+    const Surface_point<double> q =
+        m_sampler.project(site.point + step, m_tree.normals[i], m_facets[i]);
+    if (q.facet < 0) return;
+    site.point = q.point;
+    m_facets[i] = q.facet;
+  });
+  update_attributes();
+}
+
+template <class Tree, class Tag>
+Cell_counts Host_engine<Tree, Tag>::cell_counts() const
+{
+  Cell_counts counts;
+  for (Cell_status s : m_status) {
+    counts.ok += s == Cell_status::ok;
+    counts.guarded += s == Cell_status::guarded;
+    counts.empty += s == Cell_status::empty;
+    counts.incomplete += s == Cell_status::incomplete;
+  }
+  return counts;
+}
+
+template <class Tree, class Tag>
+double Host_engine<Tree, Tag>::displacement() const
+{
+  const double squares =
+      internal::sum<Tag>(size(), [&](int i) { return squared_length(m_offsets[i]); });
+  return std::sqrt(squares / m_surface.area);
+}
+
+template <class Tree, class Tag>
+Samples Host_engine<Tree, Tag>::samples() const
+{
+  Samples s;
+  s.facets = m_facets;
+  s.normals = m_tree.normals;
+  s.density = m_density;
+  for (const Site<double>& site : m_tree.sites) {
+    s.points.push_back(site.point);
+    s.weights.push_back(site.weight);
+  }
+  return s;
+}
+
+template <class Tree, class Tag>
+std::vector<Cell_polygon> Host_engine<Tree, Tag>::cells()
+{
+  std::vector<Cell_polygon> cells(size());
+  m_tree.construct_cells(
+      m_cos_angle, [&](int i, Cell_status status, const auto& polygon, const Frame& frame) {
+        Cell_polygon& cell = cells[i];
+        for (int k = 0; k < polygon.size; ++k) {
+          cell.vertices.push_back(m_tree.sites[i].point + frame.u * polygon.x[k] +
+                                  frame.v * polygon.y[k]);
+          cell.neighbors.push_back(polygon.neighbor[k]);
+        }
+        cell.area = cell_moments(polygon).area;
+        cell.density = m_density[i];
+        cell.mass = cell.area * cell.density;
+        cell.weight = m_tree.sites[i].weight;
+        cell.status = status;
+      });
+  return cells;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_ENGINES_HOST_ENGINE_H

@@ -1,0 +1,105 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How long an edge of a restricted cell may be and still be lost, or invented, by rounding.
+//
+// Backward errors: a fast cell is the exact cell of lines that are each displaced a little, line j
+// by at most
+//   delta_j = 64 eps ((d^2 + |w_i| + |w_j|) / 2t + S d / t)
+// within distance S of s_i, d and t being the lengths of v = s_j - s_i and of its tangential part:
+// the first term is the rounding of the offset (d^2 + w_i - w_j) / 2t, the second that of the
+// direction, of the frame, and of the vertices interpolated by the clips, all of which lie within
+// S. Let e be an edge of one of two cells, not of the other, and p and n the other's edges before
+// and after it by direction. Cut by p and n alone, e has at least its length l in one arrangement
+// of lines and no length in the other; its ends move by at most (delta_p + delta_e) / sin(p, e) and
+// (delta_e + delta_n) / sin(e, n). So l is at most the sum of the two.
+#ifndef CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
+#define CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
+
+#include <CGAL/PowerRTF/cells/Sites_view.h>
+#include <CGAL/PowerRTF/cells/Tangent_polygon.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
+
+class Rounding_bound
+{
+  const Sites_view<double>& m_view;
+  int m_i;
+  PowerRTF::Tangent_frame<double> m_frame;
+  double m_reach, m_epsilon;
+
+  struct Line {
+    double angle, displacement;
+  };
+
+public:
+  /// Cell `i`, constructed within distance `reach` (S) in arithmetic of precision `epsilon`.
+  Rounding_bound(const Sites_view<double>& view, int i, double reach, double epsilon)
+      : m_view(view), m_i(i), m_frame(view.normals[i]), m_reach(reach), m_epsilon(epsilon)
+  {
+  }
+
+  /// Bound of the length of `edge`, a neighbour or side of the square in one of two cells, by the
+  /// edges (not empty) of the other one.
+  double length_of(int edge, const std::vector<int>& other) const
+  {
+    constexpr double turn = 6.283185307179586;
+    const Line e = line(edge);
+    Line before{0, 0}, after{0, 0};
+    double to_before = 2 * turn, to_after = 2 * turn; // angles
+    for (int id : other) {
+      const Line l = line(id);
+      double forth = std::fmod(l.angle - e.angle, turn);
+      if (forth < 0) forth += turn;
+      const double back = turn - forth;
+      if (forth < to_after) {
+        to_after = forth;
+        after = l;
+      }
+      if (back < to_before) {
+        to_before = back;
+        before = l;
+      }
+    }
+    return (before.displacement + e.displacement) / std::fabs(std::sin(to_before)) +
+           (after.displacement + e.displacement) / std::fabs(std::sin(to_after));
+  }
+
+  /// The largest displacement of the lines of `edges`.
+  double displacement(const std::vector<int>& edges) const
+  {
+    double largest = 0;
+    for (int id : edges) largest = (std::max)(largest, line(id).displacement);
+    return largest;
+  }
+
+private:
+  Line line(int id) const
+  {
+    const double unit = 64 * m_epsilon;
+    if (id < 0) return {-1.5707963267948966 + 1.5707963267948966 * -id, unit * m_reach};
+    const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[id];
+    const Vec3d v = other.point - s.point;
+    const double a = dot(v, m_frame.u), b = dot(v, m_frame.v), t = std::hypot(a, b);
+    const double d2 = squared_length(v);
+    const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
+    return {std::atan2(b, a), unit * (size / 2 + m_reach * std::sqrt(d2)) / t};
+  }
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H

@@ -1,0 +1,256 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The comparison of any engine's cells with the oracle (design: section 9): first the cycles of
+// neighbours, which must be equal but for edges shorter than a rounding bound; then areas and
+// centroids.
+#ifndef CGAL_POWER_RTF_EXACT_CHECK_CELLS_H
+#define CGAL_POWER_RTF_EXACT_CHECK_CELLS_H
+
+#include <CGAL/PowerRTF/engines/Cell_polygon.h>
+#include <CGAL/PowerRTF/engines/Site_tree.h>
+#include <CGAL/PowerRTF/exact/Exact_cells.h>
+#include <CGAL/PowerRTF/exact/Rounding_bound.h>
+#include <CGAL/PowerRTF/exact/construct_exact_cell.h>
+#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/surface/Surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+
+/// Median, 99th percentile and maximum.
+struct Error_distribution {
+  double p50 = 0, p99 = 0, max = 0;
+};
+
+/// The result of `check_cells()`. A cell is certified when the engine gives it a status other than
+/// `incomplete`; each status is a claim about the cell (see `construct_cell()`). It is right when
+/// its status is the oracle's and its cycle of neighbours is, but for edges below the rounding
+/// bound.
+struct Cell_comparison {
+  std::size_t cells = 0;
+  std::size_t equal_cycles = 0;      ///< the oracle's neighbours in the oracle's order
+  std::size_t certified_wrong = 0;   ///< must be 0
+  std::size_t uncertified_right = 0; ///< incomplete, but with the oracle's cycle
+  std::size_t uncertified_wrong = 0;
+  std::size_t differing_edges = 0; ///< of the right cells, in one of the two cycles only
+  double worst_edge = 0; ///< longest of these over its bound: at most 1
+  /// Of the right cells that are not empty: |A - A*| / A*, and the distance of the centroids over
+  /// sqrt(A*).
+  Error_distribution area, centroid;
+  std::vector<int> wrong; ///< the certified and wrong cells
+  Filter_statistics predicates;
+
+  bool passed() const { return certified_wrong == 0; }
+};
+
+namespace internal
+{
+
+class Cell_checker
+{
+  using Cells = Exact_cells<Exact_predicates_inexact_constructions_kernel>;
+
+  const Cells& m_exact;
+  const Sites_view<double>& m_view;
+  double m_spacing, m_epsilon;
+
+public:
+  struct Answer {
+    bool is_right = false, is_equal = false, has_errors = false;
+    int differing_edges = 0;
+    double worst_edge = 0, area_error = 0, centroid_error = 0;
+    Filter_statistics predicates;
+  };
+
+  /// `spacing`: sqrt(mean area).
+  Cell_checker(const Cells& exact, const Sites_view<double>& view, double spacing, double epsilon)
+      : m_exact(exact), m_view(view), m_spacing(spacing), m_epsilon(epsilon)
+  {
+  }
+
+  Answer check(int i, const Cell_polygon& cell) const
+  {
+    Answer answer;
+    const double guard = guard_radius(m_view, i);
+    if (!(guard > 0)) { // see construct_exact_cell()
+      const bool is_here = m_exact.cell_of_all(i, nullptr, &answer.predicates).contains_site;
+      answer.is_right = cell.status == (is_here ? Cell_status::guarded : Cell_status::empty);
+      answer.is_equal = answer.is_right;
+      return answer;
+    }
+    const PowerRTF::Tangent_frame<double> frame(m_view.normals[i]);
+    const Exact_square square{frame.u, frame.v, guard};
+    // A status may differ by the rounding of R alone.
+    constexpr double slack = 1e-9;
+    Exact_cell exact = m_exact.cell(i, &square, &answer.predicates);
+    Exact_cell_geometry geometry = m_exact.geometry(i, exact, &square);
+    double radius = 0;
+    for (const Vec3d& v : geometry.vertices) radius = (std::max)(radius, length(v));
+    const bool is_large = exact.reaches_square() || radius > guard * (1 + slack);
+    const bool is_small = !exact.reaches_square() && radius < guard * (1 - slack);
+    bool is_status_right = true;
+    switch (cell.status) {
+    case Cell_status::ok: is_status_right = !is_large; break;
+    case Cell_status::guarded: is_status_right = !is_small; break;
+    case Cell_status::empty: // the whole cell, or else the guarded one
+    case Cell_status::incomplete: break;
+    }
+    if (cell.status == Cell_status::guarded || (cell.status != Cell_status::ok && is_large)) {
+      exact = m_exact.cell_of_all(i, &square, &answer.predicates);
+      geometry = m_exact.geometry(i, exact, &square);
+    }
+    compare(i, cell, exact, geometry, guard, answer);
+    answer.is_right = answer.is_right && is_status_right;
+    if (answer.is_right && cell.vertices.size() > 2 && geometry.area > 0)
+      measure(i, cell, geometry, answer);
+    return answer;
+  }
+
+private:
+  void compare(int i, const Cell_polygon& cell, const Exact_cell& exact,
+               const Exact_cell_geometry& geometry, double guard, Answer& answer) const
+  {
+    std::vector<int> cycle = cell.neighbors;
+    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+    answer.is_right = answer.is_equal = cycle == exact.neighbours;
+    if (answer.is_equal) return;
+
+    const Rounding_bound bound(m_view, i, 4 * (std::max)(guard, m_spacing), m_epsilon);
+    std::vector<double> lengths;
+    const int n = int(cell.vertices.size());
+    for (int k = 0; k < n; ++k)
+      lengths.push_back(length(cell.vertices[(k + 1) % n] - cell.vertices[k]));
+    if (cycle.empty() || exact.is_empty()) {
+      // Lines displaced by delta empty no polygon that holds a disc of radius delta; the area is
+      // at most inradius times perimeter.
+      const std::vector<int>& edges = cycle.empty() ? exact.neighbours : cycle;
+      double perimeter = 0;
+      for (double l : cycle.empty() ? geometry.edge_lengths : lengths) perimeter += l;
+      const double most = perimeter * bound.displacement(edges);
+      answer.worst_edge = (cycle.empty() ? geometry.area : cell.area) / most;
+      answer.differing_edges = int(edges.size());
+    } else {
+      add_missing(exact.neighbours, geometry.edge_lengths, cell.neighbors, bound, answer);
+      add_missing(cell.neighbors, lengths, exact.neighbours, bound, answer);
+    }
+    answer.is_right = answer.differing_edges > 0 && answer.worst_edge <= 1;
+  }
+
+  static void add_missing(const std::vector<int>& edges, const std::vector<double>& lengths,
+                          const std::vector<int>& others, const Rounding_bound& bound,
+                          Answer& answer)
+  {
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      if (std::find(others.begin(), others.end(), edges[k]) != others.end()) continue;
+      ++answer.differing_edges;
+      answer.worst_edge =
+          (std::max)(answer.worst_edge, lengths[k] / bound.length_of(edges[k], others));
+    }
+  }
+
+  void measure(int i, const Cell_polygon& cell, const Exact_cell_geometry& geometry,
+               Answer& answer) const
+  {
+    const Vec3d& s = m_view.sites[i].point;
+    const Vec3d origin = cell.vertices[0] - s;
+    Vec3d moment{0, 0, 0};
+    double twice_area = 0;
+    for (std::size_t k = 1; k + 1 < cell.vertices.size(); ++k) {
+      const Vec3d a = cell.vertices[k] - cell.vertices[0];
+      const Vec3d b = cell.vertices[k + 1] - cell.vertices[0];
+      const double t = dot(cross(a, b), m_view.normals[i]);
+      twice_area += t;
+      moment += (a + b) * (t / 3);
+    }
+    if (!(twice_area > 0)) return;
+    const Vec3d centroid = origin + moment * (1 / twice_area);
+    answer.has_errors = true;
+    answer.area_error = std::fabs(cell.area - geometry.area) / geometry.area;
+    answer.centroid_error = length(centroid - geometry.centroid) / std::sqrt(geometry.area);
+  }
+};
+
+inline Error_distribution distribution(std::vector<double>& errors)
+{
+  Error_distribution d;
+  if (errors.empty()) return d;
+  std::sort(errors.begin(), errors.end());
+  d.p50 = errors[errors.size() / 2];
+  d.p99 = errors[errors.size() * 99 / 100];
+  d.max = errors.back();
+  return d;
+}
+
+} // namespace internal
+
+/// Compares `cells`, an engine's cells of `samples`, with the oracle.
+///
+/// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`
+/// \param samples points, unit normals and weights; the engine's order (any order is right, but a
+/// spatial one is fast)
+/// \param cells one per sample
+/// \param cos_angle the cosine of Theta, as the engine uses it: `compatibility_cosine()`
+/// \param epsilon the precision of the engine's arithmetic: that of double, or of float
+/// \throw Invalid_input_error when the arrays differ in size
+template <class ConcurrencyTag>
+Cell_comparison check_cells(const Samples& samples, const std::vector<Cell_polygon>& cells,
+                            double cos_angle, double epsilon = internal::epsilon<double>())
+{
+  const std::size_t n = samples.size();
+  if (cells.size() != n || samples.normals.size() != n || samples.weights.size() != n)
+    throw Invalid_input_error("samples and cells differ in number");
+  Site_tree<ConcurrencyTag> tree;
+  tree.resize(n, 1);
+  tree.normals = samples.normals;
+  double area = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    tree.sites[i] = {samples.points[i], samples.weights[i]};
+    area += cells[i].area;
+  }
+  tree.refit();
+  const auto view = tree.view();
+  const Exact_cells<Exact_predicates_inexact_constructions_kernel> exact(
+      samples.points, samples.normals, samples.weights, cos_angle);
+  const internal::Cell_checker checker(exact, view, std::sqrt(area / double(n)), epsilon);
+
+  std::vector<internal::Cell_checker::Answer> answers(n);
+  internal::for_each_index<ConcurrencyTag>(
+      int(n), [&](int i) { answers[i] = checker.check(i, cells[i]); });
+  Cell_comparison result;
+  std::vector<double> area_errors, centroid_errors;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& a = answers[i];
+    ++result.cells;
+    result.equal_cycles += a.is_equal;
+    result.predicates += a.predicates;
+    if (cells[i].status == Cell_status::incomplete) {
+      ++(a.is_right ? result.uncertified_right : result.uncertified_wrong);
+    } else if (!a.is_right) {
+      ++result.certified_wrong;
+      result.wrong.push_back(int(i));
+    }
+    if (!a.is_right) continue;
+    result.differing_edges += a.differing_edges;
+    result.worst_edge = (std::max)(result.worst_edge, a.worst_edge);
+    if (!a.has_errors) continue;
+    area_errors.push_back(a.area_error);
+    centroid_errors.push_back(a.centroid_error);
+  }
+  result.area = internal::distribution(area_errors);
+  result.centroid = internal::distribution(centroid_errors);
+  return result;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXACT_CHECK_CELLS_H
