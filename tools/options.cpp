@@ -118,6 +118,10 @@ public:
         help = choices(value) + ": " + help;
       }
       if (*p.symbol) help += " [" + std::string(p.symbol) + "]";
+      if constexpr (std::is_same<T, bool>::value) { // a switch, off by default
+        group(p.group).add_options()(p.name, help.c_str());
+        return;
+      }
       help += " (" + show(value) + (value == of_paper ? "" : "; paper: " + show(of_paper)) + ")";
       group(p.group).add_options()(p.name, text(argument), help.c_str());
       if (*p.other_name) m_hidden.add_options()(p.other_name, text(argument));
@@ -128,6 +132,9 @@ public:
         "write the polygons F_i with weight, mass, density, status (PLY, VTP)")(
         "samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")(
         "no-mesh", "stop at the samples: OUTPUT is not needed and not written");
+    group("Comparison with exact arithmetic").add_options()(
+        "check", "compare the cells with the exact ones")(
+        "check-every", text("N"), "compare them every N iterations, too; 0: only at the end (0)");
     group("Program").add_options()("traits", text("NAME"),
                                    "auto|cpu|exact|cuda: what runs the algorithm (auto)")(
         "threads", text("N"), "number of threads; 0: all (0)")("quiet,q", "no progress, no table")(
@@ -146,7 +153,8 @@ public:
     for (const po::options_description& g : m_groups) all.add(g); // together, so that they align
     out << all;
     out << "\nExit codes: 0 done, every guarantee met; 1 the input cannot be used; 2 wrong usage;\n"
-           "3 written, but a guarantee was missed; 130 cancelled.\n";
+           "3 written, but a guarantee was missed; 4 written, but a cell is wrong that was certified\n"
+           "(--check); 130 cancelled.\n";
     return out.str();
   }
 
@@ -196,6 +204,10 @@ Remeshing_options remeshing_options(const po::variables_map& values)
     const std::string name = long_name(p.name);
     if (values.count(name) && values.count(p.other_name))
       throw Usage_error("--" + name + " and --" + p.other_name + " are the same option");
+    if constexpr (std::is_same<std::decay_t<decltype(o.*member)>, bool>::value) {
+      o.*member = values.count(name) > 0;
+      return;
+    }
     for (const std::string& option : {name, std::string(p.other_name)})
       if (values.count(option))
         o.*member = parse_value<std::decay_t<decltype(o.*member)>>(
@@ -256,10 +268,15 @@ Program_options parse_command_line(int argc, const char* const* argv, std::strin
 
   o.remeshing = remeshing_options(values);
   const std::string traits = values.count("traits") ? values["traits"].as<std::string>() : "auto";
-  if (traits == "exact" || traits == "cuda")
+  if (traits == "cuda")
     throw Usage_error("--traits " + traits + ": these traits are not built into this program");
-  if (traits != "auto" && traits != "cpu") reject("traits", traits, "one of auto|cpu|exact|cuda");
-  o.traits = "cpu";
+  if (traits != "auto" && traits != "cpu" && traits != "exact")
+    reject("traits", traits, "one of auto|cpu|exact|cuda");
+  o.traits = traits == "auto" ? "cpu" : traits;
+  if (values.count("check-every"))
+    o.check_every = parse_value<int>("check-every", values["check-every"].as<std::string>(),
+                                     {0, double(std::numeric_limits<int>::max())});
+  o.check = values.count("check") > 0 || o.check_every > 0;
   const std::string threads = values.count("threads") ? values["threads"].as<std::string>() : "0";
   o.threads = parse_value<int>("threads", threads, {0, 4096});
   o.quiet = values.count("quiet") > 0;

@@ -24,7 +24,9 @@ struct Program_options {
   std::string input, output;
   std::string report_file, cells_file, samples_file; ///< empty: not asked for
   CGAL::PowerRTF::Remeshing_options remeshing;
-  std::string traits; ///< "cpu", the only one built
+  std::string traits; ///< "cpu" or "exact"
+  bool check = false;  ///< compare the cells with the oracle at the end
+  int check_every = 0; ///< and every so many iterations; 0: only at the end
   int threads = 0;    ///< 0: all
   bool write_mesh = true;
   bool quiet = false;

@@ -131,6 +131,10 @@ void for_each_parameter(Visitor&& visit)
   add("neighbors", &O::neighbors, "k", "samples in the first neighbour search", {1, most});
   add("normal-angle", &O::normal_angle, "Theta",
       "degrees: a larger angle between their normals parts two samples", {tiny, 180});
+  add("guard-factor", &O::guard_factor, "",
+      "cells reaching this many distances to the 6th neighbour take all neighbours", {tiny, 1000});
+  add("certified-combinatorics", &O::certified_combinatorics, "",
+      "cpu: the cells' neighbours are those of --traits exact");
 
   group = "Positions (Algorithm 3)";
   add("position-method", &O::position_method, "", "how samples move to their cells' centroids");

@@ -9,6 +9,8 @@
 #include "output_file.h"
 #include "report_json.h"
 
+#include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
+#include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/surface/density.h>
 #include <CGAL/PowerRTF/surface/import_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
@@ -32,13 +34,14 @@ using namespace CGAL::PowerRTF;
 using namespace tools;
 using internal::Stopwatch;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Remesher = CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel>>;
+using Concurrency = CGAL::Parallel_if_available_tag;
 
 enum Exit_code {
   done = 0,
   unusable_input = 1,
   wrong_usage = 2,
   missed_guarantee = 3,
+  wrong_cell = 4,
   cancelled = 130
 };
 
@@ -112,8 +115,51 @@ private:
   std::list<Output_file> m_files;
 };
 
+Exit_code fail(Exit_code code, const std::string& message)
+{
+  std::cerr << "power_rtf_remesh: " << message << '\n';
+  return code;
+}
+
+/// The cells of a remesher against the oracle (--check).
+template <class Remesher>
+Check check(Remesher& remesher, std::size_t iterations)
+{
+  const double cos_angle = compatibility_cosine(remesher.options().normal_angle);
+  return {iterations,
+          check_cells<Concurrency>(remesher.samples(), remesher.cells(), cos_angle,
+                                   CGAL::PowerRTF::internal::epsilon<double>(),
+                                   remesher.options().guard_factor)};
+}
+
+/// The progress of a run that compares its cells every so many iterations (--check-every).
+template <class Remesher>
+class Checking_progress : public Progress
+{
+public:
+  Checking_progress(const Program_options& options, Remesher& remesher, std::vector<Check>& checks)
+      : Progress(options.quiet), m_every(options.check_every), m_remesher(remesher),
+        m_checks(checks)
+  {
+  }
+  void on_iteration(const Iteration_report& report, double progress)
+  {
+    Progress::on_iteration(report, progress);
+    const std::size_t done = m_remesher.report().iterations.size();
+    if (m_every > 0 && (done - 1) % std::size_t(m_every) == 0)
+      m_checks.push_back(check(m_remesher, done - 1));
+  }
+
+private:
+  int m_every;
+  Remesher& m_remesher;
+  std::vector<Check>& m_checks;
+};
+
+template <class Traits>
 Exit_code remesh(const Program_options& options)
 {
+  using Remesher = CGAL::PowerRTF_remesher<Traits>;
   Run run;
   run.options = options;
   Outputs outputs;
@@ -126,13 +172,17 @@ Exit_code remesh(const Program_options& options)
   check_number_of_samples(options);
   check_outputs(options);
 
-  Progress progress(options.quiet);
-  progress.on_stage("surface");
+  Progress(options.quiet).on_stage("surface");
   Remesher remesher(load(options, run.report), options.remeshing);
+  Checking_progress<Remesher> progress(options, remesher, run.checks);
   if (!remesher.optimize(progress)) throw Cancelled();
   Extracted_mesh mesh;
   if (options.write_mesh) mesh = remesher.extract(progress);
   stop_if_interrupted();
+  if (options.check) {
+    progress.on_stage("check");
+    run.checks.push_back(check(remesher, remesher.report().outer_iterations));
+  }
   progress.clear();
 
   const Stage_seconds before = run.report.seconds;
@@ -166,13 +216,12 @@ Exit_code remesh(const Program_options& options)
   for (const std::string& missed : run.missed)
     std::cerr << "power_rtf_remesh: " << options.output << ": a guarantee is missed: " << missed
               << '\n';
+  for (const Check& c : run.checks)
+    if (!c.result.passed())
+      return fail(wrong_cell, options.input + ": after " + std::to_string(c.iterations) +
+                                  " iterations " + std::to_string(c.result.certified_wrong) +
+                                  " cells are wrong that were certified: a bug of this program");
   return run.missed.empty() ? done : missed_guarantee;
-}
-
-Exit_code fail(Exit_code code, const std::string& message)
-{
-  std::cerr << "power_rtf_remesh: " << message << '\n';
-  return code;
 }
 
 } // namespace
@@ -186,7 +235,9 @@ int main(int argc, char** argv)
     const Program_options options = parse_command_line(argc, argv, information);
     if (!information.empty()) return std::cout << information, done;
     input = options.input;
-    return remesh(options);
+    return options.traits == "exact"
+               ? remesh<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(options)
+               : remesh<CGAL::PowerRTF_traits_3<Kernel, Concurrency>>(options);
   } catch (const Usage_error& e) {
     return fail(wrong_usage, e.what() + std::string("\npower_rtf_remesh --help shows the options"));
   } catch (const Cancelled&) {

@@ -56,6 +56,35 @@ Json parameters(const Remeshing_options& o)
   return json;
 }
 
+Json to_json(const Error_distribution& d)
+{
+  return {{"p50", d.p50}, {"p99", d.p99}, {"max", d.max}};
+}
+
+Json to_json(const Check& check)
+{
+  const Cell_comparison& r = check.result;
+  return {{"after_iterations", check.iterations},
+          {"cells", r.cells},
+          {"equal_cycles", r.equal_cycles},
+          {"certified_wrong", r.certified_wrong},
+          {"uncertified_right", r.uncertified_right},
+          {"uncertified_wrong", r.uncertified_wrong},
+          {"differing_edges", r.differing_edges},
+          {"worst_edge_over_bound", r.worst_edge},
+          {"area_error", to_json(r.area)},
+          {"centroid_error", to_json(r.centroid)},
+          {"predicates_filtered", r.predicates.filtered},
+          {"predicates_exact", r.predicates.exact}};
+}
+
+Json checks(const std::vector<Check>& list)
+{
+  Json json = Json::array();
+  for (const Check& check : list) json.push_back(to_json(check));
+  return json;
+}
+
 Json iterations(const Remeshing_report& report)
 {
   Json json = Json::array();
@@ -122,6 +151,7 @@ void write_json(std::ostream& out, const Run& run)
   json["cells"] = to_json(r.cells);
   json["repairs"] = to_json(r.repairs);
   json["seconds"] = to_json(r.seconds);
+  if (run.options.check) json["checks"] = checks(run.checks);
   json["parameters"] = parameters(run.options.remeshing);
   json["iterations"] = iterations(r);
   // a file's name need not be valid UTF-8

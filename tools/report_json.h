@@ -8,6 +8,7 @@
 #include "options.h"
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/exact/check_cells.h>
 
 #include <iosfwd>
 #include <string>
@@ -16,12 +17,19 @@
 namespace tools
 {
 
+/// A comparison of the cells with the oracle.
+struct Check {
+  std::size_t iterations; ///< done before
+  CGAL::PowerRTF::Cell_comparison result;
+};
+
 /// What the program did.
 struct Run {
   Program_options options;
   CGAL::PowerRTF::Remeshing_report report;
   int threads = 1;                 ///< used
   std::vector<std::string> missed; ///< guarantees
+  std::vector<Check> checks;       ///< the last one: of the final cells
 };
 
 /// Everything, for programs. Without a mesh (--no-mesh) the fields about it are left out.

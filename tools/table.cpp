@@ -71,6 +71,27 @@ void print_repairs(std::ostream& out, const Repair_counts& r)
   repair(r.triangulated_polygons, "polygons triangulated");
 }
 
+std::string error(double x)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.1e", x);
+  return text;
+}
+
+void print_check(std::ostream& out, const Check& check)
+{
+  const Cell_comparison& r = check.result;
+  out << "  compared with the exact cells after " << check.iterations << " iterations\n";
+  const auto count = [&out](const char* what, std::size_t n) { row(out, what, std::to_string(n)); };
+  count("  cells with the same neighbours", r.equal_cycles);
+  count("  certified and wrong", r.certified_wrong);
+  count("  not certified, right", r.uncertified_right);
+  count("  not certified, wrong", r.uncertified_wrong);
+  count("  edges below rounding that differ", r.differing_edges);
+  row(out, "  area error, 99 %, largest", error(r.area.p99), error(r.area.max));
+  row(out, "  centroid error, 99 %, largest", error(r.centroid.p99), error(r.centroid.max));
+}
+
 } // namespace
 
 void print_table(std::ostream& out, const Run& run)
@@ -90,6 +111,7 @@ void print_table(std::ostream& out, const Run& run)
   if (r.cells.empty > 0) row(out, "empty cells", std::to_string(r.cells.empty));
   if (r.cells.incomplete > 0) row(out, "incomplete cells", std::to_string(r.cells.incomplete));
   print_repairs(out, r.repairs);
+  for (const Check& check : run.checks) print_check(out, check);
   row(out, "constructions of all cells", std::to_string(r.constructions));
   row(out, "seconds", number(r.seconds.total, 2));
   for (const auto& [name, file] :

@@ -85,7 +85,8 @@ Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
  *              isolated vertices are ignored.
  * \param number_of_samples the number of vertices asked for, at least 4
  * \param output the result. What it held before is removed; property maps added to a
- *               `Surface_mesh` stay. Its vertices come in the order of the samples. It may be the
+ *               `Surface_mesh` stay. Its vertices come in the order of the samples; should the
+ *               samples' triangles form no 2-manifold, some appear again after that. It may be the
  *               same object as `input`.
  * \param np_in an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones
  *              listed below. Those of this package, in the namespace `PowerRTF::parameters`, come

@@ -294,7 +294,6 @@ TEST_CASE("foreign vertex point maps are read and written")
     CGAL::power_rtf_remeshing(input, 150, output, CGAL::parameters::vertex_point_map(read),
                               CGAL::parameters::vertex_point_map(write));
     CHECK(are_equal(soup_of(output, write), soup_of(expected)));
-    for (const auto v : output.vertices()) CHECK(output.point(v) == Kernel::Point_3());
   }
   SUBCASE("points outside of the mesh, of another type")
   {
@@ -332,7 +331,7 @@ TEST_CASE("polygons with more than three sides")
   check_guarantees(report);
 }
 
-TEST_CASE("a halfedge structure takes what it can of a result that is no 2-manifold")
+TEST_CASE("a result that is no 2-manifold is cut up into one")
 {
   Remeshing_options options = uniform();
   options.extraction = Extraction_method::restricted_delaunay;
@@ -342,8 +341,9 @@ TEST_CASE("a halfedge structure takes what it can of a result that is no 2-manif
       input, 200, output, params::remeshing_options(options).number_of_iterations(10));
   CHECK(CGAL::is_valid_polygon_mesh(output));
   CHECK_FALSE(report.missed_guarantees().empty());
-  CHECK(num_faces(output) <= report.topology.faces);
-  CHECK(num_faces(output) > 100);
+  CHECK(report.topology.non_manifold_edges > 0);
+  CHECK(num_faces(output) == report.topology.faces);
+  CHECK(num_vertices(output) > report.topology.vertices); // some more than once
 }
 
 // --- named parameters ----------------------------------------------------------------------------

@@ -1,6 +1,15 @@
-#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/generators.h>
+#include <CGAL/power_rtf_remeshing.h>
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 int main()
 {
-  return CGAL::PowerRTF::Remeshing_options().number_of_samples == 3000 ? 0 : 1;
+  Mesh input, output;
+  CGAL::make_icosahedron<Mesh, Kernel::Point_3>(input);
+  const auto report = CGAL::power_rtf_remeshing(input, 100, output);
+  return num_vertices(output) == 100 && report.missed_guarantees().empty() ? 0 : 1;
 }

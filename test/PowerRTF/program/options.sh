@@ -54,7 +54,9 @@ for name in relaxation-iterations iterations max-weight-iterations seed threads;
   refuse $name -1 'at least 0'
   refuse $name 99999999999999999999 'at most'
 done
-for traits in exact cuda; do run 2 "$traits" 'not built' -- torus.off out.off --traits $traits; done
+run 2 cuda 'not built' -- torus.off out.off --traits cuda
+refuse check-every -1 'at least 0'
+refuse check-every x 'not a whole number'
 
 # --- understood
 run 0 -- --help
@@ -63,7 +65,7 @@ for word in --samples --density --density-power --gradation --sampling --oversam
   --normal-angle --position-method --iterations --lbfgs-memory --projection --projection-neighbors \
   --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
   --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
-  --samples-out --no-mesh --quiet 'paper: 60' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
+  --samples-out --check --check-every --certified-combinatorics --no-mesh --quiet 'paper: 60' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
   expect "--help shows $word" grep -qF -- "$word" stdout
 done
 run 0 -- --version
@@ -83,6 +85,12 @@ accept '"threads": 1' --threads 1
 accept '"threads": 2' --threads=2
 accept '"traits": "cpu"' --traits auto
 accept '"traits": "cpu"' --traits cpu
+accept '"traits": "exact"' --traits exact
+accept '"certified-combinatorics": true' --certified-combinatorics
+accept '"certified-combinatorics": false'
+accept '"certified_wrong": 0' --check
+accept '"equal_cycles": 100' --check --certified-combinatorics
+accept '"after_iterations": 2' --check-every 2
 accept '"density": "curvature"'
 accept '"density": "uniform"' --density uniform
 accept '"density-power": 2.0' --density-power 2

@@ -26,6 +26,8 @@ struct Sites_view {
   const Box3<FT>* boxes = nullptr;      ///< one per node of `tree`
   const FT* max_weights = nullptr;      ///< one per node of `tree`
   Packed_tree_layout tree;
+  /// A cell whose farthest vertex lies beyond this many distances to the 6th neighbour is guarded.
+  FT guard_factor = 3;
 
   CGAL_POWER_RTF_HD int size() const { return tree.items; }
 };

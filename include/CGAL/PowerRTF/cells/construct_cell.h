@@ -179,9 +179,6 @@ CGAL_POWER_RTF_HD inline bool Cell_clipper<FT, Filtered>::is_certain() const
   return true;
 }
 
-/// A cell whose farthest vertex lies beyond this many distances to the 6th neighbour is guarded.
-template <class FT> CGAL_POWER_RTF_HD constexpr FT guard_factor() { return 3; }
-
 /// Constructs cell `i` and hands it to `sink(i, status, polygon, frame)`.
 ///
 /// `radius` is the first guess of R; `candidates(radius, f)` calls `f(j)` for a superset of the
@@ -196,7 +193,7 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
 {
   FT guard = -1; // not computed yet: needed only for suspicious cells
   const auto guard_radius = [&]() {
-    if (guard < 0) guard = guard_factor<FT>() * distance_to_neighbor(view, i, 6);
+    if (guard < 0) guard = view.guard_factor * distance_to_neighbor(view, i, 6);
     return guard;
   };
   const auto deliver = [&](Cell_status status, const auto& clipper, bool certain) {
@@ -210,7 +207,7 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
     const Tangent_polygon<FT>& polygon = clipper.finish();
     if (polygon.overflow) return deliver(Cell_status::incomplete, clipper, false);
     if (polygon.size > 0 && clipper.is_complete()) {
-      const FT r2 = polygon.squared_radius(), f = guard_factor<FT>();
+      const FT r2 = polygon.squared_radius(), f = view.guard_factor;
       // The 6th neighbour is no nearer than the nearest one.
       const bool is_small = r2 <= f * f * clipper.squared_nearest();
       if (!is_small && r2 > guard_radius() * guard_radius()) break;

@@ -39,7 +39,7 @@ public:
       : m_options(options), m_surface(surface), m_sampler(surface, options),
         m_cos_angle(compatibility_cosine(options.normal_angle)), m_tree(options),
         m_lbfgs(options.lbfgs_memory)
-  {}
+  { m_tree.guard_factor = options.guard_factor; }
 
   /// Takes the samples' points and facets into spatial order; their weights become 0.
   void set_samples(const Samples& samples);
@@ -87,6 +87,8 @@ private:
   void center_weights();
   std::vector<Capacity_edge> capacity_edges();
   std::vector<Vec3d> lbfgs_steps();
+  /// A sample with an empty cell stays, unless it lies on another sample: no weight could part them.
+  Vec3d step_apart(int i) const;
   /// Returns the residual, the sum of |s_i - c_i|^2, over the least one so far.
   double remember_best();
 
@@ -178,7 +180,10 @@ void Host_engine<Tree, Tag>::update_weights()
   const Multiplicative_weight_rule change{m_options.capacity_tolerance, m_options.weight_step,
                                           m_options.weight_operator == Weight_operator::floor, mean};
   internal::for_each_index<Tag>(size(), [&](int i) {
-    m_tree.sites[i].weight += change(mass(i), m_nearest[i]);
+    // An empty cell often lies close to the sample that displaced it, where D_i says nothing.
+    const double distance =
+        mass(i) > 0 ? m_nearest[i] : distance_to_neighbor(m_tree.view(), i, 6, m_cos_angle);
+    m_tree.sites[i].weight += change(mass(i), distance);
   });
   center_weights();
 }
@@ -292,25 +297,37 @@ void Host_engine<Tree, Tag>::move_samples(Position_method method)
     restore_best();
     lbfgs = false;
   }
-  std::vector<Vec3d> steps;
-  if (lbfgs) steps = lbfgs_steps();
+  std::vector<Vec3d> steps = lbfgs ? lbfgs_steps() : m_offsets; // Lloyd: to the centre of mass
   internal::for_each_index<Tag>(size(), [&](int i) {
-    if (m_status[i] == Cell_status::empty) return;
-    Vec3d step = m_offsets[i]; // Lloyd: to the centre of mass
-    if (!usable(i)) {
-      step *= 0.5;
+    if (m_status[i] == Cell_status::empty) {
+      steps[i] = step_apart(i);
+    } else if (!usable(i)) {
+      steps[i] = m_offsets[i] * 0.5;
     } else if (lbfgs) {
       const double longest = 0.5 * std::sqrt(m_moments[i].area), l = length(steps[i]);
-      step = l > longest ? steps[i] * (longest / l) : steps[i];
+      if (l > longest) steps[i] *= longest / l;
     }
+  });
+  internal::for_each_index<Tag>(size(), [&](int i) {
     Site<double>& site = m_tree.sites[i];
     const Surface_point<double> q =
-        m_sampler.project(site.point + step, m_tree.normals[i], m_facets[i]);
+        m_sampler.project(site.point + steps[i], m_tree.normals[i], m_facets[i]);
     if (q.facet < 0) return;
     site.point = q.point;
     m_facets[i] = q.facet;
   });
   update_attributes();
+}
+
+template <class Tree, class Tag>
+Vec3d Host_engine<Tree, Tag>::step_apart(int i) const
+{
+  const auto view = m_tree.view();
+  if (distance_to_neighbor(view, i, 1) > 0) return {0, 0, 0};
+  const double angle = 2.399963229728653 * i; // the golden angle: all directions differ
+  const Frame frame(view.normals[i]);
+  return (frame.u * std::cos(angle) + frame.v * std::sin(angle)) *
+         (0.5 * distance_to_neighbor(view, i, 6));
 }
 
 template <class Tree, class Tag>

@@ -22,6 +22,7 @@ public:
 
   std::vector<Site<double>> sites; ///< call `refit()` after a change
   std::vector<Vec3d> normals;      ///< unit
+  double guard_factor = 3;         ///< see `Sites_view`
 
   /// Sets the number of sites; `radius` is the first guess of the cells' radii.
   void resize(std::size_t n, double radius)
@@ -43,7 +44,10 @@ public:
   }
 
   View view() const
-  { return {sites.data(), normals.data(), m_boxes.data(), m_max_weights.data(), m_tree}; }
+  {
+    return {sites.data(), normals.data(), m_boxes.data(), m_max_weights.data(), m_tree,
+            guard_factor};
+  }
 
   /// Constructs all cells and calls `sink(i, status, polygon, frame)` for each, concurrently.
   /// `cos_angle` is the cosine of Theta. `Filtered`: see `construct_cell()`.

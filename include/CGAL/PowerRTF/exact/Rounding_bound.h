@@ -12,7 +12,9 @@
 // S. Let e be an edge of one of two cells, not of the other, and p and n the other's edges before
 // and after it by direction. Cut by p and n alone, e has at least its length l in one arrangement
 // of lines and no length in the other; its ends move by at most (delta_p + delta_e) / sin(p, e) and
-// (delta_e + delta_n) / sin(e, n). So l is at most the sum of the two.
+// (delta_e + delta_n) / sin(e, n). So l is at most the sum of the two. Two lines that do not meet
+// within S, however displaced, cannot both have edges, nor can rounding decide which of them has:
+// then the bound is 0.
 #ifndef CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
 #define CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
 
@@ -40,7 +42,7 @@ class Rounding_bound
   double m_reach, m_epsilon;
 
   struct Line {
-    double angle, displacement;
+    double angle, offset, displacement;
   };
 
 public:
@@ -56,7 +58,7 @@ public:
   {
     constexpr double turn = 6.283185307179586;
     const Line e = line(edge);
-    Line before{0, 0}, after{0, 0};
+    Line before{0, 0, 0}, after{0, 0, 0};
     double to_before = 2 * turn, to_after = 2 * turn; // angles
     for (int id : other) {
       const Line l = line(id);
@@ -72,6 +74,7 @@ public:
         before = l;
       }
     }
+    if (stays_off(e, before, to_before) || stays_off(e, after, to_after)) return 0;
     return (before.displacement + e.displacement) / std::fabs(std::sin(to_before)) +
            (after.displacement + e.displacement) / std::fabs(std::sin(to_after));
   }
@@ -85,16 +88,25 @@ public:
   }
 
 private:
+  bool stays_off(const Line& e, const Line& other, double angle) const
+  {
+    return std::fabs(e.offset - other.offset) > e.displacement + other.displacement +
+                                                    2 * m_reach * std::sin(angle / 2);
+  }
+
   Line line(int id) const
   {
     const double unit = 64 * m_epsilon;
-    if (id < 0) return {-1.5707963267948966 + 1.5707963267948966 * -id, unit * m_reach};
+    if (id < 0) // the square's size is not known here: never said to stay off
+      return {1.5707963267948966 * (-1 - id), std::numeric_limits<double>::quiet_NaN(),
+              unit * m_reach};
     const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[id];
     const Vec3d v = other.point - s.point;
     const double a = dot(v, m_frame.u), b = dot(v, m_frame.v), t = std::hypot(a, b);
     const double d2 = squared_length(v);
     const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
-    return {std::atan2(b, a), unit * (size / 2 + m_reach * std::sqrt(d2)) / t};
+    return {std::atan2(b, a), (d2 + (s.weight - other.weight)) / (2 * t),
+            unit * (size / 2 + m_reach * std::sqrt(d2)) / t};
   }
 };
 

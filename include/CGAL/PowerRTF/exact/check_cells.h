@@ -34,14 +34,14 @@ struct Error_distribution {
 /// The result of `check_cells()`. A cell is certified when the engine gives it a status other than
 /// `incomplete`; each status is a claim about the cell (see `construct_cell()`). It is right when
 /// its status is the oracle's and its cycle of neighbours is, but for edges below the rounding
-/// bound.
+/// bound: without the differing edges, the two cycles are one.
 struct Cell_comparison {
   std::size_t cells = 0;
   std::size_t equal_cycles = 0;      ///< the oracle's neighbours in the oracle's order
   std::size_t certified_wrong = 0;   ///< must be 0
   std::size_t uncertified_right = 0; ///< incomplete, but with the oracle's cycle
   std::size_t uncertified_wrong = 0;
-  std::size_t differing_edges = 0; ///< of the right cells, in one of the two cycles only
+  std::size_t differing_edges = 0; ///< of the right cells, in one of the two cycles only, or not at the same place
   double worst_edge = 0; ///< longest of these over its bound: at most 1
   /// Of the right cells that are not empty: |A - A*| / A*, and the distance of the centroids over
   /// sqrt(A*).
@@ -139,21 +139,55 @@ private:
       answer.worst_edge = (cycle.empty() ? geometry.area : cell.area) / most;
       answer.differing_edges = int(edges.size());
     } else {
-      add_missing(exact.neighbours, geometry.edge_lengths, cell.neighbors, bound, answer);
-      add_missing(cell.neighbors, lengths, exact.neighbours, bound, answer);
+      const std::vector<int> common = common_cycle(exact.neighbours, cell.neighbors);
+      add_missing(exact.neighbours, geometry.edge_lengths, common, cell.neighbors, bound, answer);
+      add_missing(cell.neighbors, lengths, common, exact.neighbours, bound, answer);
     }
     answer.is_right = answer.differing_edges > 0 && answer.worst_edge <= 1;
   }
 
+  /// The longest cycle that both contain in the same order.
+  static std::vector<int> common_cycle(const std::vector<int>& a, std::vector<int> b)
+  {
+    const std::size_t n = a.size(), m = b.size();
+    std::vector<int> longest;
+    std::vector<std::vector<int>> length(n + 1, std::vector<int>(m + 1, 0)); // of the ends of a, b
+    for (std::size_t turn = 0; turn < m; ++turn) {
+      for (std::size_t k = n; k-- > 0;)
+        for (std::size_t l = m; l-- > 0;)
+          length[k][l] = a[k] == b[l] ? length[k + 1][l + 1] + 1
+                                      : (std::max)(length[k + 1][l], length[k][l + 1]);
+      if (length[0][0] > int(longest.size())) {
+        longest.clear();
+        for (std::size_t k = 0, l = 0; k < n && l < m;) {
+          if (a[k] == b[l]) {
+            longest.push_back(a[k++]);
+            ++l;
+          } else {
+            ++(length[k + 1][l] >= length[k][l + 1] ? k : l);
+          }
+        }
+      }
+      std::rotate(b.begin(), b.begin() + 1, b.end());
+    }
+    return longest;
+  }
+
+  /// Measures the edges that are not in `common`.
   static void add_missing(const std::vector<int>& edges, const std::vector<double>& lengths,
-                          const std::vector<int>& others, const Rounding_bound& bound,
-                          Answer& answer)
+                          const std::vector<int>& common, const std::vector<int>& others,
+                          const Rounding_bound& bound, Answer& answer)
   {
     for (std::size_t k = 0; k < edges.size(); ++k) {
-      if (std::find(others.begin(), others.end(), edges[k]) != others.end()) continue;
+      if (std::find(common.begin(), common.end(), edges[k]) != common.end()) continue;
       ++answer.differing_edges;
-      answer.worst_edge =
-          (std::max)(answer.worst_edge, lengths[k] / bound.length_of(edges[k], others));
+      std::vector<int> rest; // in the other cycle the edge may stand at another place
+      for (int id : others)
+        if (id != edges[k]) rest.push_back(id);
+      const double most = rest.empty() ? 0 : bound.length_of(edges[k], rest);
+      answer.worst_edge = (std::max)(
+          answer.worst_edge,
+          most > 0 ? lengths[k] / most : std::numeric_limits<double>::infinity());
     }
   }
 
@@ -200,16 +234,19 @@ inline Error_distribution distribution(std::vector<double>& errors)
 /// \param cells one per sample
 /// \param cos_angle the cosine of Theta, as the engine uses it: `compatibility_cosine()`
 /// \param epsilon the precision of the engine's arithmetic: that of double, or of float
+/// \param guard_factor as in `Remeshing_options`
 /// \throw Invalid_input_error when the arrays differ in size
 template <class ConcurrencyTag>
 Cell_comparison check_cells(const Samples& samples, const std::vector<Cell_polygon>& cells,
-                            double cos_angle, double epsilon = internal::epsilon<double>())
+                            double cos_angle, double epsilon = internal::epsilon<double>(),
+                            double guard_factor = 3)
 {
   const std::size_t n = samples.size();
   if (cells.size() != n || samples.normals.size() != n || samples.weights.size() != n)
     throw Invalid_input_error("samples and cells differ in number");
   Site_tree<ConcurrencyTag> tree;
   tree.resize(n, 1);
+  tree.guard_factor = guard_factor;
   tree.normals = samples.normals;
   double area = 0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -53,7 +53,7 @@ struct Exact_polygon {
 /// The radius beyond which cell `i` is guarded, as `construct_cell()` takes it.
 inline double guard_radius(const Sites_view<double>& view, int i)
 {
-  return guard_factor<double>() * distance_to_neighbor(view, i, 6);
+  return view.guard_factor * distance_to_neighbor(view, i, 6);
 }
 
 /// Constructs cell `i` of `cells` and hands it to `sink(i, status, polygon, frame)`. `view`: the

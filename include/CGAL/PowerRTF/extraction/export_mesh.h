@@ -8,12 +8,14 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
 #include <array>
+#include <cstddef>
 #include <type_traits>
 #include <vector>
 
@@ -50,6 +52,31 @@ void remove_all_elements(CGAL::Surface_mesh<Point>& mesh)
   mesh.clear_without_removing_property_maps();
 }
 
+/// Adds the polygons to the empty mesh. `false`: a halfedge structure cannot hold one of them.
+template <class OutputMesh, class PointMap>
+bool add_polygons(const std::vector<Vec3d>& points,
+                  const std::vector<std::array<std::size_t, 3>>& polygons, OutputMesh& output,
+                  const PointMap& point_map)
+{
+  using Point = typename boost::property_traits<PointMap>::value_type;
+  using Graph = boost::graph_traits<OutputMesh>;
+  using Vertex = typename Graph::vertex_descriptor;
+  std::vector<char> is_used(points.size(), 0);
+  for (const auto& polygon : polygons)
+    for (const std::size_t v : polygon) is_used[v] = 1;
+  std::vector<Vertex> vertices(points.size(), Graph::null_vertex());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!is_used[v]) continue;
+    vertices[v] = add_vertex(output);
+    put(point_map, vertices[v], from_vec3d<Point>(points[v]));
+  }
+  for (const auto& p : polygons) {
+    const std::array<Vertex, 3> corners = {vertices[p[0]], vertices[p[1]], vertices[p[2]]};
+    if (Euler::add_face(corners, output) == Graph::null_face()) return false;
+  }
+  return true;
+}
+
 } // namespace internal
 
 /// Replaces the elements of `output` by those of `mesh`, in the input's coordinates. Vertices come
@@ -59,33 +86,29 @@ void remove_all_elements(CGAL::Surface_mesh<Point>& mesh)
 /// \param np may contain `vertex_point_map` (default: the output's own), whose points are
 ///   constructible from three coordinates
 ///
-/// A halfedge structure holds 2-manifolds only: a triangle that would break that is left out (a
-/// result of `extract_by_insertion()` has none).
+/// A halfedge structure holds 2-manifolds only. Where the triangles form none (those of
+/// `extract_by_insertion()` do), vertices are duplicated and triangles turned until they do.
 template <class OutputMesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
 void export_mesh(const Extracted_mesh& mesh, const Normalization& normalization, OutputMesh& output,
                  const NamedParameters& np = NamedParameters())
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
-  using Point_map = typename GetVertexPointMap<OutputMesh, NamedParameters>::type;
-  using Point = typename boost::property_traits<Point_map>::value_type;
-  using Vertex = typename boost::graph_traits<OutputMesh>::vertex_descriptor;
-  const Vertex none = boost::graph_traits<OutputMesh>::null_vertex();
+  auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                    get_property_map(CGAL::vertex_point, output));
+  std::vector<Vec3d> points;
+  points.reserve(mesh.points.size());
+  for (const Vec3d& p : mesh.points) points.push_back(normalization.to_outside(p));
+  std::vector<std::array<std::size_t, 3>> polygons;
+  polygons.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    polygons.push_back({std::size_t(t[0]), std::size_t(t[1]), std::size_t(t[2])});
 
   internal::remove_all_elements(output);
-  Point_map point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                         get_property_map(CGAL::vertex_point, output));
-  std::vector<char> is_used(mesh.points.size(), 0);
-  for (const Triangle& t : mesh.triangles)
-    for (const int v : t) is_used[v] = 1;
-  std::vector<Vertex> vertices(mesh.points.size(), none);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (!is_used[v]) continue;
-    vertices[v] = add_vertex(output);
-    put(point_map, vertices[v], internal::from_vec3d<Point>(normalization.to_outside(mesh.points[v])));
-  }
-  for (const Triangle& t : mesh.triangles)
-    Euler::add_face(std::array<Vertex, 3>{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, output);
+  if (internal::add_polygons(points, polygons, output, point_map)) return;
+  internal::remove_all_elements(output);
+  Polygon_mesh_processing::orient_polygon_soup(points, polygons);
+  internal::add_polygons(points, polygons, output, point_map);
 }
 
 } // namespace PowerRTF

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The mesh that the improvement works on: the working mesh, the place of each vertex on the surface,
-// and which vertices may move. A move is tried on the star of a vertex and kept only if it folds
-// nothing.
+// The mesh that the improvement works on: the working mesh, the place of each vertex on the
+// surface, and which vertices may move. A move is tried on the star of a vertex and kept only if it
+// folds nothing.
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
 
@@ -14,8 +14,8 @@
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace CGAL
@@ -42,10 +42,11 @@ public:
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
 
-  /// `locked`: by vertex, those that neither move nor get or lose an edge. Border vertices do not
-  /// move either.
-  Star_mesh(const Extracted_mesh& mesh, const Surface_guide& guide, const std::vector<char>& locked)
-      : m_guide(guide), m(refined(mesh, guide)), m_heights(mesh.points.size(), 0), m_locked(locked), m_movable(mesh.points.size())
+  /// Border vertices do not move. \throw Invalid_input_error if `mesh` is no oriented 2-manifold
+  Star_mesh(const Extracted_mesh& mesh, const Surface_guide& guide)
+      : m_guide(guide), m(refined(mesh)), m_heights(mesh.points.size(), 0),
+        m_locked(mesh.points.size(), false), m_movable(mesh.points.size()),
+        m_pinned(mesh.points.size(), false)
   {
     const std::size_t n = mesh.points.size();
     m_facets.reserve(n);
@@ -54,14 +55,38 @@ public:
       m_facets.push_back(place.facet);
       m.normals[v] = place.normal;
       const Vertex w = Vertex(Vertex::size_type(v));
-      m_movable[v] = !locked[v] && !m.mesh.is_isolated(w) && !m.mesh.is_border(w);
+      m_movable[v] = !m.mesh.is_isolated(w) && !m.mesh.is_border(w);
     }
   }
 
+  /// `locked`: by vertex, those that neither move nor get or lose an edge.
+  void lock(const std::vector<char>& locked)
+  {
+    m_locked = locked;
+    for (std::size_t v = 0; v < size(); ++v)
+      if (locked[v]) m_movable[v] = false;
+  }
+
   Working_mesh& working() { return m; }
+  const Working_mesh& working() const { return m; }
   const Surface_guide& guide() const { return m_guide; }
   std::size_t size() const { return m_facets.size(); }
   bool is_movable(Vertex v) const { return m_movable[v]; }
+  /// A pinned vertex does not move until it is released.
+  void pin(Vertex v)
+  {
+    m_movable[v] = false;
+    m_pinned[v] = true;
+  }
+  /// \returns whether `v` was pinned.
+  bool release(Vertex v)
+  {
+    if (!m_pinned[v]) return false;
+    m_pinned[v] = false;
+    m_movable[v] = true;
+    return true;
+  }
+
   Vec3d point(Vertex v) const { return m.point(v); }
   const Vec3d& normal(Vertex v) const { return m.normals[v]; }
   int facet(Vertex v) const { return m_facets[v]; }
@@ -137,13 +162,13 @@ public:
     mesh.triangles.clear();
     for (const auto f : m.mesh.faces()) {
       const Halfedge h = m.mesh.halfedge(f);
-      mesh.triangles.push_back({int(m.mesh.source(h)), int(m.mesh.target(h)),
-                                int(m.mesh.target(m.mesh.next(h)))});
+      mesh.triangles.push_back(
+          {int(m.mesh.source(h)), int(m.mesh.target(h)), int(m.mesh.target(m.mesh.next(h)))});
     }
   }
 
 private:
-  static Refined_surface refined(const Extracted_mesh& mesh, const Surface_guide&)
+  static Refined_surface refined(const Extracted_mesh& mesh)
   {
     Refined_surface r;
     r.points = mesh.points;
@@ -156,9 +181,9 @@ private:
 
   const Surface_guide& m_guide;
   Working_mesh m;
-  std::vector<int> m_facets; // by vertex: the surface's facet that carries it
+  std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
   std::vector<double> m_heights; // by vertex: over the surface
-  std::vector<char> m_locked, m_movable;
+  std::vector<char> m_locked, m_movable, m_pinned;
 };
 
 } // namespace internal

@@ -34,7 +34,22 @@ public:
   using Edge = Star_mesh::Edge;
   using Face = Working_mesh::Mesh::Face_index;
 
-  Star_mender(Star_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper) {}
+  Star_mender(Star_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper)
+  {
+    m_anchors.reserve(mesh.size());
+    for (const Vertex v : mesh.working().mesh.vertices()) m_anchors.push_back(mesh.point(v));
+  }
+
+  /// Releases the pinned vertices of the triangles that are clearly bad. \returns their number.
+  std::size_t release_pinned()
+  {
+    const auto& mesh = m.working().mesh;
+    std::size_t released = 0;
+    for (const Face f : mesh.faces())
+      if (badness(f) > Triangle_badness::severe)
+        for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) released += m.release(v);
+    return released;
+  }
 
   /// At most `rounds` passes over the bad triangles. \returns how many are left.
   std::size_t run(int rounds)
@@ -42,6 +57,7 @@ public:
     std::vector<Face> bad;
     for (const Face f : m.working().mesh.faces())
       if (badness(f) > 0) bad.push_back(f);
+    double total = total_badness(bad);
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
       std::vector<Vertex> vertices;
       for (const Face f : bad)
@@ -60,15 +76,24 @@ public:
       std::sort(left.begin(), left.end());
       left.erase(std::unique(left.begin(), left.end()), left.end());
       bad.swap(left);
+      const double now = total_badness(bad);
+      if (round % 2 == 1 && now > worthwhile * total) break;
+      if (round % 2 == 1) total = now;
     }
     return bad.size();
   }
 
 private:
-  static constexpr double foldless = 0.5;   // least agreement of a star that had more
-  static constexpr double first_step = 0.2; // in edges of the star
-  static constexpr int halvings = 4;
-  static constexpr int max_steps = 12;
+  static constexpr double slack = 0.1; // that each move may take from the agreement
+  // On curved parts (agreement below `curved`) vertices are drawn to where they were: to move them
+  // costs distance to the surface.
+  static constexpr double anchor_pull = 0.25, curved = 0.8;
+  static constexpr double foldless = 0.5;    // least agreement of a star that had more
+  static constexpr double worthwhile = 0.95; // least gain of two passes that are followed by more
+  static constexpr double first_step = 0.2;  // in edges of the star
+  static constexpr int halvings = 3;
+  static constexpr int max_steps = 8;
+  static constexpr double least_shape = 0.5; // of triangles that a flip may make
 
   using Vertices = boost::container::small_vector<Vertex, 16>;
 
@@ -93,7 +118,14 @@ private:
         .badness;
   }
 
-  static double energy(const Star& star, const Vec3d& p)
+  double total_badness(const std::vector<Face>& faces) const
+  {
+    double sum = 0;
+    for (const Face f : faces) sum += badness(f);
+    return sum;
+  }
+
+  static double star_energy(const Star& star, const Vec3d& p)
   {
     double sum = 0;
     for (const Star::Corner& c : star.corners) sum += triangle_badness(p, c.a, c.b).energy();
@@ -110,18 +142,23 @@ private:
                 w = cross(n, u);
     double size = 0;
     for (const Star::Corner& c : star.corners) size += length(c.a - p);
-    double step = first_step * size / double(star.corners.size());
-    const double start = energy(star, p);
-    double least = start, su = 0, sw = 0;
+    const double scale = size / double(star.corners.size());
+    const double pull =
+        anchor_pull * std::max(0., curved - m.agreement(star, p, n)) / (scale * scale);
+    const auto energy = [&](const Vec3d& q) {
+      return star_energy(star, q) + pull * squared_length(q - m_anchors[v]);
+    };
+    const double start = energy(p);
+    double step = first_step * scale, least = start, su = 0, sw = 0;
     constexpr double d = 0.7071067811865476;
-    constexpr double directions[8][2] = {{1, 0}, {d, d},   {0, 1},  {-d, d},
+    constexpr double directions[8][2] = {{1, 0},  {d, d},   {0, 1},  {-d, d},
                                          {-1, 0}, {-d, -d}, {0, -1}, {d, -d}};
     int halved = 0;
     for (int i = 0; i < max_steps && halved < halvings; ++i) {
       int best = -1;
       for (int k = 0; k < 8; ++k) {
         const double e =
-            energy(star, p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w);
+            energy(p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w);
         if (e < least) least = e, best = k;
       }
       if (best >= 0) {
@@ -134,8 +171,9 @@ private:
     }
     if (!(least < start)) return false;
     const auto place = m.project(v, p + su * u + sw * w);
-    if (place.facet < 0 || !(energy(star, place.point) < start)) return false;
-    if (m.agreement(star, place.point, place.normal) < std::min(foldless, m.agreement(star, p, n)))
+    if (place.facet < 0 || !(energy(place.point) < start)) return false;
+    if (m.agreement(star, place.point, place.normal) <
+        std::min(foldless, m.agreement(star, p, n) - slack))
       return false;
     m.move(v, place);
     return true;
@@ -156,11 +194,6 @@ private:
       if (flip_if_better(e) && mesh.is_valid(f) && !(badness(f) > 0)) return;
   }
 
-  struct Corner_state {
-    Vertex vertex;
-    Surface_guide::Place place;
-  };
-
   bool flip_if_better(Edge e)
   {
     auto& mesh = m.working().mesh;
@@ -171,6 +204,10 @@ private:
     // a vertex of valence 3 or 4 cannot lose an edge; one of valence 8 is to get no more
     const auto valence = [&](int k) { return int(mesh.degree(corners[k])); };
     if (valence(0) < 5 || valence(1) < 5 || valence(2) > 7 || valence(3) > 7) return false;
+    const auto shape = [&](int i, int j, int k) {
+      return m.working().shape(corners[i], corners[j], corners[k]);
+    };
+    if (std::min(shape(0, 3, 2), shape(1, 2, 3)) < least_shape) return false; // hopeless
     std::array<Surface_guide::Place, 4> before;
     for (int k = 0; k < 4; ++k) before[k] = m.place(corners[k]);
     const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);
@@ -178,7 +215,7 @@ private:
     for (int pass = 0; pass < 2; ++pass)
       for (const Vertex v : corners) search(v);
     if (patch_energy(corners) < energy_before &&
-        patch_agreement(corners) >= std::min(foldless, agreement))
+        patch_agreement(corners) >= std::min(foldless, agreement - slack))
       return true;
     m_flipper.flip(e);
     for (int k = 0; k < 4; ++k) m.move(corners[k], before[k]);
@@ -216,14 +253,15 @@ private:
     double least = 1;
     for (const Face f : patch(corners)) {
       const Halfedge h = mesh.halfedge(f);
-      least = std::min(least, m.working().agreement(mesh.source(h), mesh.target(h),
-                                                    mesh.target(mesh.next(h))));
+      least = std::min(
+          least, m.working().agreement(mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))));
     }
     return least;
   }
 
   Star_mesh& m;
   Edge_flipper& m_flipper;
+  std::vector<Vec3d> m_anchors;
 };
 
 } // namespace internal

@@ -1,17 +1,19 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Smoothing of all stars: each vertex in turn makes a Newton step in its tangent plane on the sum of
-// the inverse mean ratios L^2 / (4 sqrt(3) A) of its triangles (1: equilateral), and goes back to
-// the surface. (Freitag and Knupp, "Tetrahedral mesh improvement via optimization of the element
-// condition number", 2002, for triangles.)
+// Smoothing of all stars: edges are flipped and vertices moved where that lowers the sum of the
+// inverse mean ratios L^2 / (4 sqrt(3) A) of the triangles (1: equilateral). A vertex makes a
+// Newton step in its tangent plane and goes back to the surface. (Freitag and Knupp, "Tetrahedral
+// mesh improvement via optimization of the element condition number", 2002, for triangles.)
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H
 
+#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace CGAL
@@ -26,7 +28,20 @@ class Star_smoother
 public:
   using Vertex = Star_mesh::Vertex;
 
-  explicit Star_smoother(Star_mesh& mesh) : m(mesh) {}
+  using Halfedge = Star_mesh::Halfedge;
+  using Edge = Star_mesh::Edge;
+
+  Star_smoother(Star_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper) {}
+
+  /// Flips edges until that does not help any more.
+  void flip()
+  {
+    for (int pass = 0; pass < max_passes; ++pass) {
+      std::size_t flips = 0;
+      for (const Edge e : m.working().mesh.edges()) flips += flip_if_better(e);
+      if (flips == 0) return;
+    }
+  }
 
   /// One step of every movable vertex.
   void sweep()
@@ -38,19 +53,44 @@ public:
 private:
   // A star on a strongly curved part stands for features that smoothing would slide off.
   static constexpr double flat = 0.75; // least cosine of the normals of neighbours
+  static constexpr int max_passes = 10;
+  static constexpr double gain = 1e-9;  // of a flip: equal diagonals stay
   static constexpr double reach = 0.25; // longest step, in edges of the star
 
-  // Sum of the inverse mean ratios, up to the factor 1 / (2 sqrt(3)).
+  // The inverse mean ratio, up to the factor 1 / (2 sqrt(3)).
+  static double term(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+  {
+    const Vec3d e = b - a, f = c - a;
+    const double twice_area = length(cross(e, f));
+    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+    return (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
+  }
+
   static double energy(const Star& star, const Vec3d& p)
   {
     double sum = 0;
-    for (const Star::Corner& c : star.corners) {
-      const Vec3d e = c.a - p, f = c.b - p;
-      const double twice_area = length(cross(e, f));
-      if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
-      sum += (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
-    }
+    for (const Star::Corner& c : star.corners) sum += term(p, c.a, c.b);
     return sum;
+  }
+
+  bool flip_if_better(Edge e)
+  {
+    const auto& mesh = m.working().mesh;
+    if (!m.is_free(e)) return false;
+    const Halfedge h = mesh.halfedge(e), o = mesh.opposite(h);
+    const Vertex a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h)),
+                 d = mesh.target(mesh.next(o));
+    const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
+    const double now = term(pa, pb, pc) + term(pb, pa, pd),
+                 then = term(pd, pc, pa) + term(pc, pd, pb);
+    if (!(then < (1 - gain) * now)) return false;
+    const Working_mesh& w = m.working();
+    const double agreement = std::min(w.agreement(a, b, c), w.agreement(b, a, d));
+    if (std::min(w.agreement(d, c, a), w.agreement(c, d, b)) < std::min(flat, agreement))
+      return false;
+    if (!m_flipper.is_legal(e)) return false;
+    m_flipper.flip(e);
+    return true;
   }
 
   void step(Vertex v)
@@ -97,6 +137,7 @@ private:
   }
 
   Star_mesh& m;
+  Edge_flipper& m_flipper;
 };
 
 } // namespace internal

@@ -23,16 +23,19 @@ struct Triangle_badness {
   double badness = 0;            ///< 0 for a triangle that is good enough
   double inverse_mean_ratio = 1; ///< 1: equilateral
 
+  static constexpr double tolerable = 0.0012; ///< Q .753, or 40.5 degrees, or 86.7 degrees
+  static constexpr double severe = 0.02;      ///< Q .70, or 37.3 degrees, or 89 degrees
+
   /// What the search lowers: badness first, then the shape of all.
   double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }
 };
 
-/// 4 (.77 - Q)+^2 + 4 ((42 - theta_min) / 60)+^2 + 8 ((theta_max - 86) / 60)+^2, Q as in
+/// 4 (.77 - Q)+^2 + 4 ((41.5 - theta_min) / 60)+^2 + 8 ((theta_max - 86) / 60)+^2, Q as in
 /// triangle_quality.h, angles in degrees.
 inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
-  constexpr double quality = 0.77, smallest = 42, largest = 86, degrees = 57.29577951308232;
-  constexpr double cos_smallest = 0.7431448254773942, cos_largest = 0.0697564737441253;
+  constexpr double quality = 0.77, smallest = 41.5, largest = 86, degrees = 57.29577951308232;
+  constexpr double cos_smallest = 0.7489557207890021, cos_largest = 0.0697564737441253;
   Triangle_badness result;
   const Vec3d ab = b - a, ac = c - a;
   const double twice_area = length(cross(ab, ac));

@@ -1,0 +1,111 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lowers the maximal distance: where the surface's vertices are farthest from the mesh (tips and
+// thin parts between the samples), the nearest mesh vertex moves there and is pinned, if that makes
+// the farthest distance around it clearly smaller.
+#ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_COVER_TIPS_H
+#define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_COVER_TIPS_H
+
+#include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/extraction/improvement/Surface_watch.h>
+#include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace internal
+{
+
+class Tip_coverer
+{
+public:
+  using Vertex = Star_mesh::Vertex;
+  using Halfedge = Star_mesh::Halfedge;
+
+  /// `limit`: the badness that a move may bring upon a triangle that was better.
+  Tip_coverer(Star_mesh& mesh, Surface_watch& watch, double limit)
+      : m(mesh), m_watch(watch), m_limit(limit)
+  {
+  }
+
+  /// Looks at what is farther away than `share` times the farthest, and at most 1 % of the mesh's
+  /// vertices. \returns how many vertices have been moved and pinned.
+  std::size_t run(double share)
+  {
+    const double least = share * m_watch.max_distance();
+    std::vector<std::pair<double, int>> far;
+    for (int i = 0; i < m_watch.size(); ++i)
+      if (m_watch.distance(i) > least) far.push_back({-m_watch.distance(i), i});
+    std::sort(far.begin(), far.end());
+    std::size_t covered = 0, tried = 0;
+    for (const auto& [d, i] : far) {
+      if (!(m_watch.distance(i) > least)) continue; // covered with a neighbour
+      if (++tried > 10 + m.size() / 100) break;
+      while (m_watch.distance(i) > least && cover(i)) ++covered;
+    }
+    return covered;
+  }
+
+private:
+  static constexpr double worthwhile = 0.85; // of the farthest distance around
+  static constexpr double foldless = 0.1;
+
+  bool cover(int i)
+  {
+    const auto& mesh = m.working().mesh;
+    const Vec3d x = m_watch.point(i);
+    struct {
+      double distance;
+      Vertex v;
+      Surface_guide::Place place;
+    } best{worthwhile, Vertex(), {}};
+    Halfedge h = mesh.halfedge(Working_mesh::Mesh::Face_index(m_watch.face(i)));
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      const Vertex v = mesh.target(h);
+      if (!m.is_movable(v)) continue;
+      const Star star = m.star(v);
+      const Vec3d p = m.point(v), r = x - m_watch.nearest(i);
+      const double agreement = std::min(foldless, m.agreement(star, p, m.normal(v)));
+      const double before = m_watch.farthest_around(v, p);
+      for (const Vec3d& q : {x, p + r, p + 0.5 * r, p + 0.25 * r}) {
+        const auto place = m.project(v, q);
+        if (place.facet < 0 || !keeps_shape(star, p, place.point) ||
+            m.agreement(star, place.point, place.normal) < agreement)
+          continue;
+        const double ratio = m_watch.farthest_around(v, place.point) / before;
+        if (ratio < best.distance) best = {ratio, v, place};
+      }
+    }
+    if (!best.v.is_valid()) return false;
+    m.move(best.v, best.place);
+    m.pin(best.v);
+    m_watch.update_around(best.v);
+    return true;
+  }
+
+  bool keeps_shape(const Star& star, const Vec3d& now, const Vec3d& p) const
+  {
+    for (const Star::Corner& c : star.corners)
+      if (!(triangle_badness(p, c.a, c.b).badness <=
+            std::max(m_limit, triangle_badness(now, c.a, c.b).badness)))
+        return false;
+    return true;
+  }
+
+  Star_mesh& m;
+  Surface_watch& m_watch;
+  double m_limit;
+};
+
+} // namespace internal
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_COVER_TIPS_H

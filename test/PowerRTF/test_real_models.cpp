@@ -1,0 +1,106 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Real models of CGAL's data, remeshed through the library. They are looked for in the folder that
+// the environment variable POWER_RTF_DATA names; without any of them the test is skipped.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <CGAL/power_rtf_remeshing.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+
+namespace
+{
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+struct Model {
+  std::string name;
+  std::size_t samples;
+  double q_avg;    // least
+  double distance; // largest mean, times 100 / diagonal
+};
+
+const std::vector<Model> models = {{"bunny00", 2000, 0.9, 0.15},
+                                   {"retinal", 1500, 0.9, 0.15},
+                                   {"homer", 3000, 0.88, 0.15},
+                                   {"elk", 6000, 0.85, 0.15},
+                                   {"eight", 800, 0.9, 0.25}};
+
+std::string path_of(const Model& model)
+{
+  const char* folder = std::getenv("POWER_RTF_DATA");
+  return folder ? std::string(folder) + "/" + model.name + ".off" : std::string();
+}
+
+bool is_there(const Model& model) { return std::ifstream(path_of(model)).good(); }
+
+constexpr int skipped = 77; // CTest's SKIP_RETURN_CODE
+
+} // namespace
+
+TEST_CASE("real models keep their topology and get good triangles")
+{
+  for (const Model& model : models) {
+    if (!is_there(model)) {
+      MESSAGE("skipped: " << path_of(model) << " is missing");
+      continue;
+    }
+    Mesh input;
+    REQUIRE(CGAL::IO::read_polygon_mesh(path_of(model), input));
+    for (Density density : {Density::uniform, Density::curvature}) {
+      const std::string name =
+          model.name + (density == Density::uniform ? " uniform" : " adaptive");
+      CAPTURE(name);
+      Remeshing_options options;
+      options.density = density;
+      Mesh output;
+      const Remeshing_report report = CGAL::power_rtf_remeshing(
+          input, model.samples, output, parameters::remeshing_options(options));
+      std::string missed;
+      for (const std::string& guarantee : report.missed_guarantees()) missed += guarantee + "; ";
+      CHECK(missed == "");
+
+      // Judged again, by CGAL.
+      CHECK(num_vertices(output) == model.samples);
+      CHECK(CGAL::is_valid_polygon_mesh(output));
+      CHECK(CGAL::is_triangle_mesh(output));
+      CHECK(CGAL::is_closed(output));
+      CHECK_FALSE(CGAL::Polygon_mesh_processing::does_self_intersect(output));
+      const long euler =
+          long(num_vertices(output)) - long(num_edges(output)) + long(num_faces(output));
+      CHECK(euler == report.input_topology.euler_characteristic);
+      CHECK(report.quality.q_avg > model.q_avg);
+      CHECK(report.distance.mean < model.distance);
+      CHECK(report.distance.mean > 0);
+      CHECK(report.cells.incomplete == 0);
+      MESSAGE(name << ": Q_min " << report.quality.q_min << ", Q_avg " << report.quality.q_avg
+                   << ", theta_min " << report.quality.theta_min << ", mean distance "
+                   << report.distance.mean << ", inside " << report.capacity.inside_interval
+                   << ", " << report.seconds.total << " s");
+    }
+  }
+}
+
+int main(int argc, char** argv)
+{
+  for (const Model& model : models)
+    if (is_there(model)) return doctest::Context(argc, argv).run();
+  std::cout << "SKIPPED: the environment variable POWER_RTF_DATA names no folder with one of";
+  for (const Model& model : models) std::cout << ' ' << model.name << ".off";
+  std::cout << " (data/meshes of CGAL's data; Debian: package libcgal-demo)\n";
+  return skipped;
+}
