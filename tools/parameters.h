@@ -69,6 +69,11 @@ inline auto names(CGAL::PowerRTF::Extraction_method)
   return Names<E, 2>{
       {{E::insertion, "insertion"}, {E::restricted_delaunay, "restricted-delaunay"}}};
 }
+inline auto names(CGAL::PowerRTF::Improvement)
+{
+  using E = CGAL::PowerRTF::Improvement;
+  return Names<E, 2>{{{E::no, "no"}, {E::yes, "yes"}}};
+}
 
 template <class E>
 std::string name_of(E value)
@@ -161,6 +166,8 @@ void for_each_parameter(Visitor&& visit)
 
   group = "Extraction";
   add("extraction", &O::extraction, "", "how the triangles are made", {}, "extraction-method");
+  add("improvement", &O::improvement, "",
+      "rounder triangles, nearer to the surface; no: triangles on the samples");
 }
 
 } // namespace tools

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/Remeshing_visitor.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
+#include <CGAL/PowerRTF/extraction/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
@@ -66,7 +67,8 @@ public:
     return !m_report.cancelled;
   }
 
-  /// Triangulates the samples (Algorithm 3, line 22) and judges the result.
+  /// Triangulates the samples (Algorithm 3, line 22), improves the mesh unless
+  /// `Improvement::no`, and judges the result.
   template <class Visitor>
   PowerRTF::Extracted_mesh extract(Visitor& visitor)
   {
@@ -78,6 +80,11 @@ public:
       mesh = m_options.extraction == PowerRTF::Extraction_method::insertion
                  ? PowerRTF::extract_by_insertion(m_surface, samples)
                  : PowerRTF::extract_restricted_delaunay(m_surface, samples);
+    }
+    if (m_options.improvement == PowerRTF::Improvement::yes) {
+      visitor.on_stage("improvement");
+      PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
+      PowerRTF::improve_mesh(m_surface, mesh);
     }
     visitor.on_stage("quality");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.quality);

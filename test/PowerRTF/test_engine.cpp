@@ -571,8 +571,8 @@ TEST_CASE("both ways of weighting make the capacities equal")
 TEST_CASE("L-BFGS on a quadratic energy")
 {
   // A chain of points, each pulled to its place and to its neighbours.
-  const int n = 200;
-  const auto gradient_at = [n](const std::vector<Vec3d>& x)
+  constexpr int n = 200;
+  const auto gradient_at = [](const std::vector<Vec3d>& x)
   {
     std::vector<Vec3d> g(n);
     for (int i = 0; i < n; ++i) {

@@ -207,6 +207,13 @@ TEST_CASE("Surface_mesh to Surface_mesh: the vertices asked for, on the surface"
   CHECK(report.seconds.total >= report.seconds.surface + report.seconds.optimization);
   const CGAL::PowerRTF::Surface surface = shapes::make_surface(ellipsoid());
   const Facet_tree tree(surface.points, surface.triangles);
+  const double h = std::sqrt(surface.area / 200);
+  for (const Vec3d& p : soup_of(output).points) // the improvement leaves the surface a little
+    CHECK(tree.nearest(surface.normalization.to_inside(p)).squared_distance < 0.01 * h * h);
+
+  Remeshing_options options;
+  options.improvement = Improvement::no;
+  CGAL::power_rtf_remeshing(input, 200, output, params::remeshing_options(options));
   for (const Vec3d& p : soup_of(output).points)
     CHECK(tree.nearest(surface.normalization.to_inside(p)).squared_distance < 1e-28);
 }
@@ -449,7 +456,7 @@ TEST_CASE("the visitor sees stages and iterations")
   const Remeshing_report report = CGAL::power_rtf_remeshing(
       input, 120, output, CGAL::parameters::visitor(std::ref(visitor)).number_of_iterations(20));
   CHECK(visitor.stages == std::vector<std::string>{"surface", "sampling", "optimization",
-                                                   "extraction", "quality"});
+                                                   "extraction", "improvement", "quality"});
   CHECK(visitor.iterations == int(report.outer_iterations));
   CHECK(visitor.grows);
   CHECK(visitor.last_progress == Approx(1));
@@ -533,35 +540,56 @@ TEST_CASE("the smallest numbers of samples")
 
 // --- invariance ----------------------------------------------------------------------------------
 
+namespace
+{
+
+/// How far rounding may move a vertex, in units of the input: the improvement decides by
+/// comparisons, which amplify it.
+double rounding(Improvement improvement) { return improvement == Improvement::no ? 1e-5 : 0.01; }
+
+Remeshing_options with(Density density, Improvement improvement)
+{
+  Remeshing_options options;
+  options.density = density;
+  options.improvement = improvement;
+  return options;
+}
+
+} // namespace
+
 TEST_CASE("scaling the input changes no triangle")
 {
-  for (const Soup& soup : {torus(), ellipsoid()}) {
-    for (const Remeshing_options& options : {uniform(), Remeshing_options()}) {
-      const Soup expected = remesh(soup, 300, options).soup;
-      for (double factor : {1000., 0.001}) {
-        CAPTURE(factor);
-        const Soup scaled = remesh(shapes::scaled(soup, factor), 300, options).soup;
-        CHECK(sorted(scaled.triangles) == sorted(expected.triangles));
-        CHECK(largest_distance(scaled, shapes::scaled(expected, factor)) < 1e-5 * factor);
+  for (const Soup& soup : {torus(), ellipsoid()})
+    for (Density density : {Density::uniform, Density::curvature})
+      for (Improvement improvement : {Improvement::no, Improvement::yes}) {
+        const Remeshing_options options = with(density, improvement);
+        const Soup expected = remesh(soup, 300, options).soup;
+        for (double factor : {1000., 0.001}) {
+          CAPTURE(factor);
+          const Soup scaled = remesh(shapes::scaled(soup, factor), 300, options).soup;
+          CHECK(sorted(scaled.triangles) == sorted(expected.triangles));
+          CHECK(largest_distance(scaled, shapes::scaled(expected, factor)) <
+                rounding(improvement) * factor);
+        }
+        for (double factor : {1024., 1 / 4096.}) { // a power of two rounds nothing
+          CAPTURE(factor);
+          CHECK(are_equal(remesh(shapes::scaled(soup, factor), 300, options).soup,
+                          shapes::scaled(expected, factor)));
+        }
       }
-      for (double factor : {1024., 1 / 4096.}) { // a power of two rounds nothing
-        CAPTURE(factor);
-        CHECK(are_equal(remesh(shapes::scaled(soup, factor), 300, options).soup,
-                             shapes::scaled(expected, factor)));
-      }
-    }
-  }
 }
 
 TEST_CASE("moving the input by 1000 diagonals changes the result by rounding only")
 {
-  for (const Soup& soup : {torus(), ellipsoid()}) {
-    const Soup expected = remesh(soup, 300).soup;
-    const Vec3d far = 1000 * diagonal(soup) * normalized(Vec3d{1, -2, 0.5});
-    const Soup moved = remesh(shapes::translated(soup, far), 300).soup;
-    CHECK(sorted(moved.triangles) == sorted(expected.triangles));
-    CHECK(largest_distance(moved, shapes::translated(expected, far)) < 1e-5 * diagonal(soup));
-  }
+  for (const Soup& soup : {torus(), ellipsoid()})
+    for (Improvement improvement : {Improvement::no, Improvement::yes}) {
+      const Remeshing_options options = with(Density::curvature, improvement);
+      const Soup expected = remesh(soup, 300, options).soup;
+      const Vec3d far = 1000 * diagonal(soup) * normalized(Vec3d{1, -2, 0.5});
+      const Soup moved = remesh(shapes::translated(soup, far), 300, options).soup;
+      CHECK(sorted(moved.triangles) == sorted(expected.triangles));
+      CHECK(largest_distance(moved, shapes::translated(expected, far)) < rounding(improvement));
+    }
 }
 
 TEST_CASE("turning the input or renumbering it leaves the quality as it is")

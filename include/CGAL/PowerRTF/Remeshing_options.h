@@ -19,6 +19,7 @@ enum class Position_method { lbfgs, lloyd };
 enum class Weight_method { none, multiplicative, newton }; ///< none: RTF, the paper's rule, Newton
 enum class Weight_operator { ceiling, floor };         ///< rounding of alpha; floor: as printed
 enum class Extraction_method { insertion, restricted_delaunay };
+enum class Improvement { no, yes };
 
 /// Parameters of `PowerRTF_remesher`. The defaults are those of the preset `quality`;
 /// `paper_preset()` gives those of the paper. Lengths are relative, so no parameter depends on the
@@ -72,6 +73,7 @@ struct Remeshing_options {
 
   // Extraction
   Extraction_method extraction = Extraction_method::insertion;
+  Improvement improvement = Improvement::yes; ///< of the triangles, after the extraction (not in the paper)
 
   /// The paper's own algorithms and parameter values (Section 5). Its initial drawing,
   /// `Sampling::random`, is "replaced by other curvature-adapted sampling methods", as it allows:
@@ -90,6 +92,7 @@ struct Remeshing_options {
     o.projection = Projection::nearest_vertices;
     o.centroid_density_power = 0;
     o.weight_method = Weight_method::multiplicative;
+    o.improvement = Improvement::no;
     return o;
   }
 };

@@ -13,7 +13,8 @@ namespace PowerRTF {
 /// The default visitor: does nothing and never stops. Derive from it, or give any class with these
 /// members; pass it through `std::ref` to keep its state.
 struct Remeshing_default_visitor {
-  /// A stage begins: "surface", "sampling", "optimization", "extraction" or "quality".
+  /// A stage begins: "surface", "sampling", "optimization", "extraction", "improvement" or
+  /// "quality".
   void on_stage(const char* /*name*/) {}
   /// An outer iteration ended. `progress` in [0, 1] is the share of the optimisation done.
   void on_iteration(const Iteration_report& /*iteration*/, double /*progress*/) {}

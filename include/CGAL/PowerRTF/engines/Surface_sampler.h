@@ -57,9 +57,8 @@ public:
       return field[t[0]] * (1 - beta - gamma) + field[t[1]] * beta + field[t[2]] * gamma;
     };
     const Vec3d sum = interpolate(m_surface.vertex_normals);
-    // On a fold the vertices' normals may cancel out or point behind the facet.
-    normal = dot(sum, m_surface.facet_normals[facet]) > 0 ? normalized(sum)
-                                                          : m_surface.facet_normals[facet];
+    // Not the facet's own: small facets of real meshes are sometimes turned over.
+    normal = squared_length(sum) > 0 ? normalized(sum) : m_surface.facet_normals[facet];
     density = interpolate(m_surface.vertex_density);
   }
 

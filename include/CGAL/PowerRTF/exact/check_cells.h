@@ -41,7 +41,8 @@ struct Cell_comparison {
   std::size_t certified_wrong = 0;   ///< must be 0
   std::size_t uncertified_right = 0; ///< incomplete, but with the oracle's cycle
   std::size_t uncertified_wrong = 0;
-  std::size_t differing_edges = 0; ///< of the right cells, in one of the two cycles only, or not at the same place
+  /// Of the right cells: edges in one of the two cycles only, or not at the same place.
+  std::size_t differing_edges = 0;
   double worst_edge = 0; ///< longest of these over its bound: at most 1
   /// Of the right cells that are not empty: |A - A*| / A*, and the distance of the centroids over
   /// sqrt(A*).

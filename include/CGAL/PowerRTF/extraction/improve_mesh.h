@@ -138,13 +138,18 @@ private:
 /// distance of the surface's vertices to the mesh grows by at most 0.2 h, h = sqrt(area / n). Where
 /// an improvement would break one of these, everything stays as it is.
 ///
-/// \throw Invalid_input_error if `mesh` is not an oriented 2-manifold: it is left as it is
-///
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`).
-inline void improve_mesh(const Surface& surface, Extracted_mesh& mesh)
+///
+/// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
+inline bool improve_mesh(const Surface& surface, Extracted_mesh& mesh)
 {
-  if (mesh.triangles.empty()) return;
-  mesh = internal::Mesh_improver(surface, mesh).run();
+  if (mesh.triangles.empty()) return true;
+  try {
+    mesh = internal::Mesh_improver(surface, mesh).run();
+  } catch (const Invalid_input_error&) {
+    return false;
+  }
+  return true;
 }
 
 } // namespace PowerRTF

@@ -106,8 +106,8 @@ public:
   }
 
 private:
-  static constexpr std::size_t max_watched = 16;// surface vertices for each vertex of the mesh
-  static constexpr double largest_turn = -0.35; // cosine
+  static constexpr std::size_t max_watched = 16; // surface vertices for each vertex of the mesh
+  static constexpr double largest_turn = -0.35;  // cosine
 
   using Faces = boost::container::small_vector<Face, 32>;
   struct Watched {

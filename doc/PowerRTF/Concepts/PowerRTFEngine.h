@@ -1,0 +1,67 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/*!
+\ingroup PkgPowerRTFConcepts
+\cgalConcept
+
+Owns the samples with their weights and cells, and carries out one step of the algorithm over all of
+them at once. `CGAL::PowerRTF_remesher` decides which step comes next; a handful of calls per
+iteration, none per sample. Everything is in the coordinates of the unit box
+(`CGAL::PowerRTF::Normalization`).
+
+Each model must be deterministic: the same calls give the same result bit for bit, whatever the
+number of threads.
+
+\cgalHasModelsBegin
+\cgalHasModels{`CGAL::PowerRTF::Cpu_engine<ConcurrencyTag>`}
+\cgalHasModels{`CGAL::PowerRTF::Exact_engine<Kernel, ConcurrencyTag>`}
+\cgalHasModelsEnd
+*/
+class PowerRTFEngine {
+public:
+  /// Keeps a reference to `surface`, whose vertex normals may still change before `set_samples()`.
+  PowerRTFEngine(const CGAL::PowerRTF::Surface& surface,
+                 const CGAL::PowerRTF::Remeshing_options& options);
+
+  /// Takes the samples' points and facets; their normals and densities come from the surface, their
+  /// weights become 0. The engine may reorder them, once.
+  void set_samples(const CGAL::PowerRTF::Samples& samples);
+
+  /// Constructs all cells (Algorithm 1), with area, mass and centre of mass.
+  void build_cells();
+
+  /// One pass of the paper's rule over all weights (Algorithm 2, lines 3 to 10). The cells must be
+  /// those of the current samples and weights, and are outdated after it.
+  void update_weights();
+
+  /// One damped Newton step on the weights. The cells are those of the new weights. `false`: no step
+  /// made the masses more equal, and nothing has changed.
+  bool newton_weights();
+
+  /// Moves each sample towards the centre of mass of its cell and projects it onto the surface
+  /// (Algorithm 3, lines 15 to 19). The cells are outdated after it.
+  void move_samples(CGAL::PowerRTF::Position_method method);
+
+  /// Goes back to the most centroidal samples that L-BFGS has passed, when the current ones are less
+  /// so, and builds their cells.
+  void restore_best();
+
+  /// How equal the masses of the current cells are.
+  CGAL::PowerRTF::Capacity_statistics capacity() const;
+
+  /// The current cells by status.
+  CGAL::PowerRTF::Cell_counts cell_counts() const;
+
+  /// The root mean square of |s_i - c_i|, in units of sqrt(area / n).
+  double displacement() const;
+
+  /// How often all cells have been constructed.
+  std::size_t constructions() const;
+
+  /// The current samples with normals, densities and weights.
+  CGAL::PowerRTF::Samples samples() const;
+
+  /// The polygons of the current cells, in the samples' order.
+  std::vector<CGAL::PowerRTF::Cell_polygon> cells();
+};

@@ -1,0 +1,207 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "shapes.h"
+
+#include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/extraction/improve_mesh.h>
+#include <CGAL/PowerRTF/quality/assess.h>
+#include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/surface/smooth_normals.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+
+namespace
+{
+
+struct Case {
+  Surface surface;
+  Extracted_mesh raw;
+};
+
+Case make_case(const shapes::Soup& soup, std::size_t n, unsigned seed,
+               Sampling sampling = Sampling::elimination)
+{
+  Case c{shapes::make_surface(soup), {}};
+  Remeshing_options o;
+  o.number_of_samples = n;
+  o.random_seed = seed;
+  o.sampling = sampling;
+  smooth_normals(c.surface, n, o.normal_smoothing);
+  c.raw = extract_by_insertion(c.surface, sample_surface(c.surface, o));
+  return c;
+}
+
+Remeshing_report judge(const Surface& surface, const Extracted_mesh& mesh)
+{
+  Remeshing_report report;
+  assess<CGAL::Sequential_tag>(surface, mesh, report);
+  return report;
+}
+
+Extracted_mesh improved(const Case& c)
+{
+  Extracted_mesh mesh = c.raw;
+  CHECK(improve_mesh(c.surface, mesh));
+  return mesh;
+}
+
+void check_kept(const Remeshing_report& before, const Remeshing_report& after)
+{
+  CHECK(after.topology.vertices == before.topology.vertices);
+  CHECK(after.topology.faces == before.topology.faces);
+  CHECK(after.topology.euler_characteristic == before.topology.euler_characteristic);
+  CHECK(after.topology.components == before.topology.components);
+  CHECK(after.topology.border_edges == before.topology.border_edges);
+  CHECK(after.topology.border_loops == before.topology.border_loops);
+  CHECK(after.topology.non_manifold_edges == 0);
+  CHECK(after.topology.non_manifold_vertices == 0);
+  CHECK(after.topology.oriented);
+  CHECK(after.self_intersections <= before.self_intersections);
+}
+
+/// 0.2 h, in the unit of `Distance_statistics`.
+double largest_worsening(const Surface& surface, std::size_t n)
+{
+  const auto box = CGAL::PowerRTF::internal::bounding_box(surface.points, surface.triangles);
+  return 100 * 0.2 * std::sqrt(surface.area / double(n)) / length(box.hi - box.lo);
+}
+
+std::set<std::pair<int, int>> border_edges(const Extracted_mesh& mesh)
+{
+  std::set<std::pair<int, int>> edges;
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::pair<int, int> e(t[k], t[(k + 1) % 3]);
+      if (!edges.erase({e.second, e.first})) edges.insert(e);
+    }
+  return edges;
+}
+
+} // namespace
+
+TEST_CASE("triangle badness")
+{
+  const Vec3d a{0, 0, 0}, b{1, 0, 0};
+  using internal::triangle_badness;
+  const auto equilateral = triangle_badness(a, b, {0.5, std::sqrt(0.75), 0});
+  CHECK(equilateral.badness == 0);
+  CHECK(equilateral.inverse_mean_ratio == doctest::Approx(1));
+  // right-angled, 45 degrees: Q = sqrt(3) / ((2 + sqrt(2)) / 2 * sqrt(2))
+  const double q = std::sqrt(3.) / ((1 + std::sqrt(0.5)) * std::sqrt(2.));
+  CHECK(triangle_badness(a, b, {0, 1, 0}).badness ==
+        doctest::Approx(4 * std::pow(0.77 - q, 2) + 8 * std::pow(4 / 60., 2)));
+  CHECK(triangle_badness(a, b, {0, 1e3, 0}).badness > 1);
+  CHECK(std::isinf(triangle_badness(a, b, {2, 0, 0}).badness));
+  // the same at any size
+  CHECK(triangle_badness(1e-9 * a, 1e-9 * b, {0.2e-9, 0.7e-9, 0}).badness ==
+        doctest::Approx(triangle_badness(a, b, {0.2, 0.7, 0}).badness));
+}
+
+TEST_CASE("closed surfaces: better triangles, nearer to the surface, the same topology")
+{
+  const std::vector<std::pair<std::string, shapes::Soup>> inputs{
+      {"sphere", shapes::icosphere(4)},
+      {"torus", shapes::torus(80, 40, 1, 0.4)},
+      {"ellipsoid", shapes::ellipsoid(1, 0.7, 0.4, 4)},
+      {"two spheres", shapes::two_spheres(3)}};
+  for (const auto& [name, soup] : inputs)
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      CAPTURE(name);
+      CAPTURE(seed);
+      const Case c = make_case(soup, 600, seed);
+      const auto before = judge(c.surface, c.raw), after = judge(c.surface, improved(c));
+      check_kept(before, after);
+      CHECK(after.self_intersections == 0);
+      CHECK(after.quality.q_min > 0.7);
+      CHECK(after.quality.q_min > before.quality.q_min);
+      CHECK(after.quality.q_avg > before.quality.q_avg + 0.03);
+      CHECK(after.quality.theta_min > 38);
+      CHECK(after.quality.above_90 == 0);
+      CHECK(after.distance.mean < 0.65 * before.distance.mean);
+      CHECK(after.distance.max < before.distance.max + largest_worsening(c.surface, 600));
+    }
+}
+
+TEST_CASE("bad samples, edges and corners: nothing breaks")
+{
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    CAPTURE(seed);
+    for (const shapes::Soup& soup : {shapes::box(12), shapes::thin_disc(0.02), shapes::octahedron(),
+                                     shapes::torus(60, 20, 1, 0.15)}) {
+      const std::size_t n = 400;
+      const Case c = make_case(soup, n, seed, Sampling::random);
+      const auto before = judge(c.surface, c.raw), after = judge(c.surface, improved(c));
+      check_kept(before, after);
+      CHECK(after.quality.q_avg > before.quality.q_avg);
+      CHECK(after.distance.max < before.distance.max + 1.1 * largest_worsening(c.surface, n));
+    }
+  }
+}
+
+TEST_CASE("borders stay")
+{
+  for (unsigned seed = 0; seed < 3; ++seed)
+    for (const shapes::Soup& soup :
+         {shapes::plane_patch(20, 20), shapes::open_cylinder(40, 20, 1, 2)}) {
+      const Case c = make_case(soup, 300, seed);
+      const Extracted_mesh mesh = improved(c);
+      const auto before = judge(c.surface, c.raw), after = judge(c.surface, mesh);
+      check_kept(before, after);
+      CHECK(after.quality.q_avg > before.quality.q_avg);
+      const auto edges = border_edges(c.raw);
+      CHECK(border_edges(mesh) == edges);
+      CHECK(!edges.empty());
+      for (const auto& e : edges) CHECK(mesh.points[e.first] == c.raw.points[e.first]);
+    }
+}
+
+TEST_CASE("deterministic, and the same at any scale")
+{
+  const shapes::Soup soup = shapes::ellipsoid(1, 0.8, 0.5, 3);
+  const Case c = make_case(soup, 300, 1);
+  const Extracted_mesh mesh = improved(c), again = improved(c);
+  CHECK(mesh.points == again.points);
+  CHECK(mesh.triangles == again.triangles);
+  CHECK(mesh.points != c.raw.points);
+
+  Case large = c; // by a power of two: bit for bit
+  for (Vec3d& p : large.surface.points) p *= 1024;
+  for (double& a : large.surface.facet_areas) a *= 1024. * 1024;
+  large.surface.area *= 1024. * 1024;
+  for (Vec3d& p : large.raw.points) p *= 1024;
+  Extracted_mesh scaled = improved(large);
+  for (Vec3d& p : scaled.points) p *= 1. / 1024;
+  CHECK(scaled.points == mesh.points);
+  CHECK(scaled.triangles == mesh.triangles);
+}
+
+TEST_CASE("few, no and non-manifold triangles")
+{
+  const Surface sphere = shapes::make_surface(shapes::icosphere(2));
+  Extracted_mesh none;
+  CHECK(improve_mesh(sphere, none));
+  CHECK(none.triangles.empty());
+
+  for (std::size_t n : {4, 5, 12, 20}) {
+    const Case c = make_case(shapes::icosphere(2), n, 0);
+    check_kept(judge(c.surface, c.raw), judge(c.surface, improved(c)));
+  }
+
+  Case fan = make_case(shapes::icosphere(2), 50, 0);
+  fan.raw.triangles.push_back(fan.raw.triangles.front());
+  const Extracted_mesh before = fan.raw;
+  CHECK(!improve_mesh(fan.surface, fan.raw));
+  CHECK(fan.raw.points == before.points);
+  CHECK(fan.raw.triangles == before.triangles);
+}
