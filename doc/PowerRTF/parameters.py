@@ -55,7 +55,7 @@ def table(text):
         meaning = description[:default.start()] if default else description
         symbol = re.search(r" \[([^\]]*)\]$", meaning)
         meaning = meaning[:symbol.start()] if symbol else meaning
-        meaning = meaning.replace("|", ", ").replace("^", "&circ;").replace("_", "&#95;")
+        meaning = meaning.replace("|", ", ").replace("^", "&#94;").replace("_", "&#95;")
         meaning = re.sub(r"--[a-z]+ [a-z]+", r"`\g<0>`", meaning)
         shown = GREEK.get(symbol[1], symbol[1]) if symbol else ""
         lines.append(f"| `{name}` | {f'`{shown}`' if shown else ''} | {meaning} | {quality} "

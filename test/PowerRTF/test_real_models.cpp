@@ -30,15 +30,14 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 struct Model {
   std::string name;
   std::size_t samples;
-  double q_avg;    // least
   double distance; // largest mean, times 100 / diagonal
 };
 
-const std::vector<Model> models = {{"bunny00", 2000, 0.9, 0.15},
-                                   {"retinal", 1500, 0.9, 0.15},
-                                   {"homer", 3000, 0.88, 0.15},
-                                   {"elk", 6000, 0.85, 0.15},
-                                   {"eight", 800, 0.9, 0.25}};
+const std::vector<Model> models = {{"bunny00", 2000, 0.1},
+                                   {"retinal", 1500, 0.1},
+                                   {"homer", 3000, 0.06},
+                                   {"elk", 6000, 0.06},
+                                   {"eight", 800, 0.2}};
 
 std::string path_of(const Model& model)
 {
@@ -83,7 +82,9 @@ TEST_CASE("real models keep their topology and get good triangles")
       const long euler =
           long(num_vertices(output)) - long(num_edges(output)) + long(num_faces(output));
       CHECK(euler == report.input_topology.euler_characteristic);
-      CHECK(report.quality.q_avg > model.q_avg);
+      CHECK(report.quality.q_min > 0.65);
+      CHECK(report.quality.q_avg > 0.91);
+      CHECK(report.quality.theta_min > 33);
       CHECK(report.distance.mean < model.distance);
       CHECK(report.distance.mean > 0);
       CHECK(report.cells.incomplete == 0);

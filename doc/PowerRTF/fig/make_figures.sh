@@ -29,5 +29,5 @@ draw() {
 }
 
 draw elk 6000
-draw armadillo 3000 --azimuth 240
+draw armadillo 6000 --azimuth 240
 draw bunny00 3000

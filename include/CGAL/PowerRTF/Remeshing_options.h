@@ -73,7 +73,8 @@ struct Remeshing_options {
 
   // Extraction
   Extraction_method extraction = Extraction_method::insertion;
-  Improvement improvement = Improvement::yes; ///< of the triangles, after the extraction (not in the paper)
+  /// Of the triangles after the extraction (not in the paper); no: triangles on the samples.
+  Improvement improvement = Improvement::yes;
 
   /// The paper's own algorithms and parameter values (Section 5). Its initial drawing,
   /// `Sampling::random`, is "replaced by other curvature-adapted sampling methods", as it allows:
