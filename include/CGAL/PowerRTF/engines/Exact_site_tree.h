@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The cells of the engines that ask for exact combinatorics: all of them by the oracle, or only
-// those that the fast path's filter cannot prove (design: section 9).
+// those that the fast path's filter cannot prove.
 #ifndef CGAL_POWER_RTF_ENGINES_EXACT_SITE_TREE_H
 #define CGAL_POWER_RTF_ENGINES_EXACT_SITE_TREE_H
 

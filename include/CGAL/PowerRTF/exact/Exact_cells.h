@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The oracle (design: section 9): for samples, normals and weights taken as exact doubles, the
+// The oracle: for samples, normals and weights taken as exact doubles, the
 // restricted cells F_i with exact combinatorics. F_i = tangent plane of s_i, cut by the equal-power
 // half-spaces of the samples compatible with i (NVISPC). Shares no clipping code with `cells/`.
 //

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The predicates of the exact cells (design: section 9): the turn between two edges of a restricted
+// The predicates of the exact cells: the turn between two edges of a restricted
 // cell, and the side of a vertex with respect to a third equal-power plane. A vertex is implicit:
 // the tangent plane of s_i and the equal-power planes of i with two neighbours.
 //

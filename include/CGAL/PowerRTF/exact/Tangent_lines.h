@@ -4,7 +4,7 @@
 // The half-planes that bound a restricted cell, in any number type.
 //
 // In the tangent plane { s_i + x : n_i.x = 0 } the equal-power plane with sample j keeps
-//   2 v.x <= |v|^2 + w_i - w_j,  v = s_j - s_i            (design: section 4; paper: eq. 6)
+//   2 v.x <= |v|^2 + w_i - w_j,  v = s_j - s_i            (paper: eq. 6)
 // and a side of a clipping square keeps t.x <= B. Dropping the coordinate in which |n_i| is largest
 // maps the plane to R^2 by an affine map with coefficients in the ring of the inputs: no division
 // and no square root, so that a line's coefficients are exact in an exact ring and enclosed in an

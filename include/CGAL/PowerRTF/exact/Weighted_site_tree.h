@@ -3,7 +3,7 @@
 //
 // A kd-tree over weighted samples whose nodes know their box and their largest weight. CGAL's and
 // Boost's trees have no such node data; without it a bound for the search must use the largest
-// weight of all samples, which is far too loose once weights are large (design: section 4).
+// weight of all samples, which is far too loose once weights are large.
 #ifndef CGAL_POWER_RTF_EXACT_WEIGHTED_SITE_TREE_H
 #define CGAL_POWER_RTF_EXACT_WEIGHTED_SITE_TREE_H
 

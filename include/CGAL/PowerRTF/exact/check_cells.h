@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The comparison of any engine's cells with the oracle (design: section 9): first the cycles of
+// The comparison of any engine's cells with the oracle: first the cycles of
 // neighbours, which must be equal but for edges shorter than a rounding bound; then areas and
 // centroids.
 #ifndef CGAL_POWER_RTF_EXACT_CHECK_CELLS_H

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/surface/Surface.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace CGAL
@@ -20,6 +21,14 @@ struct Extracted_mesh {
   /// to remove (normally none).
   std::vector<Vec3d> points;
   std::vector<Triangle> triangles; ///< counter-clockwise seen from outside
+
+  /// Puts the triangles into an order that depends on nothing but which triangles there are.
+  void sort_triangles()
+  {
+    for (Triangle& t : triangles)
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::sort(triangles.begin(), triangles.end());
+  }
 };
 
 } // namespace PowerRTF

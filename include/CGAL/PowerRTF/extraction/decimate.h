@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Second half of "insertion and decimation" (design.md, section 7): every vertex that is no sample
+// Second half of "insertion and decimation": every vertex that is no sample
 // is removed by collapsing it into a neighbour. The link condition (Dey et al., "Topology
 // preserving edge contraction", 1999) holds for each collapse, so the mesh stays homeomorphic to
 // the surface. Each pass removes vertices that are far apart and flips the edges around them to

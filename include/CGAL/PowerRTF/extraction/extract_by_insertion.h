@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From samples to triangles with a guaranteed topology: insertion, decimation, Delaunay flips,
-// removal of self-intersections (design.md, section 7).
+// removal of self-intersections.
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
 
@@ -36,6 +36,7 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
     result.triangles.push_back(
         {name[mesh.source(h)], name[mesh.target(h)], name[mesh.target(mesh.next(h))]});
   }
+  result.sort_triangles();
   return result;
 }
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Improvement of an extracted mesh (design.md, section 7): rounder triangles by flips and
+// Improvement of an extracted mesh: rounder triangles by flips and
 // smoothing, a targeted search for the few that stay bad, and moves along the normal that bring the
 // mesh nearer to the surface. (An addition to the paper.)
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVE_MESH_H
@@ -146,6 +146,7 @@ inline bool improve_mesh(const Surface& surface, Extracted_mesh& mesh)
   if (mesh.triangles.empty()) return true;
   try {
     mesh = internal::Mesh_improver(surface, mesh).run();
+    mesh.sort_triangles();
   } catch (const Invalid_input_error&) {
     return false;
   }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// First half of "insertion and decimation" (design.md, section 7): the surface's facets are
+// First half of "insertion and decimation": the surface's facets are
 // triangulated so that every sample becomes a vertex. The result has exactly the topology of the
 // surface, wherever the samples lie: in a facet, on an edge, at a vertex, or at the same place.
 //

@@ -90,6 +90,7 @@ private:
   static constexpr double anchor_pull = 0.25, curved = 0.8;
   static constexpr double foldless = 0.5;    // least agreement of a star that had more
   static constexpr double worthwhile = 0.95; // least gain of two passes that are followed by more
+  static constexpr double clearly = 1 - 1e-9; // less than this times is less: rounding decides nothing
   static constexpr double first_step = 0.2;  // in edges of the star
   static constexpr int halvings = 3;
   static constexpr int max_steps = 8;
@@ -159,7 +160,7 @@ private:
       for (int k = 0; k < 8; ++k) {
         const double e =
             energy(p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w);
-        if (e < least) least = e, best = k;
+        if (e < clearly * least) least = e, best = k;
       }
       if (best >= 0) {
         su += step * directions[best][0];
@@ -169,9 +170,9 @@ private:
         ++halved;
       }
     }
-    if (!(least < start)) return false;
+    if (!(least < clearly * start)) return false;
     const auto place = m.project(v, p + su * u + sw * w);
-    if (place.facet < 0 || !(energy(place.point) < start)) return false;
+    if (place.facet < 0 || !(energy(place.point) < clearly * start)) return false;
     if (m.agreement(star, place.point, place.normal) <
         std::min(foldless, m.agreement(star, p, n) - slack))
       return false;
@@ -214,7 +215,7 @@ private:
     m_flipper.flip(e);
     for (int pass = 0; pass < 2; ++pass)
       for (const Vertex v : corners) search(v);
-    if (patch_energy(corners) < energy_before &&
+    if (patch_energy(corners) < clearly * energy_before &&
         patch_agreement(corners) >= std::min(foldless, agreement - slack))
       return true;
     m_flipper.flip(e);
