@@ -52,7 +52,7 @@ void check_number_of_samples(const Program_options& options)
   const std::string what =
       options.input + ": cannot be remeshed with the asked number of samples (--samples): ";
   if (n < 4) throw Invalid_input_error(what + "at least 4 are needed");
-  const double bytes_per_sample = 1000; // measured, see the manual
+  const double bytes_per_sample = 1000; // a low estimate: refuses only what surely does not fit
   const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
   const double most = std::min(memory / bytes_per_sample, 3e8); // halfedges are numbered by int
   if (double(n) > most)
