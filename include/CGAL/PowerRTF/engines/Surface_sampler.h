@@ -10,10 +10,14 @@
 #include <CGAL/PowerRTF/engines/Facet_tree.h>
 #include <CGAL/PowerRTF/surface/Surface.h>
 #include <CGAL/PowerRTF/surface/nearest_vertices.h>
+#include <CGAL/PowerRTF/surface/surface_geometry.h>
 #include <CGAL/PowerRTF/surface/vertex_facets.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 namespace CGAL {
 namespace PowerRTF {
@@ -53,13 +57,10 @@ public:
     double beta, gamma;
     barycentric_coordinates(p, m_surface.points[t[0]], m_surface.points[t[1]],
                             m_surface.points[t[2]], beta, gamma);
-    const auto interpolate = [&](const auto& field) {
-      return field[t[0]] * (1 - beta - gamma) + field[t[1]] * beta + field[t[2]] * gamma;
-    };
-    const Vec3d sum = interpolate(m_surface.vertex_normals);
-    // Not the facet's own: small facets of real meshes are sometimes turned over.
-    normal = squared_length(sum) > 0 ? normalized(sum) : m_surface.facet_normals[facet];
-    density = interpolate(m_surface.vertex_density);
+    const std::array<double, 3> weights{1 - beta - gamma, beta, gamma};
+    // Of the vertices, not of the facet: small facets of real meshes are sometimes turned over.
+    normal = interpolated_normal(m_surface, facet, weights);
+    density = interpolated_density(m_surface, facet, weights);
   }
 
 private:
