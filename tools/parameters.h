@@ -75,6 +75,12 @@ inline auto names(CGAL::PowerRTF::Improvement)
   return Names<E, 2>{{{E::no, "no"}, {E::yes, "yes"}}};
 }
 
+inline auto names(CGAL::PowerRTF::Repair)
+{
+  using E = CGAL::PowerRTF::Repair;
+  return Names<E, 2>{{{E::no, "no"}, {E::yes, "yes"}}};
+}
+
 template <class E>
 std::string name_of(E value)
 {
@@ -112,6 +118,11 @@ void for_each_parameter(Visitor&& visit)
       "number-of-samples");
   add("density", &O::density, "rho", "even samples, or more of them where the surface is curved");
   add("seed", &O::random_seed, "", "seed of all random choices", {0, 4294967295.}, "random-seed");
+  add("features", &O::feature_angle, "",
+      "degrees: sharper edges are kept as creases where they make clean curves; 180: none",
+      {tiny, 180}, "feature-angle");
+  add("repair", &O::repair, "",
+      "input that is no 2-manifold is made one, its shape kept; no: it is refused");
 
   group = "Density (Section 4.3)";
   add("density-power", &O::density_power, "p", "rho = kappa^p: 1, 2, 3 are the paper's f, f^2, f^3",
@@ -168,6 +179,9 @@ void for_each_parameter(Visitor&& visit)
   add("extraction", &O::extraction, "", "how the triangles are made", {}, "extraction-method");
   add("improvement", &O::improvement, "",
       "rounder triangles, nearer to the surface; no: triangles on the samples");
+
+  group = "GPU";
+  add("device", &O::device, "", "the number of the GPU, with --traits cuda", {0, most});
 }
 
 } // namespace tools

@@ -86,7 +86,9 @@ Surface load(const Program_options& options, Remeshing_report& report)
   stop_if_interrupted();
   Stopwatch watch(report.seconds.surface);
   try {
-    Surface surface = import_soup(mesh.points, mesh.polygons, report.repairs);
+    Surface surface = import_soup(mesh.points, mesh.polygons, report.repairs,
+                                  options.remeshing.repair);
+    set_creases(surface, options.remeshing);
     set_density(surface, options.remeshing);
     return surface;
   } catch (const Invalid_input_error& e) {
@@ -127,7 +129,7 @@ Check check(Remesher& remesher, std::size_t iterations)
 {
   const double cos_angle = compatibility_cosine(remesher.options().normal_angle);
   return {iterations,
-          check_cells<Concurrency>(remesher.samples(), remesher.cells(), cos_angle,
+          check_cells<Concurrency>(remesher.sites(), remesher.cells(), cos_angle,
                                    CGAL::PowerRTF::internal::epsilon<double>(),
                                    remesher.options().guard_factor)};
 }

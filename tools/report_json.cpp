@@ -40,7 +40,11 @@ Json to_json(const Repair_counts& r)
   return {{"duplicate_vertices", r.duplicate_vertices},
           {"unused_vertices", r.unused_vertices},
           {"degenerate_facets", r.degenerate_facets},
-          {"triangulated_polygons", r.triangulated_polygons}};
+          {"triangulated_polygons", r.triangulated_polygons},
+          {"duplicate_facets", r.duplicate_facets},
+          {"reoriented_facets", r.reoriented_facets},
+          {"non_manifold_edges", r.non_manifold_edges},
+          {"non_manifold_vertices", r.non_manifold_vertices}};
 }
 
 Json parameters(const Remeshing_options& o)
@@ -110,6 +114,10 @@ void add_mesh(Json& json, const Run& run)
   json["non_manifold_vertices"] = r.topology.non_manifold_vertices;
   json["oriented"] = r.topology.oriented;
   json["self_intersections"] = r.self_intersections;
+  json["feature_samples"] = r.feature_samples;
+  json["crease_edges"] = r.crease_edges;
+  json["feature_edges"] = r.feature_edges;
+  json["lost_feature_edges"] = r.lost_feature_edges;
   json["input_vertices"] = r.input_topology.vertices;
   json["input_faces"] = r.input_topology.faces;
   json["input_euler_characteristic"] = r.input_topology.euler_characteristic;

@@ -48,6 +48,9 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
   counts(out, "components", a.components, b.components);
   counts(out, "borders", a.border_loops, b.border_loops);
   row(out, "self-intersections", std::to_string(r.self_intersections));
+  if (r.feature_edges > 0)
+    row(out, "creases and borders", std::to_string(r.feature_edges - r.lost_feature_edges) + " of " +
+                                        std::to_string(r.feature_edges) + " edges kept");
   const Quality_statistics& q = r.quality;
   row(out, "triangle quality, least", number(q.q_min, 4));
   row(out, "triangle quality, mean", number(q.q_avg, 4));
@@ -69,6 +72,10 @@ void print_repairs(std::ostream& out, const Repair_counts& r)
   repair(r.unused_vertices, "unused vertices dropped");
   repair(r.degenerate_facets, "degenerate facets removed");
   repair(r.triangulated_polygons, "polygons triangulated");
+  repair(r.duplicate_facets, "duplicate facets dropped");
+  repair(r.reoriented_facets, "facets turned");
+  repair(r.non_manifold_edges, "edges of touching sheets parted");
+  repair(r.non_manifold_vertices, "vertices of touching sheets parted");
 }
 
 std::string error(double x)

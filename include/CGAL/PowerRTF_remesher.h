@@ -16,11 +16,25 @@
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
-#include <CGAL/PowerRTF/surface/smooth_normals.h>
+#include <CGAL/PowerRTF/surface/Surface_patches.h>
 
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
+
+namespace PowerRTF {
+namespace internal {
+
+/// Whether an engine reports on a device: then it makes several passes over the weights at once.
+template <class Engine, class = void>
+struct Runs_on_device : std::false_type {};
+template <class Engine>
+struct Runs_on_device<Engine, std::void_t<decltype(std::declval<const Engine&>().device_report())>>
+    : std::true_type {};
+
+} // namespace internal
+} // namespace PowerRTF
 
 /// Distributes samples on a surface by their restricted tangent faces and triangulates them.
 ///
@@ -35,10 +49,11 @@ public:
   /// `surface`: from `import_surface()`, its density set. \throws Invalid_input_error when an
   /// option has no meaning for it.
   PowerRTF_remesher(PowerRTF::Surface surface, const Options& options)
-      : m_surface(std::move(surface)), m_options(options), m_engine(m_surface, m_options)
+      : m_surface(std::move(surface)), m_options(options), m_patches(m_surface, options),
+        m_engine(m_patches.surface(), m_options)
   {
     m_report.samples_asked = options.number_of_samples;
-    PowerRTF::smooth_normals(m_surface, options.number_of_samples, options.normal_smoothing);
+    m_report.feature_samples = m_patches.features().size();
   }
 
   PowerRTF_remesher(const PowerRTF_remesher&) = delete; // the engine refers to the surface
@@ -60,10 +75,12 @@ public:
       m_engine.move_samples(relaxation ? PowerRTF::Position_method::lloyd
                                        : m_options.position_method);                 // 15 to 19
     }
-    if (!m_report.cancelled) equalize_capacities();
+    if (!m_report.cancelled && !all_fixed()) equalize_capacities();
     m_report.constructions = m_engine.constructions();
     m_report.cells = m_engine.cell_counts();
     m_report.capacity = m_engine.capacity();
+    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
+      m_report.device = m_engine.device_report();
     return !m_report.cancelled;
   }
 
@@ -76,15 +93,14 @@ public:
     PowerRTF::Extracted_mesh mesh;
     {
       PowerRTF::internal::Stopwatch watch(m_report.seconds.extraction);
-      const PowerRTF::Samples samples = m_engine.samples();
       mesh = m_options.extraction == PowerRTF::Extraction_method::insertion
-                 ? PowerRTF::extract_by_insertion(m_surface, samples)
-                 : PowerRTF::extract_restricted_delaunay(m_surface, samples);
+                 ? PowerRTF::extract_by_insertion(m_surface, samples(), m_patches.features())
+                 : PowerRTF::extract_restricted_delaunay(m_surface, samples(), m_patches.features());
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       visitor.on_stage("improvement");
       PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
-      PowerRTF::improve_mesh(m_surface, mesh);
+      PowerRTF::improve_mesh(m_patches.surface(), mesh);
     }
     visitor.on_stage("quality");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.quality);
@@ -96,15 +112,30 @@ public:
   const Options& options() const { return m_options; }
   const Report& report() const { return m_report; }
   Report& report() { return m_report; }
-  /// The current samples, in the order of the output's vertices.
-  PowerRTF::Samples samples() const { return m_engine.samples(); }
-  /// The cells of the current samples and weights.
+  /// The current samples, in the order of the output's vertices: those with cells, then those on
+  /// creases and borders.
+  PowerRTF::Samples samples() const
+  { return PowerRTF::joined(m_engine.samples(), m_patches.features().samples); }
+  /// The sites of the cells: the samples that have one, then the copies of those on creases and
+  /// borders, one for each patch at them.
+  PowerRTF::Samples sites() const
+  {
+    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
+      return m_engine.sites(); // as the device has rounded them
+    else
+      return PowerRTF::joined(m_engine.samples(), m_patches.features().sites);
+  }
+  /// The samples on creases and borders.
+  const PowerRTF::Feature_samples& features() const { return m_patches.features(); }
+  /// The cells of the current samples and weights; their neighbours are numbers of sites.
   std::vector<PowerRTF::Cell_polygon> cells() { return m_engine.cells(); }
 
 private:
   using Weight_method = PowerRTF::Weight_method;
 
-  int iterations() const { return m_options.relaxation_iterations + m_options.max_iterations; }
+  bool all_fixed() const { return m_patches.features().size() == m_options.number_of_samples; }
+  int iterations() const
+  { return all_fixed() ? 0 : m_options.relaxation_iterations + m_options.max_iterations; }
 
   /// Algorithm 3, lines 2 to 4.
   template <class Visitor>
@@ -112,7 +143,8 @@ private:
   {
     visitor.on_stage("sampling");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.sampling);
-    m_engine.set_samples(PowerRTF::sample_surface(m_surface, m_options));
+    const PowerRTF::Feature_samples& features = m_patches.features();
+    m_engine.set_samples(PowerRTF::sample_surface(m_patches.surface(), m_options, features), features);
   }
 
   bool inside_interval() const { return m_engine.capacity().inside_interval == 1; }
@@ -121,6 +153,8 @@ private:
   bool optimize_weights()
   {
     if (m_options.weight_method != Weight_method::multiplicative) return false;
+    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value) // the same, without a look between
+      return m_engine.optimize_weights(m_options.max_weight_iterations);
     for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass) {
       m_engine.update_weights();
       m_engine.build_cells();
@@ -150,6 +184,7 @@ private:
 
   PowerRTF::Surface m_surface;
   Options m_options;
+  PowerRTF::Surface_patches m_patches;
   Engine m_engine;
   Report m_report;
 };

@@ -8,11 +8,13 @@
 #include <CGAL/PowerRTF/extraction/export_mesh.h>
 #include <CGAL/PowerRTF/named_parameters.h>
 #include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/import_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Kernel_traits.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -35,6 +37,9 @@ Remeshing_options options_of(std::size_t number_of_samples, const NamedParameter
   Remeshing_options options =
       choose_parameter(get_parameter(np, remeshing_options_t()), Remeshing_options());
   options.number_of_samples = number_of_samples;
+  options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair == Repair::yes)
+                       ? Repair::yes
+                       : Repair::no;
   options.random_seed =
       choose_parameter(get_parameter(np, internal_np::random_seed), options.random_seed);
   options.max_iterations =
@@ -42,12 +47,44 @@ Remeshing_options options_of(std::size_t number_of_samples, const NamedParameter
   return options;
 }
 
-/// Imports `mesh` and sets the density that `np` or `options` asks for.
+/// Makes creases of the edges of `surface` that `is_constrained` names among those of `mesh`.
+template <class FaceGraph, class EdgeMap>
+void set_creases(Surface& surface, const FaceGraph& mesh, const EdgeMap& is_constrained)
+{
+  auto index = get(CGAL::dynamic_vertex_property_t<int>(), mesh);
+  int count = 0;
+  for (const auto v : vertices(mesh)) put(index, v, count++);
+  std::vector<Edge> constrained;
+  for (const auto e : edges(mesh))
+    if (get(is_constrained, e))
+      constrained.push_back(sorted_edge(get(index, source(e, mesh)), get(index, target(e, mesh))));
+  std::sort(constrained.begin(), constrained.end());
+
+  const auto& triangles = surface.triangles;
+  const Facet_adjacency adjacency = facet_adjacency(triangles, surface.points.size());
+  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
+    if (adjacency.opposite[h] < h) continue; // border, or seen
+    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+    if (std::binary_search(constrained.begin(), constrained.end(),
+                           sorted_edge(surface.input_vertices[a], surface.input_vertices[b])))
+      surface.creases.push_back(sorted_edge(a, b));
+  }
+  std::sort(surface.creases.begin(), surface.creases.end());
+}
+
+/// Imports `mesh` and sets the creases and the density that `np` or `options` asks for.
 template <class FaceGraph, class NamedParameters>
 Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
                    const NamedParameters& np, Repair_counts& repairs)
 {
-  Surface surface = import_surface(mesh, np, repairs);
+  Surface surface = import_surface(mesh, np, repairs, options.repair);
+  const auto constrained =
+      CGAL::parameters::get_parameter(np, internal_np::edge_is_constrained);
+  if constexpr (std::is_same<std::decay_t<decltype(constrained)>,
+                             internal_np::Param_not_found>::value)
+    set_creases(surface, options);
+  else
+    set_creases(surface, mesh, constrained);
   const auto map = CGAL::parameters::get_parameter(np, density_map_t());
   if constexpr (std::is_same<std::decay_t<decltype(map)>, internal_np::Param_not_found>::value) {
     set_density(surface, options);
@@ -120,6 +157,25 @@ Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
  *     \cgalParamExtra{Its `number_of_samples` is not used.}
  *   \cgalParamNEnd
  *
+ *   \cgalParamNBegin{PowerRTF::parameters::repair}
+ *     \cgalParamDescription{if `true`, an input that is no 2-manifold is made one where that does
+ *                           not change its shape: sheets that touch in a vertex are parted, facets
+ *                           without area removed. If `false`, it is refused.}
+ *     \cgalParamType{Boolean}
+ *     \cgalParamDefault{`true`}
+ *     \cgalParamExtra{What was repaired is counted in `PowerRTF::Remeshing_report::repairs`.}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{edge_is_constrained_map}
+ *     \cgalParamDescription{a property map that names the creases: the result keeps them as chains
+ *                           of edges, and their ends and corners as vertices}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with
+ *                    `boost::graph_traits<InputMesh>::%edge_descriptor` as key type and `bool` as
+ *                    value type}
+ *     \cgalParamDefault{the edges that `PowerRTF::Remeshing_options::feature_angle` finds}
+ *     \cgalParamExtra{Borders are always kept.}
+ *   \cgalParamNEnd
+ *
  *   \cgalParamNBegin{random_seed}
  *     \cgalParamDescription{the seed of the initial sampling. The same seed gives the same result.}
  *     \cgalParamType{`unsigned int`}
@@ -162,7 +218,8 @@ Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
  *
  * \returns what was done and what the result is worth. `missed_guarantees()` is empty when the
  *          result has exactly the vertices asked for, is a 2-manifold with the components, borders
- *          and Euler characteristic of the input and does not intersect itself. When the visitor
+ *          and Euler characteristic of the input, keeps its creases and borders as edges and does
+ *          not intersect itself. When the visitor
  *          stopped the run, `cancelled` is `true` and `output` is as it was.
  *
  * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not

@@ -29,6 +29,7 @@ namespace
 Surface with_density(const shapes::Soup& soup, const Remeshing_options& options)
 {
   Surface surface = shapes::make_surface(soup);
+  set_creases(surface, options);
   set_density(surface, options);
   return surface;
 }
@@ -63,6 +64,13 @@ void compare_traits(const shapes::Soup& soup, Remeshing_options options)
   CHECK(m.triangles.size() > options.number_of_samples);
   CHECK(sorted(m.triangles) == sorted(n.triangles));
   CHECK(exact.report().quality.q_avg > 0.5);
+  CHECK(exact.report().missed_guarantees().empty());
+  const Cell_comparison c = check_cells<CGAL::Sequential_tag>(
+      fast.sites(), fast.cells(), compatibility_cosine(options.normal_angle),
+      internal::epsilon<double>(), options.guard_factor);
+  CHECK(c.cells == fast.cells().size());
+  CHECK(c.passed());
+  CHECK(c.equal_cycles == c.cells);
 }
 
 /// Evenly sampled: some samples and their cells.
@@ -110,7 +118,19 @@ TEST_CASE("samples exactly in a plane, cocircular by construction of the surface
   Remeshing_options options;
   options.number_of_samples = 100;
   options.density = Density::uniform;
+  options.feature_angle = 180;
   compare_traits(shapes::box(10), options);
+}
+
+TEST_CASE("creases, borders and several components")
+{
+  Remeshing_options options;
+  options.number_of_samples = 200;
+  options.density = Density::uniform;
+  compare_traits(shapes::box(5), options);
+  compare_traits(shapes::plane_patch(9, 9), options);
+  compare_traits(shapes::joined(shapes::box(4), shapes::translated(shapes::icosphere(2), {0, 0, 2.01})),
+                 options);
 }
 
 TEST_CASE("the comparison sees what is wrong")
@@ -158,7 +178,9 @@ TEST_CASE("the comparison sees what is wrong")
   CHECK(c.centroid.max > 0.004);
   CHECK(c.centroid.max < 0.02);
 
-  wrong.pop_back();
+  wrong.resize(20); // the other samples are fixed sites
+  CHECK(check(wrong).cells == 20);
+  wrong.resize(samples.size() + 1);
   CHECK_THROWS_AS(check(wrong), Invalid_input_error);
 }
 

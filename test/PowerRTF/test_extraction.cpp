@@ -148,7 +148,7 @@ TEST_CASE("closed results are oriented outwards")
 {
   for (const auto& soup : {shapes::icosphere(4), shapes::torus(40, 20, 1, .4)}) {
     const Surface surface = shapes::make_surface(soup);
-    const double volume = signed_volume({surface.points, surface.triangles});
+    const double volume = signed_volume({surface.points, surface.triangles, {}});
     const Samples samples = samples_on(surface, 1000);
     CHECK(signed_volume(extract_by_insertion(surface, samples)) ==
           doctest::Approx(volume).epsilon(.05));

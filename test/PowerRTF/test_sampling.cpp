@@ -266,22 +266,25 @@ TEST_CASE("rotation and order change the samples, not their distribution")
 
 TEST_CASE("components share the samples by mass, at least four each")
 {
-  using internal::allocate_samples;
   using Counts = std::vector<std::size_t>;
-  CHECK(allocate_samples({1, 1}, 10) == Counts{5, 5});
-  CHECK(allocate_samples({1, 1}, 11) == Counts{6, 5});
-  CHECK(allocate_samples({1, 1 + 1e-14}, 11) == Counts{6, 5});
-  CHECK(allocate_samples({3, 1}, 100) == Counts{75, 25});
-  CHECK(allocate_samples({1, 1e-9, 2}, 34) == Counts{10, 4, 20});
-  CHECK(allocate_samples({1, 1, 1}, 12) == Counts{4, 4, 4});
-  CHECK(allocate_samples({5, 3, 2}, 7) == Counts{4, 2, 1}); // too few for four each
-  CHECK(allocate_samples({1, 0}, 9) == Counts{9, 0});
+  const auto allocate = [](const std::vector<double>& masses, std::size_t n) {
+    return internal::allocate_samples(masses, Counts(masses.size(), 4), n);
+  };
+  CHECK(allocate({1, 1}, 10) == Counts{5, 5});
+  CHECK(allocate({1, 1}, 11) == Counts{6, 5});
+  CHECK(allocate({1, 1 + 1e-14}, 11) == Counts{6, 5});
+  CHECK(allocate({3, 1}, 100) == Counts{75, 25});
+  CHECK(allocate({1, 1e-9, 2}, 34) == Counts{10, 4, 20});
+  CHECK(allocate({1, 1, 1}, 12) == Counts{4, 4, 4});
+  CHECK(allocate({5, 3, 2}, 7) == Counts{4, 2, 1}); // too few for four each
+  CHECK(allocate({1, 0}, 9) == Counts{9, 0});
+  CHECK(internal::allocate_samples({1, 1, 1}, {0, 9, 0}, 12) == Counts{2, 9, 1});
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937_64 random(seed);
     std::vector<double> masses(1 + random() % 30);
     for (double& m : masses) m = std::pow(10., -static_cast<double>(random() % 6)) + 1e-3;
     const std::size_t n = 4 * masses.size() + random() % 1000;
-    const Counts counts = allocate_samples(masses, n);
+    const Counts counts = allocate(masses, n);
     CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t(0)) == n);
     CHECK(*std::min_element(counts.begin(), counts.end()) >= 4);
   }

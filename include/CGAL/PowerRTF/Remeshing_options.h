@@ -20,6 +20,7 @@ enum class Weight_method { none, multiplicative, newton }; ///< none: RTF, the p
 enum class Weight_operator { ceiling, floor };         ///< rounding of alpha; floor: as printed
 enum class Extraction_method { insertion, restricted_delaunay };
 enum class Improvement { no, yes };
+enum class Repair { no, yes };
 
 /// Parameters of `PowerRTF_remesher`. The defaults are those of the preset `quality`;
 /// `paper_preset()` gives those of the paper. Lengths are relative, so no parameter depends on the
@@ -28,6 +29,13 @@ struct Remeshing_options {
   Preset preset = Preset::quality;
   std::size_t number_of_samples = 3000; ///< n
   unsigned random_seed = 0;
+  /// Of the input, where it is no oriented 2-manifold and can be made one without a change of its
+  /// shape; no: such an input is refused.
+  Repair repair = Repair::yes;
+
+  /// Degrees: edges whose facets' normals differ by at least this are kept as creases where such
+  /// edges make clean curves (`find_creases()`); 180: none. Creases named by the user go first.
+  double feature_angle = 40;
 
   // Density (Section 4.3, "Initial Sampling")
   Density density = Density::curvature;
@@ -71,6 +79,8 @@ struct Remeshing_options {
   double weight_step = 1;           ///< tau: Delta s = tau * gamma * D_i / 4
   Weight_operator weight_operator = Weight_operator::ceiling;
 
+  int device = 0; ///< CUDA traits: the number of the GPU
+
   // Extraction
   Extraction_method extraction = Extraction_method::insertion;
   /// Of the triangles after the extraction (not in the paper); no: triangles on the samples.
@@ -83,6 +93,7 @@ struct Remeshing_options {
   {
     Remeshing_options o;
     o.preset = Preset::paper;
+    o.feature_angle = 180; // the paper has no creases
     o.gradation = 0.2; // not in the paper: without it the weights hardly converge
     o.oversampling = 2;
     o.attributes = Attributes::nearest_vertices;

@@ -50,13 +50,26 @@ struct Distance_statistics {
 
 /// What was mended in the input before it was used.
 struct Repair_counts {
-  std::size_t duplicate_vertices = 0, unused_vertices = 0, degenerate_facets = 0,
-              triangulated_polygons = 0, duplicate_facets = 0, reoriented_facets = 0;
+  std::size_t duplicate_vertices = 0; ///< merged: at the same place, up to rounding at a border
+  std::size_t unused_vertices = 0;    ///< dropped
+  std::size_t degenerate_facets = 0;  ///< without area: removed
+  std::size_t triangulated_polygons = 0;
+  std::size_t duplicate_facets = 0;      ///< dropped
+  std::size_t reoriented_facets = 0;     ///< turned to agree with their neighbours
+  std::size_t non_manifold_edges = 0;    ///< of more than two facets: parted into sheets
+  std::size_t non_manifold_vertices = 0; ///< where sheets touched: copied, one for each sheet
 };
 
 struct Stage_seconds {
   double load = 0, surface = 0, sampling = 0, optimization = 0, extraction = 0, improvement = 0,
          quality = 0, write = 0, total = 0;
+};
+
+/// What ran the optimisation, when it was no CPU.
+struct Device_report {
+  std::string name;      ///< of the GPU; empty: the CPU
+  double seconds = 0;    ///< on the device, from the first samples to the last cells
+  std::size_t bytes = 0; ///< of memory held on the device
 };
 
 /// One outer iteration (one pass of Algorithm 3's loop).
@@ -74,14 +87,19 @@ struct Remeshing_report {
   std::size_t constructions = 0; ///< of all cells, in all (Algorithm 1)
   std::size_t outer_iterations = 0;
   std::vector<Iteration_report> iterations;
+  std::size_t feature_samples = 0; ///< on creases and borders: they have no cells
   Cell_counts cells;            ///< at the end
   Capacity_statistics capacity; ///< at the end
   Repair_counts repairs;
   Topology_statistics input_topology, topology;
   std::size_t self_intersections = 0; ///< pairs of facets
+  std::size_t crease_edges = 0;        ///< of the input
+  std::size_t feature_edges = 0;       ///< of the output's creases and borders
+  std::size_t lost_feature_edges = 0;  ///< of those, how many the output's triangles lack
   Quality_statistics quality;
   Distance_statistics distance;
   Stage_seconds seconds;
+  Device_report device;
 
   /// The guarantees that the result misses, in words; empty: all are met.
   std::vector<std::string> missed_guarantees() const;
@@ -101,6 +119,7 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
   same(topology.components, input_topology.components, "components");
   same(topology.border_loops, input_topology.border_loops, "border loops");
   same(self_intersections, std::size_t(0), "self-intersecting pairs of facets");
+  same(lost_feature_edges, std::size_t(0), "lost edges of creases and borders");
   return missed;
 }
 

@@ -21,6 +21,7 @@ namespace internal
 
 enum density_map_t { density_map };
 enum remeshing_options_t { remeshing_options };
+enum repair_t { repair };
 
 /// A chain of named parameters that also goes on with our own.
 template <class T, class Tag, class Base = internal_np::No_property>
@@ -38,6 +39,11 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
   remeshing_options(const Remeshing_options& options) const
   {
     return {options, *this};
+  }
+
+  Named_parameters<bool, repair_t, Named_parameters> repair(bool wanted) const
+  {
+    return {wanted, *this};
   }
 };
 
@@ -61,6 +67,12 @@ inline internal::Named_parameters<Remeshing_options, internal::remeshing_options
 remeshing_options(const Remeshing_options& options)
 {
   return {options};
+}
+
+/// Whether an input that is no 2-manifold is made one (default) or refused.
+inline internal::Named_parameters<bool, internal::repair_t> repair(bool wanted)
+{
+  return {wanted};
 }
 
 } // namespace parameters

@@ -28,8 +28,11 @@ struct Sites_view {
   Packed_tree_layout tree;
   /// A cell whose farthest vertex lies beyond this many distances to the 6th neighbour is guarded.
   FT guard_factor = 3;
+  const int* patches = nullptr; ///< n; sites of other patches do not exist for a cell. Null: one patch
 
   CGAL_POWER_RTF_HD int size() const { return tree.items; }
+  CGAL_POWER_RTF_HD bool same_patch(int i, int j) const
+  { return !patches || patches[i] == patches[j]; }
 };
 
 /// Computes box and largest weight of node `k` of `level`; the levels are done in ascending order.
@@ -77,7 +80,7 @@ CGAL_POWER_RTF_HD inline void for_each_possible_neighbor(const Sites_view<FT>& v
     });
 }
 
-/// Distance from site `i` to its k-th nearest other site (to the farthest one when there are fewer
+/// Distance from site `i` to its k-th nearest other site of its patch (to the farthest one when there are fewer
 /// than k, 0 when there is none); k <= 8. Only sites whose normals make less than Theta with n_i
 /// count (`cos_angle`: its cosine; -2: all count).
 template <class FT>
@@ -92,6 +95,7 @@ CGAL_POWER_RTF_HD inline FT distance_to_neighbor(const Sites_view<FT>& view, int
       if (j == i) continue;
       const FT d = squared_length(view.sites[j].point - p);
       if (found == k && !(d < nearest[k - 1])) continue;
+      if (!view.same_patch(i, j)) continue;
       if (cos_angle > -1 && !(dot(view.normals[j], view.normals[i]) > cos_angle)) continue;
       int place = found < k ? found++ : k - 1;
       for (; place > 0 && nearest[place - 1] > d; --place) nearest[place] = nearest[place - 1];

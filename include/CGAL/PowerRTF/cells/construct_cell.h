@@ -27,7 +27,8 @@ template <class FT, bool Filtered = false>
 class Cell_clipper {
 public:
   /// Starts cell `i` from a square of half-size `radius`. `cos_angle`: cosine of Theta; neighbours
-  /// whose normals differ by more are skipped (NVISPC); -2 or less: none is.
+  /// whose normals differ by more are skipped (NVISPC); -2 or less: none is. Sites of other patches
+  /// always are.
   CGAL_POWER_RTF_HD Cell_clipper(const Sites_view<FT>& view, int i, FT radius, FT cos_angle)
       : m_view(view), m_i(i), m_site(view.sites[i]), m_normal(view.normals[i]), m_frame(m_normal),
         m_radius(radius), m_cos_angle(cos_angle)
@@ -43,6 +44,7 @@ public:
     const Site<FT> other = m_view.sites[j];
     const Vec3<FT> offset = other.point - m_site.point;
     const FT d2 = squared_length(offset);
+    if (!m_view.same_patch(m_i, j)) return;
     if (d2 < m_nearest2) m_nearest2 = d2;
     const FT power = d2 + m_site.weight - other.weight;
     // (power / 2d > R): the plane passes outside the radius.

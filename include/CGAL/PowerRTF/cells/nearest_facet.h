@@ -97,6 +97,7 @@ struct Facets_view {
   const int* places = nullptr;        ///< #F, place in the tree of each facet of the surface
   const Child_boxes* nodes = nullptr; ///< one per node of `tree`
   Packed_tree_layout tree;
+  const int* patches = nullptr; ///< #F, in the order of the tree; null: one patch
 };
 
 /// Computes node `k` of `level` and its own box `boxes[...]`; the levels are done in ascending order.
@@ -125,7 +126,7 @@ CGAL_POWER_RTF_HD inline void fit_facets_node(const Packed_tree_layout& tree, in
 
 /// The nearest point to `p` on the facets whose normals make less than Theta with `normal`
 /// (`cos_angle`: its cosine; -2: all facets). `hint` is a facet of the surface that is probably
-/// near, or -1. When no facet agrees, `facet` is -1. Ties go to the facet first in the tree.
+/// near, or -1; with patches, only facets of the hint's one count. When no facet agrees, `facet` is -1. Ties go to the facet first in the tree.
 template <class FT>
 CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& view,
                                                          const Vec3<FT>& p, const Vec3<FT>& normal,
@@ -134,7 +135,10 @@ CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& 
   Surface_point<FT> best;
   int best_place = -1;
   float bound = 3e38f; // no less than the best squared distance
+  const int first = hint >= 0 ? view.places[hint] : -1;
+  const int patch = view.patches && first >= 0 ? view.patches[first] : -1;
   const auto test = [&](int place) {
+    if (patch >= 0 && view.patches[place] != patch) return;
     if (cos_angle > -1 && !(dot(view.normals[place], normal) > cos_angle)) return;
     const auto& f = view.facets[place];
     const Vec3<FT> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
@@ -146,7 +150,6 @@ CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& 
       bound = static_cast<float>(d) * (1 + 1e-6f) + 1e-37f;
     }
   };
-  const int first = hint >= 0 ? view.places[hint] : -1;
   if (first >= 0) test(first);
 
   if (view.tree.items == 0) return best;
@@ -172,7 +175,7 @@ CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& 
       const float near = d[child - begin];
       if (near > bound) continue;
       int place = size++;
-      for (; place > bottom && stack[place - 1].squared_distance < near; --place)
+      for (; place > bottom && near > stack[place - 1].squared_distance; --place)
         stack[place] = stack[place - 1];
       stack[place] = {top.level - 1, child, near};
     }

@@ -35,7 +35,10 @@ Exact_cells<Kernel> exact_cells(const Sites_view<double>& view, double cos_angle
     points.push_back(view.sites[i].point);
     weights.push_back(view.sites[i].weight);
   }
-  return {std::move(points), std::move(normals), std::move(weights), cos_angle, source};
+  std::vector<int> patches;
+  if (view.patches) patches.assign(view.patches, view.patches + view.size());
+  return {std::move(points), std::move(normals), std::move(weights), cos_angle, source,
+          std::move(patches)};
 }
 
 } // namespace internal
@@ -55,7 +58,10 @@ public:
     const auto cells =
         internal::exact_cells<Kernel>(view, cos_angle, Exact_neighbours::automatic);
     internal::for_each_index<ConcurrencyTag>(
-        view.size(), [&](int i) { construct_exact_cell(cells, view, i, sink); });
+        view.size(), [&](int i) {
+          if (this->is_fixed.empty() || !this->is_fixed[i])
+            construct_exact_cell(cells, view, i, sink);
+        });
   }
 };
 

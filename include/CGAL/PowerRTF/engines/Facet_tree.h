@@ -15,8 +15,10 @@ namespace PowerRTF {
 /// A search structure for the nearest point of a triangle mesh. Queries are read-only.
 class Facet_tree {
 public:
-  /// `points` and `triangles`: the mesh (#V by 3, #F by 3), in coordinates of size at most 1.
-  Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
+  /// `points` and `triangles`: the mesh (#V by 3, #F by 3), in coordinates of size at most 1;
+  /// `patches`: of the facets, or empty.
+  Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
+             const std::vector<int>& patches = {})
       : m_tree(static_cast<int>(triangles.size()))
   {
     std::vector<Vec3d> centers;
@@ -30,6 +32,7 @@ public:
       m_facets.push_back({points[t[0]], points[t[1]], points[t[2]], f});
       m_normals.push_back(
           normalized(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]])));
+      if (!patches.empty()) m_patches.push_back(patches[f]);
     }
     m_nodes.resize(m_tree.nodes());
     std::vector<Box3<double>> boxes(m_tree.nodes());
@@ -39,7 +42,10 @@ public:
   }
 
   Facets_view<double> view() const
-  { return {m_facets.data(), m_normals.data(), m_places.data(), m_nodes.data(), m_tree}; }
+  {
+    return {m_facets.data(), m_normals.data(), m_places.data(), m_nodes.data(), m_tree,
+            m_patches.empty() ? nullptr : m_patches.data()};
+  }
 
   /// The nearest point of the mesh to `p`; `hint`: a facet that is probably near, or -1.
   Surface_point<double> nearest(const Vec3d& p, int hint = -1) const
@@ -49,7 +55,7 @@ private:
   Packed_tree_layout m_tree;
   std::vector<Facets_view<double>::Facet> m_facets;
   std::vector<Vec3d> m_normals;
-  std::vector<int> m_places;
+  std::vector<int> m_places, m_patches;
   std::vector<Child_boxes> m_nodes;
 };
 

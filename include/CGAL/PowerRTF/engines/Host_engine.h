@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/cells/cell_moments.h>
+#include <CGAL/PowerRTF/cells/clip_at_features.h>
 #include <CGAL/PowerRTF/engines/Cell_polygon.h>
 #include <CGAL/PowerRTF/engines/Spatial_order.h>
 #include <CGAL/PowerRTF/engines/Surface_sampler.h>
@@ -16,6 +17,7 @@
 #include <CGAL/PowerRTF/optimization/capacity_statistics.h>
 #include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
 #include <CGAL/PowerRTF/optimization/newton_weights.h>
+#include <CGAL/PowerRTF/surface/feature_samples.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -31,6 +33,8 @@ namespace PowerRTF {
 ///
 /// \tparam Cell_tree owns the sites and constructs their cells; `Site_tree` with a constructor from
 /// the options.
+///
+/// The sites are the samples and, fixed, the feature samples: these bound cells and have none.
 template <class Cell_tree, class ConcurrencyTag>
 class Host_engine {
 public:
@@ -41,8 +45,9 @@ public:
         m_lbfgs(options.lbfgs_memory)
   { m_tree.guard_factor = options.guard_factor; }
 
-  /// Takes the samples' points and facets into spatial order; their weights become 0.
-  void set_samples(const Samples& samples);
+  /// Takes the samples' points and facets into spatial order; their weights become 0. `features`:
+  /// samples that stay where they are, without weights.
+  void set_samples(const Samples& samples, const Feature_samples& features = {});
 
   /// Constructs all cells (Algorithm 1) and their moments.
   void build_cells();
@@ -64,26 +69,43 @@ public:
 
   Capacity_statistics capacity() const
   {
-    return capacity_statistics<ConcurrencyTag>(size(), [&](int i) { return mass(i); },
-                                               m_options.capacity_tolerance);
+    return capacity_statistics<ConcurrencyTag>(
+        size(), [&](int k) { return mass(m_free[k]); }, m_options.capacity_tolerance);
   }
   Cell_counts cell_counts() const;
   /// Root mean square of |s_i - c_i| over the cells, in units of sqrt(area / n).
   double displacement() const;
   std::size_t constructions() const { return m_constructions; }
 
+  /// The samples, without the feature samples.
   Samples samples() const;
-  /// The polygons of the current cells.
+  /// The cells of the samples. They are not cut at creases and borders. Neighbours from the number
+  /// of samples on are the sites of the feature samples.
   std::vector<Cell_polygon> cells();
 
 private:
   using Frame = Tangent_frame<double>;
 
-  int size() const { return static_cast<int>(m_tree.sites.size()); }
+  int size() const { return static_cast<int>(m_free.size()); }
+  int sites() const { return static_cast<int>(m_tree.sites.size()); }
+  bool has_features() const { return size() < sites(); }
   /// m_i = rho_i A(F_i)
   double mass(int i) const { return m_density[i] * m_moments[i].area; }
+  template <class F>
+  void for_each_sample(F&& f)
+  {
+    internal::for_each_index<ConcurrencyTag>(size(), [&](int k) { f(m_free[k]); });
+  }
+  template <class F>
+  double sum(F&& f) const
+  { return internal::sum<ConcurrencyTag>(size(), [&](int k) { return f(m_free[k]); }); }
+  double density_root(double density) const
+  { return std::cbrt(std::pow(density, m_options.centroid_density_power)); }
   bool usable(int i) const { return m_status[i] == Cell_status::ok && m_moments[i].mass > 0; }
   void update_attributes();
+  /// Calls `f` with the part of the cell that lies on the sample's patch.
+  template <class Polygon, class F>
+  void within_patch(int i, const Polygon& polygon, const Frame& frame, F&& f) const;
   void center_weights();
   std::vector<Capacity_edge> capacity_edges();
   std::vector<Vec3d> lbfgs_steps();
@@ -98,6 +120,9 @@ private:
   double m_cos_angle;
 
   Cell_tree m_tree;
+  std::vector<int> m_free;            // the sites that are samples, in their order
+  std::vector<int> m_numbers;         // of the sites: samples, then feature sites
+  std::vector<int> m_next, m_previous; // see `clip_at_features()`; empty: no features
   std::vector<int> m_facets;          // that carry the samples
   std::vector<double> m_density;      // rho_i
   std::vector<double> m_density_root; // cube root of the density that weights the centroids
@@ -115,9 +140,9 @@ private:
 };
 
 template <class Tree, class Tag>
-void Host_engine<Tree, Tag>::set_samples(const Samples& samples)
+void Host_engine<Tree, Tag>::set_samples(const Samples& samples, const Feature_samples& features)
 {
-  const std::size_t n = samples.size();
+  const std::size_t free = samples.size(), n = free + features.sites.size();
   // The first neighbour search: a ball of radius 2 R that holds k samples.
   m_tree.resize(n, std::sqrt(m_options.neighbors * m_surface.area / (4 * 3.14159265358979 * n)));
   m_facets.resize(n);
@@ -128,20 +153,49 @@ void Host_engine<Tree, Tag>::set_samples(const Samples& samples)
   m_offsets.assign(n, {0, 0, 0});
   m_lbfgs.clear();
   m_best = {};
+  m_free.clear();
+  m_numbers.resize(n);
+  std::vector<Vec3d> points = samples.points;
+  points.insert(points.end(), features.sites.points.begin(), features.sites.points.end());
+  std::vector<int> places(n);
+  m_tree.is_fixed.assign(free < n ? n : 0, 0);
   int i = 0;
-  for (int k : internal::spatial_order(samples.points)) {
-    m_tree.sites[i] = {samples.points[k], 0};
-    m_facets[i++] = samples.facets[k];
+  for (const int k : internal::spatial_order(points)) {
+    places[k] = i;
+    m_tree.sites[i] = {points[k], 0};
+    if (k < int(free)) {
+      m_numbers[i] = static_cast<int>(m_free.size());
+      m_free.push_back(i);
+      m_facets[i++] = samples.facets[k];
+      continue;
+    }
+    const std::size_t site = k - free;
+    m_numbers[i] = k;
+    m_facets[i] = features.sites.facets[site];
+    m_tree.is_fixed[i] = 1;
+    m_tree.normals[i] = features.sites.normals[site];
+    m_density[i] = features.sites.density[site];
+    m_density_root[i++] = density_root(features.sites.density[site]);
   }
+  m_next.assign(free < n ? n : 0, -1);
+  m_previous = m_next;
+  for (std::size_t site = 0; site < features.next.size(); ++site) {
+    const int a = places[free + site], b = places[free + features.next[site]];
+    m_next[a] = b;
+    m_previous[b] = a;
+  }
+  m_tree.patches.clear();
+  if (!m_surface.facet_patches.empty())
+    for (const int f : m_facets) m_tree.patches.push_back(m_surface.facet_patches[f]);
   update_attributes();
 }
 
 template <class Tree, class Tag>
 void Host_engine<Tree, Tag>::update_attributes()
 {
-  internal::for_each_index<Tag>(size(), [&](int i) {
+  for_each_sample([&](int i) {
     m_sampler.attributes(m_tree.sites[i].point, m_facets[i], m_tree.normals[i], m_density[i]);
-    m_density_root[i] = std::cbrt(std::pow(m_density[i], m_options.centroid_density_power));
+    m_density_root[i] = density_root(m_density[i]);
   });
   m_nearest.clear();
   m_tree.refit();
@@ -154,16 +208,37 @@ void Host_engine<Tree, Tag>::build_cells()
   m_tree.construct_cells(
       m_cos_angle, [&](int i, Cell_status status, const auto& polygon, const Frame& frame) {
         m_status[i] = status;
-        m_moments[i] = cell_moments(polygon, i, [&](int j) { return m_density_root[j]; });
+        within_patch(i, polygon, frame, [&](const auto& part) {
+          m_moments[i] = cell_moments(part, i, [&](int j) { return m_density_root[j]; });
+        });
         m_offsets[i] = frame.u * m_moments[i].x + frame.v * m_moments[i].y;
       });
 }
 
 template <class Tree, class Tag>
+template <class Polygon, class F>
+void Host_engine<Tree, Tag>::within_patch(int i, const Polygon& polygon, const Frame& frame,
+                                          F&& f) const
+{
+  if (!has_features() || polygon.size > Tangent_polygon<double>::capacity) return f(polygon);
+  Tangent_polygon<double> part;
+  part.size = polygon.size;
+  for (int k = 0; k < polygon.size; ++k) {
+    part.x[k] = polygon.x[k];
+    part.y[k] = polygon.y[k];
+    part.neighbor[k] = polygon.neighbor[k];
+  }
+  clip_at_features(m_tree.view(), i, m_next.data(), m_previous.data(), frame, part);
+  f(part);
+}
+
+template <class Tree, class Tag>
 void Host_engine<Tree, Tag>::center_weights()
 {
-  const double mean = internal::sum<Tag>(size(), [&](int i) { return m_tree.sites[i].weight; }) / size();
-  internal::for_each_index<Tag>(size(), [&](int i) { m_tree.sites[i].weight -= mean; });
+  if (!has_features()) { // otherwise the weights are relative to those of the features
+    const double mean = sum([&](int i) { return m_tree.sites[i].weight; }) / size();
+    for_each_sample([&](int i) { m_tree.sites[i].weight -= mean; });
+  }
   m_tree.refit();
 }
 
@@ -171,15 +246,15 @@ template <class Tree, class Tag>
 void Host_engine<Tree, Tag>::update_weights()
 {
   if (m_nearest.empty()) {
-    m_nearest.resize(size());
-    internal::for_each_index<Tag>(size(), [&](int i) {
+    m_nearest.resize(sites());
+    for_each_sample([&](int i) {
       m_nearest[i] = distance_to_neighbor(m_tree.view(), i, 1, m_cos_angle);
     });
   }
-  const double mean = internal::sum<Tag>(size(), [&](int i) { return mass(i); }) / size();
+  const double mean = sum([&](int i) { return mass(i); }) / size();
   const Multiplicative_weight_rule change{m_options.capacity_tolerance, m_options.weight_step,
                                           m_options.weight_operator == Weight_operator::floor, mean};
-  internal::for_each_index<Tag>(size(), [&](int i) {
+  for_each_sample([&](int i) {
     // An empty cell often lies close to the sample that displaced it, where D_i says nothing.
     const double distance =
         mass(i) > 0 ? m_nearest[i] : distance_to_neighbor(m_tree.view(), i, 6, m_cos_angle);
@@ -191,18 +266,21 @@ void Host_engine<Tree, Tag>::update_weights()
 template <class Tree, class Tag>
 std::vector<Capacity_edge> Host_engine<Tree, Tag>::capacity_edges()
 {
-  std::vector<boost::container::small_vector<Capacity_edge, 8>> of_cell(size());
+  std::vector<boost::container::small_vector<Capacity_edge, 8>> of_cell(sites());
   ++m_constructions;
   m_tree.construct_cells(
       m_cos_angle, [&](int i, Cell_status, const auto& polygon, const Frame& frame) {
-        for (int k = 0; k < polygon.size; ++k) {
-          const int j = polygon.neighbor[k], l = polygon.next(k);
-          if (j < 0) continue;
-          const Vec3d offset = m_tree.sites[j].point - m_tree.sites[i].point;
-          const double distance = std::hypot(dot(offset, frame.u), dot(offset, frame.v));
-          of_cell[i].push_back({i, j, std::hypot(polygon.x[l] - polygon.x[k],
-                                                 polygon.y[l] - polygon.y[k]) / distance});
-        }
+        within_patch(i, polygon, frame, [&](const auto& part) {
+          for (int k = 0; k < part.size; ++k) {
+            const int j = part.neighbor[k], l = part.next(k);
+            if (j < 0) continue;
+            const Vec3d offset = m_tree.sites[j].point - m_tree.sites[i].point;
+            const double distance = std::hypot(dot(offset, frame.u), dot(offset, frame.v));
+            const double edge = std::hypot(part.x[l] - part.x[k], part.y[l] - part.y[k]);
+            const int other = m_numbers[j] < size() ? m_numbers[j] : Capacity_edge::fixed;
+            of_cell[i].push_back({m_numbers[i], other, edge / distance});
+          }
+        });
       });
   std::vector<Capacity_edge> edges;
   for (const auto& own : of_cell) edges.insert(edges.end(), own.begin(), own.end());
@@ -215,25 +293,28 @@ bool Host_engine<Tree, Tag>::newton_weights()
   struct State { double least, mean, residual; };
   const auto state = [&]() {
     State s{std::numeric_limits<double>::infinity(), 0, 0};
-    for (int i = 0; i < size(); ++i) s.least = std::min(s.least, mass(i));
-    s.mean = internal::sum<Tag>(size(), [&](int i) { return mass(i); }) / size();
-    s.residual = internal::sum<Tag>(size(), [&](int i) {
+    for (const int i : m_free) s.least = std::min(s.least, mass(i));
+    s.mean = sum([&](int i) { return mass(i); }) / size();
+    s.residual = sum([&](int i) {
       const double d = mass(i) / s.mean - 1;
       return d * d;
     });
     return s;
   };
-  std::vector<double> areas(size());
-  for (int i = 0; i < size(); ++i) areas[i] = m_moments[i].area;
+  std::vector<double> areas, densities;
+  for (const int i : m_free) {
+    areas.push_back(m_moments[i].area);
+    densities.push_back(m_density[i]);
+  }
   const std::vector<double> direction =
-      newton_weights_direction(areas, m_density, capacity_edges());
+      newton_weights_direction(areas, densities, capacity_edges());
   if (direction.empty()) return false;
 
   const State before = state();
   const std::vector<Site<double>> sites = m_tree.sites;
   for (double step : {1.0, 0.5, 0.25, 0.125}) {
-    for (int i = 0; i < size(); ++i)
-      m_tree.sites[i].weight = sites[i].weight + step * direction[i];
+    for (int k = 0; k < size(); ++k)
+      m_tree.sites[m_free[k]].weight = sites[m_free[k]].weight + step * direction[k];
     center_weights();
     build_cells();
     const State after = state();
@@ -252,9 +333,9 @@ std::vector<Vec3d> Host_engine<Tree, Tag>::lbfgs_steps()
 {
   // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). Cells
   // that are not ok say nothing about it and would poison the memory.
-  std::vector<Vec3d> positions(size()), gradient(size(), {0, 0, 0});
-  std::vector<double> inverse_diagonal(size(), 0);
-  internal::for_each_index<Tag>(size(), [&](int i) {
+  std::vector<Vec3d> positions(sites()), gradient(sites(), {0, 0, 0});
+  std::vector<double> inverse_diagonal(sites(), 0);
+  for_each_sample([&](int i) {
     positions[i] = m_tree.sites[i].point;
     if (!usable(i)) return;
     gradient[i] = m_offsets[i] * (-2 * m_moments[i].mass);
@@ -266,7 +347,7 @@ std::vector<Vec3d> Host_engine<Tree, Tag>::lbfgs_steps()
 template <class Tree, class Tag>
 double Host_engine<Tree, Tag>::remember_best()
 {
-  const double residual = internal::sum<Tag>(size(), [&](int i) {
+  const double residual = sum([&](int i) {
     return usable(i) ? squared_length(m_offsets[i]) : 0;
   });
   if (residual < m_best.residual) {
@@ -298,7 +379,7 @@ void Host_engine<Tree, Tag>::move_samples(Position_method method)
     lbfgs = false;
   }
   std::vector<Vec3d> steps = lbfgs ? lbfgs_steps() : m_offsets; // Lloyd: to the centre of mass
-  internal::for_each_index<Tag>(size(), [&](int i) {
+  for_each_sample([&](int i) {
     if (m_status[i] == Cell_status::empty) {
       steps[i] = step_apart(i);
     } else if (!usable(i)) {
@@ -308,7 +389,7 @@ void Host_engine<Tree, Tag>::move_samples(Position_method method)
       if (l > longest) steps[i] *= longest / l;
     }
   });
-  internal::for_each_index<Tag>(size(), [&](int i) {
+  for_each_sample([&](int i) {
     Site<double>& site = m_tree.sites[i];
     const Surface_point<double> q =
         m_sampler.project(site.point + steps[i], m_tree.normals[i], m_facets[i]);
@@ -334,7 +415,8 @@ template <class Tree, class Tag>
 Cell_counts Host_engine<Tree, Tag>::cell_counts() const
 {
   Cell_counts counts;
-  for (Cell_status s : m_status) {
+  for (const int i : m_free) {
+    const Cell_status s = m_status[i];
     counts.ok += s == Cell_status::ok;
     counts.guarded += s == Cell_status::guarded;
     counts.empty += s == Cell_status::empty;
@@ -347,7 +429,7 @@ template <class Tree, class Tag>
 double Host_engine<Tree, Tag>::displacement() const
 {
   const double squares =
-      internal::sum<Tag>(size(), [&](int i) { return squared_length(m_offsets[i]); });
+      sum([&](int i) { return squared_length(m_offsets[i]); });
   return std::sqrt(squares / m_surface.area);
 }
 
@@ -355,12 +437,13 @@ template <class Tree, class Tag>
 Samples Host_engine<Tree, Tag>::samples() const
 {
   Samples s;
-  s.facets = m_facets;
-  s.normals = m_tree.normals;
-  s.density = m_density;
-  for (const Site<double>& site : m_tree.sites) {
-    s.points.push_back(site.point);
-    s.weights.push_back(site.weight);
+  for (const int i : m_free) {
+    s.points.push_back(m_tree.sites[i].point);
+    s.facets.push_back(m_facets[i]);
+    s.normals.push_back(m_tree.normals[i]);
+    s.density.push_back(m_density[i]);
+    s.weights.push_back(m_tree.sites[i].weight);
+    if (!m_tree.patches.empty()) s.patches.push_back(m_tree.patches[i]);
   }
   return s;
 }
@@ -371,11 +454,12 @@ std::vector<Cell_polygon> Host_engine<Tree, Tag>::cells()
   std::vector<Cell_polygon> cells(size());
   m_tree.construct_cells(
       m_cos_angle, [&](int i, Cell_status status, const auto& polygon, const Frame& frame) {
-        Cell_polygon& cell = cells[i];
+        Cell_polygon& cell = cells[m_numbers[i]];
         for (int k = 0; k < polygon.size; ++k) {
           cell.vertices.push_back(m_tree.sites[i].point + frame.u * polygon.x[k] +
                                   frame.v * polygon.y[k]);
-          cell.neighbors.push_back(polygon.neighbor[k]);
+          const int j = polygon.neighbor[k];
+          cell.neighbors.push_back(j < 0 ? j : m_numbers[j]);
         }
         cell.area = cell_moments(polygon).area;
         cell.density = m_density[i];

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -22,6 +23,8 @@ public:
 
   std::vector<Site<double>> sites; ///< call `refit()` after a change
   std::vector<Vec3d> normals;      ///< unit
+  std::vector<int> patches;        ///< see `Sites_view`; empty: one patch
+  std::vector<char> is_fixed;      ///< sites without a cell of their own; empty: none
   double guard_factor = 3;         ///< see `Sites_view`
 
   /// Sets the number of sites; `radius` is the first guess of the cells' radii.
@@ -46,10 +49,10 @@ public:
   View view() const
   {
     return {sites.data(), normals.data(), m_boxes.data(), m_max_weights.data(), m_tree,
-            guard_factor};
+            guard_factor, patches.empty() ? nullptr : patches.data()};
   }
 
-  /// Constructs all cells and calls `sink(i, status, polygon, frame)` for each, concurrently.
+  /// Constructs the cells of all sites that are not fixed and calls `sink(i, status, polygon, frame)` for each, concurrently.
   /// `cos_angle` is the cosine of Theta. `Filtered`: see `construct_cell()`.
   template <bool Filtered = false, class Sink>
   void construct_cells(double cos_angle, Sink&& sink)
@@ -72,15 +75,19 @@ private:
   {
     // After a step the radii differ from the last ones by a few per cent.
     constexpr double growth = 1.1;
-    double group_radius = 0, min_weight = sites[begin].weight;
+    double group_radius = 0, min_weight = std::numeric_limits<double>::infinity();
+    const auto has_cell = [this](int i) { return is_fixed.empty() || !is_fixed[i]; };
     for (int i = begin; i < end; ++i) {
+      if (!has_cell(i)) continue;
       group_radius = std::max(group_radius, growth * m_radii[i]);
       min_weight = std::min(min_weight, sites[i].weight);
     }
+    if (min_weight == std::numeric_limits<double>::infinity()) return; // all fixed
     gathered.clear();
     for_each_possible_neighbor(v, m_boxes[begin / Packed_tree_layout::arity], min_weight,
                                group_radius, [&](int j) { gathered.push_back(j); });
     for (int i = begin; i < end; ++i) {
+      if (!has_cell(i)) continue;
       const auto candidates = [&](double radius, auto&& f) {
         if (radius <= group_radius)
           for (int j : gathered) f(j);

@@ -32,27 +32,27 @@ public:
   Surface_sampler(const Surface& surface, const Remeshing_options& options)
       : m_surface(surface), m_options(options),
         m_cos_angle(compatibility_cosine(options.normal_angle)),
-        m_facets(surface.points, surface.triangles)
+        m_facets(surface.points, surface.triangles, surface.facet_patches)
   {
     if (options.projection == Projection::nearest_vertices ||
         options.attributes == Attributes::nearest_vertices)
       m_vertices = std::make_unique<Vertices>(surface);
   }
 
-  /// Projects `target` onto the facets whose normals agree with `normal` (Section 4.2.2). `hint` is
-  /// a facet that is probably near. The result's facet is -1 when no facet agrees.
+  /// Projects `target` onto the facets whose normals agree with `normal` (Section 4.2.2), on the
+  /// patch of the facet `hint`, which is probably near. The result's facet is -1 when no facet agrees.
   Surface_point<double> project(const Vec3d& target, const Vec3d& normal, int hint) const
   {
     if (m_options.projection == Projection::nearest_facet)
       return nearest_facet(m_facets.view(), target, normal, m_cos_angle, hint);
-    return project_near_vertices(target, normal);
+    return project_near_vertices(target, normal, patch_of(hint));
   }
 
   /// Normal n_i and density rho(s_i) of a point of facet `facet` (Section 4.3).
   void attributes(const Vec3d& p, int facet, Vec3d& normal, double& density) const
   {
     if (m_options.attributes == Attributes::nearest_vertices)
-      return attributes_near_vertices(p, normal, density);
+      if (attributes_near_vertices(p, patch_of(facet), normal, density)) return;
     const Triangle& t = m_surface.triangles[facet];
     double beta, gamma;
     barycentric_coordinates(p, m_surface.points[t[0]], m_surface.points[t[1]],
@@ -70,7 +70,11 @@ private:
     Vertex_facets facets;
   };
 
-  Surface_point<double> project_near_vertices(const Vec3d& target, const Vec3d& normal) const
+  int patch_of(int facet) const
+  { return m_surface.facet_patches.empty() ? 0 : m_surface.facet_patches[facet]; }
+
+  Surface_point<double> project_near_vertices(const Vec3d& target, const Vec3d& normal,
+                                              int patch) const
   {
     std::vector<int> near(m_options.projection_neighbors);
     near.resize(m_vertices->nearest.find(target, m_options.projection_neighbors, near.data()));
@@ -78,6 +82,7 @@ private:
     for (int v : near)
       for (int k = m_vertices->facets.first[v]; k < m_vertices->facets.first[v + 1]; ++k) {
         const int f = m_vertices->facets.facet[k];
+        if (patch_of(f) != patch) continue;
         if (!(dot(m_surface.facet_normals[f], normal) > m_cos_angle)) continue;
         const Triangle& t = m_surface.triangles[f];
         const Vec3d q = nearest_point_on_triangle(target, m_surface.points[t[0]],
@@ -89,12 +94,19 @@ private:
   }
 
   /// Means over the k_n and k_d nearest vertices whose normals agree with the basic normal, the
-  /// mean of the three nearest ones (NVISPC).
-  void attributes_near_vertices(const Vec3d& p, Vec3d& normal, double& density) const
+  /// mean of the three nearest ones (NVISPC), and which lie on the patch. `false` if none does.
+  bool attributes_near_vertices(const Vec3d& p, int patch, Vec3d& normal, double& density) const
   {
     const int k = std::max({m_options.normal_neighbors, m_options.density_neighbors, 3});
     std::vector<int> near(k);
     near.resize(m_vertices->nearest.find(p, k, near.data()));
+    if (!m_surface.facet_patches.empty()) {
+      const auto is_elsewhere = [&](int v) {
+        return patch_of(m_vertices->facets.facet[m_vertices->facets.first[v]]) != patch;
+      };
+      near.erase(std::remove_if(near.begin(), near.end(), is_elsewhere), near.end());
+      if (near.empty()) return false;
+    }
     const auto& normals = m_surface.vertex_normals;
     Vec3d basic{0, 0, 0};
     for (std::size_t l = 0; l < near.size() && l < 3; ++l) basic += normals[near[l]];
@@ -112,6 +124,7 @@ private:
     }
     normal = squared_length(sum) > 0 ? normalized(sum) : normals[near[0]];
     density = compatible > 0 ? densities / compatible : m_surface.vertex_density[near[0]];
+    return true;
   }
 
   const Surface& m_surface;

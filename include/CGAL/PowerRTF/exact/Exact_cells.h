@@ -72,6 +72,7 @@ class Exact_cells
 
   std::vector<Vec3d> m_points, m_normals;
   std::vector<double> m_weights;
+  std::vector<int> m_patches;
   double m_cos_theta;
   internal::Weighted_site_tree m_tree;
   internal::Power_neighbours m_power_neighbours;
@@ -79,13 +80,17 @@ class Exact_cells
 public:
   /// `points`, `normals` (not zero; unit where NVISPC is used), `weights` (length squared): one per
   /// sample. `cos_theta`: j counts for i when dot(n_i, n_j) > cos_theta; anything below -1: always.
+  /// `patches`: one per sample, samples of other patches do not count; or empty: all count.
   /// \throw Invalid_input_error for arrays of different sizes, zero normals, and values that are
   /// not finite.
   Exact_cells(std::vector<Vec3d> points, std::vector<Vec3d> normals, std::vector<double> weights,
-              double cos_theta, Exact_neighbours source = Exact_neighbours::automatic)
+              double cos_theta, Exact_neighbours source = Exact_neighbours::automatic,
+              std::vector<int> patches = {})
       : m_points(std::move(points)), m_normals(std::move(normals)), m_weights(std::move(weights)),
-        m_cos_theta(cos_theta), m_tree(checked(m_points, m_normals, m_weights), m_weights)
+        m_patches(std::move(patches)), m_cos_theta(cos_theta), m_tree(checked(m_points, m_normals, m_weights), m_weights)
   {
+    if (!m_patches.empty() && m_patches.size() != m_points.size())
+      throw Invalid_input_error("points and patches differ in number");
     if (source == Exact_neighbours::automatic)
       m_power_neighbours = internal::Power_neighbours(m_points, m_weights);
   }
@@ -94,7 +99,10 @@ public:
 
   /// NVISPC. The same double expression as the fast engines evaluate (no fused multiply-add: both
   /// are to be compiled with -ffp-contract=off), so that all engines agree on the compatible set.
-  bool compatible(int i, int j) const { return dot(m_normals[i], m_normals[j]) > m_cos_theta; }
+  bool compatible(int i, int j) const
+  { return same_patch(i, j) && dot(m_normals[i], m_normals[j]) > m_cos_theta; }
+
+  bool same_patch(int i, int j) const { return m_patches.empty() || m_patches[i] == m_patches[j]; }
 
   /// F_i, clipped by `square` when given. Adds to `statistics` when given.
   /// \throw Invalid_input_error when the square is none.
@@ -104,11 +112,11 @@ public:
     return construct(i, square, statistics, [&](int j) { return compatible(i, j); });
   }
 
-  /// As `cell()`, but all samples count, whatever their normals.
+  /// As `cell()`, but all samples of the patch count, whatever their normals.
   Exact_cell cell_of_all(int i, const Exact_square* square = nullptr,
                          Filter_statistics* statistics = nullptr) const
   {
-    return construct(i, square, statistics, [](int) { return true; });
+    return construct(i, square, statistics, [&](int j) { return same_patch(i, j); });
   }
 
   /// Shape of `cell`, a result of `cell(i, square)` with the same square. An unbounded cell

@@ -232,7 +232,7 @@ inline Error_distribution distribution(std::vector<double>& errors)
 /// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`
 /// \param samples points, unit normals and weights; the engine's order (any order is right, but a
 /// spatial one is fast)
-/// \param cells one per sample
+/// \param cells one per sample; none for the last ones, if these only bound cells
 /// \param cos_angle the cosine of Theta, as the engine uses it: `compatibility_cosine()`
 /// \param epsilon the precision of the engine's arithmetic: that of double, or of float
 /// \param guard_factor as in `Remeshing_options`
@@ -243,29 +243,29 @@ Cell_comparison check_cells(const Samples& samples, const std::vector<Cell_polyg
                             double guard_factor = 3)
 {
   const std::size_t n = samples.size();
-  if (cells.size() != n || samples.normals.size() != n || samples.weights.size() != n)
+  if (cells.size() > n || samples.normals.size() != n || samples.weights.size() != n)
     throw Invalid_input_error("samples and cells differ in number");
   Site_tree<ConcurrencyTag> tree;
   tree.resize(n, 1);
   tree.guard_factor = guard_factor;
   tree.normals = samples.normals;
+  tree.patches = samples.patches;
+  for (std::size_t i = 0; i < n; ++i) tree.sites[i] = {samples.points[i], samples.weights[i]};
   double area = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    tree.sites[i] = {samples.points[i], samples.weights[i]};
-    area += cells[i].area;
-  }
+  for (const Cell_polygon& cell : cells) area += cell.area;
   tree.refit();
   const auto view = tree.view();
   const Exact_cells<Exact_predicates_inexact_constructions_kernel> exact(
-      samples.points, samples.normals, samples.weights, cos_angle);
-  const internal::Cell_checker checker(exact, view, std::sqrt(area / double(n)), epsilon);
+      samples.points, samples.normals, samples.weights, cos_angle, Exact_neighbours::automatic,
+      samples.patches);
+  const internal::Cell_checker checker(exact, view, std::sqrt(area / double(cells.size())), epsilon);
 
-  std::vector<internal::Cell_checker::Answer> answers(n);
+  std::vector<internal::Cell_checker::Answer> answers(cells.size());
   internal::for_each_index<ConcurrencyTag>(
-      int(n), [&](int i) { answers[i] = checker.check(i, cells[i]); });
+      int(cells.size()), [&](int i) { answers[i] = checker.check(i, cells[i]); });
   Cell_comparison result;
   std::vector<double> area_errors, centroid_errors;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto& a = answers[i];
     ++result.cells;
     result.equal_cycles += a.is_equal;

@@ -21,6 +21,7 @@ struct Extracted_mesh {
   /// to remove (normally none).
   std::vector<Vec3d> points;
   std::vector<Triangle> triangles; ///< counter-clockwise seen from outside
+  std::vector<Edge> feature_edges; ///< the pieces of creases and borders; sorted
 
   /// Puts the triangles into an order that depends on nothing but which triangles there are.
   void sort_triangles()

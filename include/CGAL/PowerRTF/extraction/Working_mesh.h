@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace CGAL
@@ -36,6 +38,7 @@ struct Working_mesh {
   explicit Working_mesh(Refined_surface&& surface)
       : normals(std::move(surface.normals)), samples(std::move(surface.samples))
   {
+    for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
     const auto vertices = Mesh::size_type(surface.points.size());
     mesh.reserve(vertices, 3 * vertices, Mesh::size_type(surface.triangles.size()));
     for (const Vec3d& p : surface.points) mesh.add_vertex(Point(p.x, p.y, p.z));
@@ -48,6 +51,46 @@ struct Working_mesh {
   {
     const Point& p = mesh.point(v);
     return {p.x(), p.y(), p.z()};
+  }
+
+  /// The neighbours of `v` along creases and borders that must stay.
+  const std::vector<Vertex>& feature_neighbours(Vertex v) const
+  {
+    static const std::vector<Vertex> none;
+    const auto found = m_features.find(v);
+    return found == m_features.end() ? none : found->second;
+  }
+  bool is_on_feature(Vertex v) const { return m_features.count(v) > 0; }
+  bool is_feature(Vertex a, Vertex b) const
+  {
+    const std::vector<Vertex>& near = feature_neighbours(a);
+    return std::find(near.begin(), near.end(), b) != near.end();
+  }
+  bool is_feature(Edge e) const
+  { return !m_features.empty() && is_feature(mesh.vertex(e, 0), mesh.vertex(e, 1)); }
+
+  /// Takes `u`, which has two neighbours along features, out of its curve; \pre `v` is one of them.
+  void shorten_feature(Vertex u, Vertex v)
+  {
+    const std::vector<Vertex>& ends = feature_neighbours(u);
+    const Vertex w = ends[0] == v ? ends[1] : ends[0];
+    std::vector<Vertex>&at_v = m_features[v], &at_w = m_features[w];
+    *std::find(at_v.begin(), at_v.end(), u) = w;
+    *std::find(at_w.begin(), at_w.end(), u) = v;
+    m_features.erase(u);
+  }
+  /// Gives the place of `from` on its curves to `to`.
+  void rename_on_features(Vertex from, Vertex to)
+  {
+    const auto found = m_features.find(from);
+    if (found == m_features.end()) return;
+    for (const Vertex v : found->second) {
+      std::vector<Vertex>& at_v = m_features[v];
+      *std::find(at_v.begin(), at_v.end(), from) = to;
+    }
+    std::vector<Vertex> near = std::move(found->second);
+    m_features.erase(from);
+    m_features[to] = std::move(near);
   }
 
   bool are_adjacent(Vertex a, Vertex b) const
@@ -70,8 +113,13 @@ struct Working_mesh {
     const Vec3d n = area_vector(a, b, c);
     const double l = length(n);
     if (!(l > 0)) return -1;
-    return std::min({dot(n, normals[a]), dot(n, normals[b]), dot(n, normals[c])}) / l;
+    return std::min({agreement(n, l, a), agreement(n, l, b), agreement(n, l, c)});
   }
+
+  /// The cosine between a vector of length `l` and the normal at `v`; 1 on creases and borders,
+  /// where a normal says little about the triangles.
+  double agreement(const Vec3d& n, double l, Vertex v) const
+  { return !m_features.empty() && is_on_feature(v) ? 1 : dot(n, normals[v]) / l; }
 
   /// Shape of a triangle: 1 equilateral, 0 without area (mean ratio).
   double shape(Vertex a, Vertex b, Vertex c) const
@@ -80,6 +128,15 @@ struct Working_mesh {
                      squared_length(point(a) - point(c));
     return l > 0 ? 2 * std::sqrt(3.) * length(area_vector(a, b, c)) / l : 0;
   }
+
+private:
+  void join_on_feature(Vertex a, Vertex b)
+  {
+    m_features[a].push_back(b);
+    m_features[b].push_back(a);
+  }
+
+  std::unordered_map<Vertex, std::vector<Vertex>> m_features;
 };
 
 } // namespace internal

@@ -27,8 +27,9 @@ namespace internal
 class Decimator
 {
 public:
-  Decimator(Working_mesh& mesh, Edge_flipper& flipper)
-      : m(mesh), m_flipper(flipper), m_touched(mesh.samples.size(), 0)
+  /// What `guard` forbids is not done.
+  Decimator(Working_mesh& mesh, Edge_flipper& flipper, Intersection_guard* guard = nullptr)
+      : m(mesh), m_flipper(flipper), m_guard(guard), m_touched(mesh.samples.size(), 0)
   {
     for (const Vertex v : m.mesh.vertices())
       if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
@@ -97,23 +98,30 @@ private:
   {
     m_ring.clear();
     for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
-    const bool on_border = m.mesh.is_border(u);
-    return collapse_to_neighbour(u, on_border) ||
-           (on_border && m_borders_may_recede && cut_off()) ||
-           (on_border && m_borders_may_recede && collapse_to_neighbour(u, false));
+    const std::vector<Vertex>& curve = m.feature_neighbours(u);
+    if (!curve.empty())
+      return curve.size() == 2 && !m.is_feature(curve[0], curve[1]) &&
+             collapse_to_neighbour(u, [&](Halfedge h) { return m.is_feature(u, m.mesh.target(h)); });
+    const auto anywhere = [](Halfedge) { return true; };
+    if (!m.mesh.is_border(u)) return collapse_to_neighbour(u, anywhere);
+    const auto along_border = [&](Halfedge h) { return m.mesh.is_border(m.mesh.edge(h)); };
+    return collapse_to_neighbour(u, along_border) || (m_borders_may_recede && cut_off()) ||
+           (m_borders_may_recede && collapse_to_neighbour(u, anywhere));
   }
 
-  bool collapse_to_neighbour(Vertex u, bool along_border_only)
+  template <class IsAllowed>
+  bool collapse_to_neighbour(Vertex u, IsAllowed is_allowed)
   {
     m_candidates.clear();
     for (const Halfedge h : m_ring) {
-      if (along_border_only && !m.mesh.is_border(m.mesh.edge(h))) continue;
+      if (!is_allowed(h)) continue;
       const double shape = shape_after(u, m.mesh.target(h));
       if (shape >= 0) m_candidates.push_back({shape, h});
     }
     std::stable_sort(m_candidates.begin(), m_candidates.end());
     for (const Candidate& c : m_candidates)
-      if (Euler::does_satisfy_link_condition(m.mesh.edge(c.halfedge), m.mesh)) {
+      if (Euler::does_satisfy_link_condition(m.mesh.edge(c.halfedge), m.mesh) &&
+          !(m_guard && m_guard->forbids_collapse(c.halfedge))) {
         collapse(c.halfedge);
         return true;
       }
@@ -134,7 +142,10 @@ private:
       if (i + 1 < m_ring.size() && m.mesh.is_border(m.mesh.target(m_ring[i]))) return false;
     }
     for (const Halfedge h : m_ring) m_touched[m.mesh.target(h)] = m_pass;
-    for (std::size_t i = 1; i < m_ring.size(); ++i) Euler::remove_face(m_ring[i], m.mesh);
+    for (std::size_t i = 1; i < m_ring.size(); ++i) {
+      if (m_guard) m_guard->erase(m.mesh.face(m_ring[i]));
+      Euler::remove_face(m_ring[i], m.mesh);
+    }
     return true;
   }
 
@@ -149,13 +160,23 @@ private:
       if (a == v || b == v) continue;
       if (m_min_agreement > -1) {
         const Vec3d n = m.area_vector(v, a, b);
-        const double least = std::min({dot(n, m.normals[u]), dot(n, m.normals[v]),
-                                       dot(n, m.normals[a]), dot(n, m.normals[b])});
-        if (!(least > m_min_agreement * length(n))) return -1;
+        const double l = length(n);
+        if (!(std::min({agreement_at(u, n, l, a, b), m.agreement(n, l, v), m.agreement(n, l, a),
+                        m.agreement(n, l, b)}) > m_min_agreement))
+          return -1;
       }
       worst = std::min(worst, m.shape(v, a, b));
     }
     return worst;
+  }
+
+  // On a curve the triangle `u a b` itself tells how the surface lies.
+  double agreement_at(Vertex u, const Vec3d& n, double l, Vertex a, Vertex b) const
+  {
+    if (!m.is_on_feature(u)) return m.agreement(n, l, u);
+    const Vec3d before = m.area_vector(u, a, b);
+    const double length_before = length(before);
+    return length_before > 0 ? dot(n, before) / (l * length_before) : 1;
   }
 
   // `collapse_edge()` keeps the end that it likes: the kept vertex becomes what the target was.
@@ -166,11 +187,16 @@ private:
     const auto point = m.mesh.point(v);
     const Vec3d normal = m.normals[v];
     const int sample = m.samples[v];
+    const Vertex u = m.mesh.source(to_v);
+    if (m_guard) m_guard->erase_around(u, v);
+    if (m.is_on_feature(u)) m.shorten_feature(u, v);
     const Vertex kept = Euler::collapse_edge(m.mesh.edge(to_v), m.mesh);
+    if (kept != v) m.rename_on_features(v, kept);
     m.mesh.point(kept) = point;
     m.normals[kept] = normal;
     m.samples[kept] = sample;
     m_touched[kept] = m_pass;
+    if (m_guard) m_guard->insert_around(kept);
     for (const Halfedge h : halfedges_around_target(kept, m.mesh)) {
       m_flipper.push(m.mesh.edge(h));
       m_flipper.push(m.mesh.edge(m.mesh.prev(h)));
@@ -201,6 +227,7 @@ private:
 
   Working_mesh& m;
   Edge_flipper& m_flipper;
+  Intersection_guard* m_guard; // or none
   std::vector<Vertex> m_rest; // no samples: still to be removed
   std::vector<int> m_touched; // by vertex: the last pass that changed something around it
   std::vector<Halfedge> m_ring;

@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H
 #define CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H
 
+#include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -33,10 +34,10 @@ public:
   using Edge = Working_mesh::Edge;
 
   /// Triangles whose normals have at least the cosine `good_agreement` with the surface's at their
-  /// corners lie well enough: among them only the angles count.
-  Edge_flipper(Working_mesh& mesh, double good_agreement)
-      : m(mesh), m_good_agreement(good_agreement), m_waiting(mesh.mesh.num_edges(), false),
-        m_flips(mesh.mesh.num_edges(), 0)
+  /// corners lie well enough: among them only the angles count. What `guard` forbids is not done.
+  Edge_flipper(Working_mesh& mesh, double good_agreement, Intersection_guard* guard = nullptr)
+      : m(mesh), m_guard(guard), m_good_agreement(good_agreement),
+        m_waiting(mesh.mesh.num_edges(), false), m_flips(mesh.mesh.num_edges(), 0)
   {
   }
 
@@ -77,9 +78,10 @@ public:
   /// True if the edge can be flipped without a change of topology.
   bool is_legal(Edge e) const
   {
-    if (m.mesh.is_removed(e) || m.mesh.is_border(e)) return false;
+    if (m.mesh.is_removed(e) || m.mesh.is_border(e) || m.is_feature(e)) return false;
     const Halfedge h = m.mesh.halfedge(e);
-    return !m.are_adjacent(apex(h), apex(m.mesh.opposite(h)));
+    return !m.are_adjacent(apex(h), apex(m.mesh.opposite(h))) &&
+           !(m_guard && m_guard->forbids_flip(e));
   }
 
   void flip(Edge e)
@@ -87,7 +89,15 @@ public:
     const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
     for (const Halfedge side : {m.mesh.next(h), m.mesh.prev(h), m.mesh.next(o), m.mesh.prev(o)})
       push(m.mesh.edge(side));
+    if (m_guard) {
+      m_guard->erase(m.mesh.face(h));
+      m_guard->erase(m.mesh.face(o));
+    }
     Euler::flip_edge(h, m.mesh);
+    if (m_guard) {
+      m_guard->insert(m.mesh.face(h));
+      m_guard->insert(m.mesh.face(o));
+    }
   }
 
 private:
@@ -106,9 +116,9 @@ private:
     const double l1 = length(n1), l2 = length(n2);
     if (!(l1 > 0) || !(l2 > 0)) return -1;
     const double cosine = dot(n1, n2) / (l1 * l2);
-    const Vec3d &na = m.normals[a], &nb = m.normals[b], &nc = m.normals[c], &nd = m.normals[d];
-    const double agreement = std::min(std::min({dot(n1, na), dot(n1, nb), dot(n1, nc)}) / l1,
-                                      std::min({dot(n2, na), dot(n2, nb), dot(n2, nd)}) / l2);
+    const double agreement =
+        std::min({m.agreement(n1, l1, a), m.agreement(n1, l1, b), m.agreement(n1, l1, c),
+                  m.agreement(n2, l2, a), m.agreement(n2, l2, b), m.agreement(n2, l2, d)});
     return std::min(agreement, m_good_agreement) - (cosine < fold ? 1 : 0);
   }
 
@@ -138,7 +148,7 @@ private:
 
   bool flip_if_better(Edge e)
   {
-    if (m.mesh.is_removed(e) || m.mesh.is_border(e)) return false;
+    if (m.mesh.is_removed(e) || m.mesh.is_border(e) || m.is_feature(e)) return false;
     const Halfedge h = m.mesh.halfedge(e);
     const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = apex(h),
                  d = apex(m.mesh.opposite(h));
@@ -148,13 +158,14 @@ private:
     const double fit_then = fit(d, c, a, b);
     const bool lies_better = fit_then > fit_now + clearly && m_flips[e] < max_flips_for_fit;
     if (!(lies_better || (not_delaunay && fit_then >= fit_now))) return false;
-    if (m.are_adjacent(c, d)) return false;
+    if (m.are_adjacent(c, d) || (m_guard && m_guard->forbids_flip(e))) return false;
     ++m_flips[e];
     flip(e);
     return true;
   }
 
   Working_mesh& m;
+  Intersection_guard* m_guard; // or none
   double m_good_agreement;
   std::vector<Edge> m_stack;
   std::vector<char> m_waiting;       // by edge

@@ -37,6 +37,10 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
         {name[mesh.source(h)], name[mesh.target(h)], name[mesh.target(mesh.next(h))]});
   }
   result.sort_triangles();
+  for (const auto v : mesh.vertices())
+    for (const auto w : working.feature_neighbours(v))
+      if (name[v] < name[w]) result.feature_edges.push_back({name[v], name[w]});
+  std::sort(result.feature_edges.begin(), result.feature_edges.end());
   return result;
 }
 
@@ -48,11 +52,15 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
 /// the samples' order. A component with fewer samples than its topology needs (4 for a sphere)
 /// keeps vertices of the surface.
 ///
+/// `features`: the last samples; edges between those that are next to each other on a curve stay.
+/// Without it borders recede to the samples.
+///
 /// \pre `surface` is an oriented 2-manifold
 /// \throw Invalid_input_error if it is not, or if a sample lies on no facet
-inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples)
+inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples,
+                                           const Feature_samples& features = {})
 {
-  internal::Working_mesh mesh(internal::insert_samples(surface, samples));
+  internal::Working_mesh mesh(internal::insert_samples(surface, samples, features.places));
   // While the mesh is fine, normals that differ by more than 84 degrees are a fold; among the
   // samples alone even 134 degrees occur on thin parts, and refusing more costs good triangles.
   internal::Edge_flipper careful_flipper(mesh, 0.1);

@@ -8,6 +8,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_RESTRICTED_DELAUNAY_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/internal/compat.h>
 
 #include <CGAL/AABB_tree.h>
@@ -141,10 +142,14 @@ private:
 /// The facets of the samples' Delaunay triangulation whose dual Voronoi edge meets `surface`,
 /// oriented like the surface at their samples. May be non-manifold, miss samples or have another
 /// topology than the surface where sampling is too coarse. Of samples at the same place only one
-/// is used.
-inline Extracted_mesh extract_restricted_delaunay(const Surface& surface, const Samples& samples)
+/// is used. `features`: the last samples; whether their edges are there is left to chance.
+inline Extracted_mesh extract_restricted_delaunay(const Surface& surface, const Samples& samples,
+                                                  const Feature_samples& features = {})
 {
-  return internal::Restricted_delaunay_extractor(surface, samples).run();
+  Extracted_mesh mesh = internal::Restricted_delaunay_extractor(surface, samples).run();
+  const int first = static_cast<int>(samples.size() - features.size());
+  for (const Edge& e : features.edges) mesh.feature_edges.push_back({first + e[0], first + e[1]});
+  return mesh;
 }
 
 } // namespace PowerRTF

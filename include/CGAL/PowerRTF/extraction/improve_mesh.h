@@ -31,9 +31,9 @@ class Mesh_improver
 {
 public:
   /// \throw Invalid_input_error if `raw` is not an oriented 2-manifold
-  Mesh_improver(const Surface& surface, const Extracted_mesh& raw)
-      : m_guide(surface), m_raw(raw), m_locked(raw.points.size(), false), m_raw_stars(raw, m_guide),
-        m_raw_watch(m_raw_stars),
+  Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw)
+      : m_guide(surface, tree), m_raw(raw), m_locked(raw.points.size(), false),
+        m_raw_stars(raw, m_guide), m_raw_watch(m_raw_stars),
         m_largest_distance(m_raw_watch.max_distance() +
                            worsening * std::sqrt(surface.area / double(raw.points.size())))
   {
@@ -77,24 +77,20 @@ private:
     }
     const auto mend = [&] { Star_mender(stars, flipper).run(mending_rounds); };
     mend();
-    cover_tips(stars, rough);
+    Surface_watch watch(m_raw_watch, stars);
+    watch.update();
+    Tip_coverer(stars, watch, rough).run(far);
     mend();
-    Surface_fitter(stars, rough).run();
+    watch.update();
+    Surface_fitter(stars, watch, rough).run();
     mend();
     if (Star_mender(stars, flipper).release_pinned() > 0) mend();
-    m_watched = cover_tips(stars, Triangle_badness::tolerable);
-  }
-
-  // Returns the faces that are too far from the surface, afterwards.
-  std::vector<Face> cover_tips(Star_mesh& stars, double limit) const
-  {
-    Surface_watch watch(stars, &m_raw_watch);
-    Tip_coverer(stars, watch, limit).run(far);
-    std::vector<Face> too_far;
+    watch.update();
+    Tip_coverer(stars, watch, Triangle_badness::tolerable).run(far);
+    m_too_far.clear();
     for (int i = 0; i < watch.size(); ++i)
-      if (watch.distance(i) > m_largest_distance)
-        too_far.push_back(Face(Face::size_type(watch.face(i))));
-    return too_far;
+      if (watch[i].face.is_valid() && watch[i].distance > m_largest_distance)
+        m_too_far.push_back(stars.working().mesh.face(watch[i].face));
   }
 
   // Locks the vertices around the faces that intersect others or are too far from the surface.
@@ -108,7 +104,7 @@ private:
         if (!m_locked[v]) return false;
       return true;
     };
-    for (const Face f : m_watched)
+    for (const Face f : m_too_far)
       if (!is_locked(f)) broken.push_back(f);
     std::vector<std::pair<Face, Face>> pairs;
     Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
@@ -128,7 +124,7 @@ private:
   Star_mesh m_raw_stars;
   Surface_watch m_raw_watch;
   double m_largest_distance;
-  std::vector<Face> m_watched;
+  std::vector<Face> m_too_far;
 };
 
 } // namespace internal
@@ -138,19 +134,27 @@ private:
 /// distance of the surface's vertices to the mesh grows by at most 0.2 h, h = sqrt(area / n). Where
 /// an improvement would break one of these, everything stays as it is.
 ///
-/// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`).
+/// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
+/// its facets and their patches.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
-inline bool improve_mesh(const Surface& surface, Extracted_mesh& mesh)
+inline bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh)
 {
   if (mesh.triangles.empty()) return true;
   try {
-    mesh = internal::Mesh_improver(surface, mesh).run();
+    mesh = internal::Mesh_improver(surface, tree, mesh).run();
     mesh.sort_triangles();
   } catch (const Invalid_input_error&) {
     return false;
   }
   return true;
+}
+
+/// The same with a tree of its own.
+inline bool improve_mesh(const Surface& surface, Extracted_mesh& mesh)
+{
+  return improve_mesh(surface, Facet_tree(surface.points, surface.triangles, surface.facet_patches),
+                      mesh);
 }
 
 } // namespace PowerRTF

@@ -13,7 +13,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 
 #include <CGAL/PowerRTF/internal/errors.h>
-#include <CGAL/PowerRTF/surface/Surface.h>
+#include <CGAL/PowerRTF/surface/feature_samples.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -43,18 +43,23 @@ struct Refined_surface {
   std::vector<Vec3d> normals; ///< unit normal of the surface at each point
   std::vector<int> samples;   ///< the sample that each vertex is; -1: none
   std::vector<Triangle> triangles;
+  std::vector<Edge> features; ///< the pieces of the creases and borders
 };
 
 /// Builds a `Refined_surface`. The result does not depend on the samples' order.
 class Sample_inserter
 {
 public:
+  /// `features`: places of the last samples.
   /// \throw Invalid_input_error if a sample names no facet of the surface or is not finite.
-  Sample_inserter(const Surface& surface, const Samples& samples)
-      : m_surface(surface), m_samples(samples)
+  Sample_inserter(const Surface& surface, const Samples& samples,
+                  const std::vector<Edge_place>& features)
+      : m_surface(surface), m_samples(samples), m_features(features),
+        m_first_feature(int(samples.size() - features.size()))
   {
     sort_samples();
     start_from_surface();
+    place_features();
     place_samples();
     separate_edge_places();
     m_refined.triangles.reserve(surface.triangles.size() + 2 * samples.size());
@@ -64,6 +69,7 @@ public:
       while (inside != m_inside.end() && inside->facet == f) ++inside;
       triangulate_facet(f, begin, inside);
     }
+    if (!features.empty()) cut_features();
   }
 
   Refined_surface release() { return std::move(m_refined); }
@@ -151,9 +157,46 @@ private:
     return {one - U - V, U, V};
   }
 
+  void become_sample(int vertex, int s)
+  {
+    m_refined.points[vertex] = m_samples.points[s];
+    m_refined.normals[vertex] = normal_of(s);
+    m_refined.samples[vertex] = s;
+  }
+
+  // First, so that they get their vertices.
+  void place_features()
+  {
+    for (std::size_t k = 0; k < m_features.size(); ++k) {
+      const Edge_place& p = m_features[k];
+      const int s = m_first_feature + int(k);
+      if (p.from == p.to) {
+        become_sample(p.from, s);
+        continue;
+      }
+      const double at = p.from < p.to ? p.at : 1 - p.at;
+      const std::int64_t place = std::llround(at * double(one));
+      m_on_edges.push_back({std::min(p.from, p.to), std::max(p.from, p.to), new_vertex(s),
+                            std::min(std::max(place, std::int64_t(1)), one - 1)});
+    }
+  }
+
+  void cut_features()
+  {
+    for (const Edge& e : feature_edges(m_surface)) {
+      int last = e[0];
+      for_each_on_edge(e[0], e[1], [&](const Edge_sample& sample) {
+        m_refined.features.push_back({last, sample.vertex});
+        last = sample.vertex;
+      });
+      m_refined.features.push_back({last, e[1]});
+    }
+  }
+
   void place_samples()
   {
     for (const int s : m_order) {
+      if (s >= m_first_feature) continue;
       const int f = m_samples.facets[s];
       const Triangle& t = m_surface.triangles[f];
       Place place = place_of(s);
@@ -163,9 +206,7 @@ private:
         const int corner = int(std::max_element(place.begin(), place.end()) - place.begin());
         const int vertex = t[corner];
         if (m_refined.samples[vertex] < 0) {
-          m_refined.points[vertex] = m_samples.points[s];
-          m_refined.normals[vertex] = normal_of(s);
-          m_refined.samples[vertex] = s;
+          become_sample(vertex, s);
           continue;
         }
         place.fill(2 * snap); // the vertex is taken: next to it, inside the facet
@@ -230,16 +271,23 @@ private:
   {
     int from = i, to = (i + 1) % 3;
     if (t[from] > t[to]) std::swap(from, to);
-    const auto first = m_on_edges.begin() + m_first_on_edges[t[from]];
-    const auto last = m_on_edges.begin() + m_first_on_edges[t[from] + 1];
-    auto it = std::lower_bound(first, last, t[to],
-                               [](const Edge_sample& e, int vertex) { return e.to < vertex; });
-    for (; it != last && it->to == t[to]; ++it) {
+    for_each_on_edge(t[from], t[to], [&](const Edge_sample& sample) {
       Place place{0, 0, 0};
-      place[from] = one - it->at;
-      place[to] = it->at;
-      add(place, it->vertex);
-    }
+      place[from] = one - sample.at;
+      place[to] = sample.at;
+      add(place, sample.vertex);
+    });
+  }
+
+  // From `from` to `to`, from < to.
+  template <class F>
+  void for_each_on_edge(int from, int to, F&& f) const
+  {
+    const auto first = m_on_edges.begin() + m_first_on_edges[from];
+    const auto last = m_on_edges.begin() + m_first_on_edges[from + 1];
+    auto it = std::lower_bound(first, last, to,
+                               [](const Edge_sample& e, int vertex) { return e.to < vertex; });
+    for (; it != last && it->to == to; ++it) f(*it);
   }
 
   void add(const Place& place, int vertex)
@@ -264,6 +312,8 @@ private:
 
   const Surface& m_surface;
   const Samples& m_samples;
+  const std::vector<Edge_place>& m_features;
+  int m_first_feature;
   Refined_surface m_refined;
   std::vector<int> m_order;
   std::vector<Inside_sample> m_inside; // by facet
@@ -272,10 +322,11 @@ private:
   std::vector<std::pair<Kernel::Point_2, int>> m_places;
 };
 
-/// Makes every sample a vertex of the surface.
-inline Refined_surface insert_samples(const Surface& surface, const Samples& samples)
+/// Makes every sample a vertex of the surface. `features`: where the last samples lie on edges.
+inline Refined_surface insert_samples(const Surface& surface, const Samples& samples,
+                                      const std::vector<Edge_place>& features = {})
 {
-  return Sample_inserter(surface, samples).release();
+  return Sample_inserter(surface, samples, features).release();
 }
 
 } // namespace internal

@@ -18,13 +18,14 @@ namespace PowerRTF {
 /// The common edge of cells i and j: when w_i grows, the line moves by dw_i / (2 d_ij) and cell i
 /// wins e_ij / (2 d_ij) of area.
 struct Capacity_edge {
-  int i, j;
+  static constexpr int fixed = -1;
+  int i, j;     ///< j may be `fixed`: a site whose weight does not change
   double ratio; ///< e_ij / d_ij: length of the edge in cell i over the tangential distance
 };
 
 /// Solves L dw = target - area, L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4. On each connected component of
 /// the cells the target areas are c / rho_i with c such that the component's area is kept, and the
-/// mean of dw is 0. `edges` has one entry per side of each cell. Empty when the system cannot be
+/// mean of dw is 0 unless it has an edge with a fixed site. `edges` has one entry per side of each cell. Empty when the system cannot be
 /// solved.
 inline std::vector<double> newton_weights_direction(const std::vector<double>& areas,
                                                     const std::vector<double>& density,
@@ -38,6 +39,7 @@ inline std::vector<double> newton_weights_direction(const std::vector<double>& a
     return i;
   };
   for (const Capacity_edge& e : edges) {
+    if (e.j == Capacity_edge::fixed) continue;
     const int a = root(e.i), b = root(e.j);
     component[std::max(a, b)] = std::min(a, b);
   }
@@ -52,8 +54,14 @@ inline std::vector<double> newton_weights_direction(const std::vector<double>& a
 
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> diagonal(n, 0);
+  std::vector<char> is_fixed(n, 0); // components with an edge with a fixed site
   entries.reserve(edges.size() + n);
   for (const Capacity_edge& e : edges) {
+    if (e.j == Capacity_edge::fixed) { // the site has no cell that would tell of the edge again
+      diagonal[e.i] += e.ratio / 2;
+      is_fixed[root(e.i)] = 1;
+      continue;
+    }
     const double half = e.ratio / 4;
     entries.emplace_back(std::max(e.i, e.j), std::min(e.i, e.j), -half); // lower triangle
     diagonal[e.i] += half;
@@ -72,7 +80,8 @@ inline std::vector<double> newton_weights_direction(const std::vector<double>& a
 
   for (int i = 0; i < n; ++i) mean[root(i)] += solution[i];
   std::vector<double> direction(n);
-  for (int i = 0; i < n; ++i) direction[i] = solution[i] - mean[root(i)] / count[root(i)];
+  for (int i = 0; i < n; ++i)
+    direction[i] = solution[i] - (is_fixed[root(i)] ? 0 : mean[root(i)] / count[root(i)]);
   return direction;
 }
 

@@ -11,16 +11,46 @@
 #include <CGAL/PowerRTF/quality/topology.h>
 #include <CGAL/PowerRTF/quality/triangle_quality.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 namespace CGAL {
 namespace PowerRTF {
 
+namespace internal {
+
+/// How many of the mesh's feature edges are no edges of its triangles.
+inline std::size_t lost_feature_edges(const Extracted_mesh& mesh)
+{
+  std::vector<Edge> edges;
+  if (mesh.feature_edges.empty()) return 0;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int a = t[i], b = t[(i + 1) % 3];
+      edges.push_back({(std::min)(a, b), (std::max)(a, b)});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::size_t lost = 0;
+  for (const Edge& e : mesh.feature_edges)
+    lost += !std::binary_search(edges.begin(), edges.end(),
+                                Edge{(std::min)(e[0], e[1]), (std::max)(e[0], e[1])});
+  return lost;
+}
+
+} // namespace internal
+
 /// Fills the parts of `report` that describe the result: topology of both, self-intersections,
-/// triangle quality and distance.
+/// features, triangle quality and distance.
 template <class ConcurrencyTag>
 void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report)
 {
   report.input_topology = topology(surface.triangles);
   report.topology = topology(mesh.triangles);
+  report.crease_edges = surface.creases.size();
+  report.feature_edges = mesh.feature_edges.size();
+  report.lost_feature_edges = internal::lost_feature_edges(mesh);
   report.self_intersections = self_intersections(mesh.points, mesh.triangles);
   report.quality = triangle_quality(mesh.points, mesh.triangles);
   report.distance = surface_distance<ConcurrencyTag>(surface.points, surface.triangles, mesh.points,

@@ -14,6 +14,7 @@ namespace CGAL {
 namespace PowerRTF {
 
 using Triangle = std::array<int, 3>;
+using Edge = std::array<int, 2>;
 
 /// Maps the input to the unit box and back: `inside = (outside - center) * scale`.
 /// `scale` is a power of two, so that the mapping rounds only in the translation.
@@ -35,6 +36,9 @@ struct Surface {
   std::vector<Vec3d> vertex_normals;  ///< #V unit normals, n^v of the paper
   std::vector<double> vertex_density; ///< #V densities rho > 0; 1 everywhere: uniform
   std::vector<int> input_vertices;    ///< #V place of each vertex among those of the input
+  std::vector<Edge> creases;          ///< edges, smaller vertex first, that the result must keep
+  /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
+  std::vector<int> facet_patches;
   double area = 0;                    ///< sum of the facets' areas
   Normalization normalization;
 };
@@ -47,9 +51,23 @@ struct Samples {
   std::vector<Vec3d> normals;   ///< n_i, unit
   std::vector<double> density;  ///< rho(s_i)
   std::vector<double> weights;  ///< w_i (length squared); mean 0
+  std::vector<int> patches;     ///< of the facets; empty: all on one patch
 
   std::size_t size() const { return points.size(); }
 };
+
+/// The samples of `a`, then those of `b`.
+inline Samples joined(Samples a, const Samples& b)
+{
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(a.points, b.points);
+  append(a.facets, b.facets);
+  append(a.normals, b.normals);
+  append(a.density, b.density);
+  append(a.weights, b.weights);
+  append(a.patches, b.patches);
+  return a;
+}
 
 } // namespace PowerRTF
 } // namespace CGAL

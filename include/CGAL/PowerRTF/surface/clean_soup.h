@@ -6,11 +6,14 @@
 #ifndef CGAL_POWER_RTF_SURFACE_CLEAN_SOUP_H
 #define CGAL_POWER_RTF_SURFACE_CLEAN_SOUP_H
 
+#include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/surface/degenerate_facets.h>
 #include <CGAL/PowerRTF/surface/facet_adjacency.h>
+#include <CGAL/PowerRTF/surface/near_borders.h>
 #include <CGAL/PowerRTF/surface/polygon_triangulation.h>
+#include <CGAL/PowerRTF/surface/split_sheets.h>
 #include <CGAL/PowerRTF/surface/surface_geometry.h>
 
 #include <algorithm>
@@ -18,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -131,13 +135,15 @@ inline std::vector<Triangle> triangulated(const Polygon_soup& soup,
   return triangles;
 }
 
-/// Keeps the first of all triangles with the same three vertices.
-inline void drop_repeated(std::vector<Triangle>& triangles, Repair_counts& repairs)
+/// Keeps the first of all triangles with the same three vertices; `keep_reversed`: the first of
+/// each orientation.
+inline void drop_repeated(std::vector<Triangle>& triangles, bool keep_reversed,
+                          Repair_counts& repairs)
 {
   std::set<Triangle> seen;
-  const auto is_repeated = [&seen](Triangle t)
-  {
-    std::sort(t.begin(), t.end());
+  const auto is_repeated = [&](Triangle t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    if (!keep_reversed && t[1] > t[2]) std::swap(t[1], t[2]);
     return !seen.insert(t).second;
   };
   std::size_t kept = 0;
@@ -147,66 +153,122 @@ inline void drop_repeated(std::vector<Triangle>& triangles, Repair_counts& repai
   triangles.resize(kept);
 }
 
-/// Makes `triangles` an oriented 2-manifold or throws.
-inline void make_manifold(std::vector<Triangle>& triangles, std::size_t vertices,
-                          Repair_counts& repairs)
+/// What may be done to make a soup a 2-manifold, the mildest first.
+enum class Manifold_repair {
+  none,         ///< nothing
+  orient,       ///< drop repeated facets, turn facets
+  split,        ///< part sheets that touch, too
+  split_double, ///< facets on top of each other with opposite orientations are two sheets
+};
+
+/// Makes the soup an oriented 2-manifold or throws.
+inline void make_manifold(Triangle_soup& soup, Manifold_repair allowed, Repair_counts& repairs)
 {
-  Facet_adjacency adjacency = facet_adjacency(triangles, vertices);
+  auto& triangles = soup.triangles;
+  const auto refuse = [](const std::string& reason) {
+    throw Invalid_input_error("the surface is not a 2-manifold: " + reason);
+  };
+  Facet_adjacency adjacency = facet_adjacency(triangles, soup.points.size());
   if (adjacency.repeated_facets) {
-    drop_repeated(triangles, repairs);
-    adjacency = facet_adjacency(triangles, vertices);
+    if (allowed == Manifold_repair::none) refuse("there are facets with the same vertices");
+    drop_repeated(triangles, allowed == Manifold_repair::split_double, repairs);
+    adjacency = facet_adjacency(triangles, soup.points.size());
   }
-  if (adjacency.non_manifold_edges > 0)
-    throw Invalid_input_error("the surface is not a 2-manifold: " +
-                              std::to_string(adjacency.non_manifold_edges) +
-                              " edge(s) with more than two facets");
+  if (adjacency.non_manifold_edges > 0) {
+    const std::string count =
+        std::to_string(adjacency.non_manifold_edges) + " edge(s) with more than two facets";
+    if (allowed < Manifold_repair::split) refuse(count);
+    if (!split_sheets(soup, repairs))
+      refuse(count + " that do not pair up into sheets, so that the shape would have to change");
+    adjacency = facet_adjacency(triangles, soup.points.size());
+  }
   if (adjacency.same_direction) {
+    if (allowed == Manifold_repair::none)
+      throw Invalid_input_error("the facets are not consistently oriented");
     if (!orient_facets(triangles, adjacency, repairs.reoriented_facets))
       throw Invalid_input_error(
           "the surface cannot be oriented (it has one side only, like a Moebius strip)");
-    adjacency = facet_adjacency(triangles, vertices);
+    adjacency = facet_adjacency(triangles, soup.points.size());
   }
-  if (const auto count = count_non_manifold_vertices(triangles, adjacency, vertices))
-    throw Invalid_input_error("the surface is not a 2-manifold: " + std::to_string(count) +
-                              " vertex(es) where parts of the surface touch in a point only");
+  const auto touching = count_non_manifold_vertices(triangles, adjacency, soup.points.size());
+  if (touching == 0) return;
+  if (allowed < Manifold_repair::split)
+    refuse(std::to_string(touching) +
+           " vertex(es) where parts of the surface touch in a point only");
+  repairs.non_manifold_vertices += split_fans(soup, adjacency);
 }
 
 /// Drops the vertices that no triangle uses.
-inline Surface compacted(const std::vector<Vec3d>& points, std::vector<Triangle>&& triangles,
-                         const Normalization& normalization)
+inline Surface compacted(const Triangle_soup& soup, const Normalization& normalization)
 {
-  std::vector<int> new_index(points.size(), -1);
-  for (const Triangle& t : triangles)
+  std::vector<int> new_index(soup.points.size(), -1);
+  for (const Triangle& t : soup.triangles)
     for (const int v : t) new_index[v] = 0;
   Surface surface;
-  for (std::size_t v = 0; v < points.size(); ++v) {
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
     if (new_index[v] < 0) continue;
     new_index[v] = static_cast<int>(surface.points.size());
-    surface.points.push_back(points[v]);
-    surface.input_vertices.push_back(static_cast<int>(v));
+    surface.points.push_back(soup.points[v]);
+    surface.input_vertices.push_back(soup.originals[v]);
   }
-  for (Triangle& t : triangles)
+  surface.triangles = soup.triangles;
+  for (Triangle& t : surface.triangles)
     for (int& v : t) v = new_index[v];
-  surface.triangles = std::move(triangles);
   surface.vertex_density.assign(surface.points.size(), 1);
   surface.normalization = normalization;
   return surface;
 }
 
+/// Closes the cracks of an oriented 2-manifold: as many as can be while it stays one.
+inline void close_cracks(Triangle_soup& soup, Repair_counts& repairs)
+{
+  const std::size_t open = facet_adjacency(soup.triangles, soup.points.size()).border_edges;
+  if (open == 0) return;
+  const std::vector<int> vertex = merged_near_borders(soup.points, soup.triangles);
+  Triangle_soup closed = soup;
+  Repair_counts counts = repairs;
+  for (std::size_t v = 0; v < vertex.size(); ++v)
+    counts.duplicate_vertices += vertex[v] != static_cast<int>(v);
+  if (counts.duplicate_vertices == repairs.duplicate_vertices) return;
+  for (Triangle& t : closed.triangles)
+    for (int& v : t) v = vertex[v];
+  const auto has_collapsed = [](const Triangle& t)
+  { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
+  const auto kept =
+      std::remove_if(closed.triangles.begin(), closed.triangles.end(), has_collapsed);
+  counts.degenerate_facets += closed.triangles.end() - kept;
+  closed.triangles.erase(kept, closed.triangles.end());
+  try {
+    make_manifold(closed, Manifold_repair::split, counts);
+  } catch (const Invalid_input_error&) {
+    return;
+  }
+  if (facet_adjacency(closed.triangles, closed.points.size()).border_edges >= open) return;
+  soup = std::move(closed);
+  repairs = counts;
+}
+
 /// The surface of `soup`; `vertex[v]` is the vertex that stands for `v`.
-inline Surface clean_surface_of(const Polygon_soup& soup, const std::vector<Vec3d>& points,
-                                const std::vector<int>& vertex, const Normalization& normalization,
+inline Surface clean_surface_of(const Polygon_soup& polygons, const std::vector<Vec3d>& points,
+                                const std::vector<int>& vertex, bool merge,
+                                const Normalization& normalization, Manifold_repair allowed,
                                 Repair_counts& repairs)
 {
-  std::vector<Triangle> triangles = triangulated(soup, points, vertex, repairs);
-  const std::size_t degenerate = degenerate_facets(points, triangles).size();
-  if (degenerate == triangles.size()) throw Invalid_input_error("the surface has no area");
-  make_manifold(triangles, points.size(), repairs);
+  Triangle_soup soup{points, triangulated(polygons, points, vertex, repairs), {}};
+  soup.originals.resize(points.size());
+  std::iota(soup.originals.begin(), soup.originals.end(), 0);
+  const std::size_t degenerate = degenerate_facets(soup.points, soup.triangles).size();
+  if (degenerate == soup.triangles.size()) throw Invalid_input_error("the surface has no area");
+  if (degenerate > 0 && allowed == Manifold_repair::none)
+    throw Invalid_input_error(std::to_string(degenerate) + " facet(s) have no area");
+  make_manifold(soup, allowed, repairs);
+  if (merge && allowed != Manifold_repair::none) close_cracks(soup, repairs);
   if (degenerate > 0) {
-    repairs.duplicate_vertices += remove_degenerate_facets(points, triangles);
-    repairs.degenerate_facets += degenerate - degenerate_facets(points, triangles).size();
+    const std::size_t before = degenerate_facets(soup.points, soup.triangles).size();
+    repairs.duplicate_vertices += remove_degenerate_facets(soup.points, soup.triangles);
+    repairs.degenerate_facets += before - degenerate_facets(soup.points, soup.triangles).size();
   }
-  Surface surface = compacted(points, std::move(triangles), normalization);
+  Surface surface = compacted(soup, normalization);
   compute_geometry(surface);
   return surface;
 }
@@ -215,49 +277,56 @@ inline bool is_closed(const Surface& surface)
 { return facet_adjacency(surface.triangles, surface.points.size()).border_edges == 0; }
 
 /// What `import_surface()` and `import_soup()` share. `merge`: vertices at the same place are one.
-inline Surface clean_surface(Polygon_soup&& soup, bool merge, Repair_counts& repairs)
+inline Surface clean_surface(Polygon_soup&& soup, bool merge, Repair repair,
+                             Repair_counts& repairs)
 {
   if (soup.first.size() == 1) throw Invalid_input_error("the mesh has no facet");
   std::vector<char> used(soup.points.size(), 0);
   for (const int v : soup.corners) used[v] = 1;
   const Normalization normalization = unit_box(soup.points, used);
 
-  std::vector<int> vertex(soup.points.size());
+  std::vector<int> own_vertex(soup.points.size());
+  std::iota(own_vertex.begin(), own_vertex.end(), 0);
+  const std::vector<int> vertex = merge ? first_of_equal_points(soup.points) : own_vertex;
   std::size_t duplicates = 0, unused = 0;
-  for (std::size_t v = 0; v < vertex.size(); ++v) vertex[v] = static_cast<int>(v);
-  std::vector<int> merged_vertex;
-  if (merge) {
-    merged_vertex = first_of_equal_points(soup.points);
-    for (std::size_t v = 0; v < vertex.size(); ++v)
-      if (used[v] && merged_vertex[v] != vertex[v]) ++duplicates;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    duplicates += used[v] && vertex[v] != own_vertex[v];
+    unused += !used[v];
   }
-  for (std::size_t v = 0; v < used.size(); ++v) unused += !used[v];
-
   std::vector<Vec3d> points(soup.points.size());
   for (std::size_t v = 0; v < points.size(); ++v)
     points[v] = used[v] ? normalization.to_inside(soup.points[v]) : Vec3d{0, 0, 0};
-  repairs.unused_vertices += unused;
-  if (duplicates == 0) return clean_surface_of(soup, points, vertex, normalization, repairs);
 
-  Repair_counts attempt = repairs;
-  try {
-    attempt.duplicate_vertices += duplicates;
-    Surface surface = clean_surface_of(soup, points, merged_vertex, normalization, attempt);
-    repairs = attempt;
-    return surface;
-  } catch (const Invalid_input_error&) {
-    // Sheets that touch: right as they were given if they are closed without merging.
-    try {
-      attempt = repairs;
-      Surface surface = clean_surface_of(soup, points, vertex, normalization, attempt);
-      if (is_closed(surface)) {
-        repairs = attempt;
-        return surface;
-      }
-    } catch (const Invalid_input_error&) {
-    }
-    throw;
+  // The first attempt that succeeds.
+  struct Attempt {
+    bool merged;
+    Manifold_repair allowed;
+  };
+  using Allowed = Manifold_repair;
+  std::vector<Attempt> attempts{{true, Allowed::orient}};
+  if (repair == Repair::no) attempts = {{true, Allowed::none}};
+  // Sheets that touch are right as they were given if they are closed without merging.
+  if (duplicates > 0) attempts.push_back({false, attempts[0].allowed});
+  if (repair == Repair::yes) {
+    attempts.push_back({true, Allowed::split});
+    attempts.push_back({true, Allowed::split_double});
   }
+  std::string reason;
+  for (const Attempt& attempt : attempts) {
+    Repair_counts counts = repairs;
+    counts.unused_vertices += unused;
+    if (attempt.merged) counts.duplicate_vertices += duplicates;
+    try {
+      Surface surface = clean_surface_of(soup, points, attempt.merged ? vertex : own_vertex, merge,
+                                         normalization, attempt.allowed, counts);
+      if (!attempt.merged && !is_closed(surface)) continue;
+      repairs = counts;
+      return surface;
+    } catch (const Invalid_input_error& e) {
+      if (attempt.merged && attempt.allowed != Allowed::split_double) reason = e.what();
+    }
+  }
+  throw Invalid_input_error(reason);
 }
 
 } // namespace internal

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/surface/curvature.h>
+#include <CGAL/PowerRTF/surface/cut_surface.h>
 #include <CGAL/PowerRTF/surface/gradation.h>
 
 #include <algorithm>
@@ -44,7 +45,17 @@ inline void set_density(Surface& surface, const Remeshing_options& options)
   surface.vertex_density.assign(surface.points.size(), 1);
   if (options.density == Density::uniform) return;
   const Surface_edges edges = surface_edges(surface);
-  surface.vertex_density = normalized_curvature(surface, edges);
+  if (surface.creases.empty()) {
+    surface.vertex_density = normalized_curvature(surface, edges);
+  } else { // a crease is no curvature: both its sides may be flat
+    const Cut_surface cut = cut_along_creases(surface);
+    const std::vector<double> curvature = normalized_curvature(cut.surface, surface_edges(cut.surface));
+    std::fill(surface.vertex_density.begin(), surface.vertex_density.end(), 0);
+    for (std::size_t v = 0; v < curvature.size(); ++v) {
+      double& rho = surface.vertex_density[cut.originals[v]];
+      rho = (std::max)(rho, curvature[v]);
+    }
+  }
   for (double& rho : surface.vertex_density) rho = std::pow(rho, options.density_power);
   internal::normalize_density(surface.vertex_density);
   if (options.gradation > 0)

@@ -8,6 +8,8 @@
 
 #include <CGAL/PowerRTF/surface/Surface.h>
 
+#include <boost/range/iterator_range.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -141,9 +143,10 @@ inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& tria
 }
 
 /// Turns facets so that neighbours agree; in each component as few as possible.
+/// \param partners function halfedge -> range of the halfedges that must run the other way
 /// \returns false if a component cannot be oriented; `turned` counts the turned facets
-inline bool orient_facets(std::vector<Triangle>& triangles, const Facet_adjacency& adjacency,
-                          std::size_t& turned)
+template <class Partners>
+bool orient_facets(std::vector<Triangle>& triangles, const Partners& partners, std::size_t& turned)
 {
   const int facets = static_cast<int>(triangles.size());
   std::vector<char> side(facets, -1); // 1: turned with respect to the component's first facet
@@ -156,16 +159,15 @@ inline bool orient_facets(std::vector<Triangle>& triangles, const Facet_adjacenc
     for (std::size_t k = 0; k < component.size(); ++k) {
       const int f = component[k];
       ones += side[f];
-      for (int h = 3 * f; h < 3 * f + 3; ++h) {
-        const int o = adjacency.opposite[h];
-        if (o == Facet_adjacency::none) continue;
-        const bool differ = halfedge_source(triangles, h) == halfedge_source(triangles, o);
-        const char expected = differ ? 1 - side[f] : side[f];
-        if (side[o / 3] < 0) {
-          side[o / 3] = expected;
-          component.push_back(o / 3);
-        } else if (side[o / 3] != expected) return false;
-      }
+      for (int h = 3 * f; h < 3 * f + 3; ++h)
+        for (const int o : partners(h)) {
+          const bool differ = halfedge_source(triangles, h) == halfedge_source(triangles, o);
+          const char expected = differ ? 1 - side[f] : side[f];
+          if (side[o / 3] < 0) {
+            side[o / 3] = expected;
+            component.push_back(o / 3);
+          } else if (side[o / 3] != expected) return false;
+        }
     }
     const char minority = 2 * ones <= component.size() ? 1 : 0;
     for (const int f : component) side[f] = side[f] == minority;
@@ -174,6 +176,19 @@ inline bool orient_facets(std::vector<Triangle>& triangles, const Facet_adjacenc
   for (int f = 0; f < facets; ++f)
     if (side[f]) std::swap(triangles[f][1], triangles[f][2]);
   return true;
+}
+
+/// The same, of facets that share an edge with one other.
+inline bool orient_facets(std::vector<Triangle>& triangles, const Facet_adjacency& adjacency,
+                          std::size_t& turned)
+{
+  return orient_facets(
+      triangles,
+      [&](int h) {
+        return boost::make_iterator_range_n(&adjacency.opposite[h],
+                                            adjacency.opposite[h] == Facet_adjacency::none ? 0 : 1);
+      },
+      turned);
 }
 
 } // namespace PowerRTF

@@ -36,13 +36,16 @@ Vec3d to_vec3d(const Point& p)
 ///
 /// \param np may contain `vertex_point_map` (default: the mesh's own)
 /// \param repairs counts what had to be mended
+/// \param repair no: facets without area and sheets that touch in a vertex are refused
 /// \returns the surface with normals and areas and density 1; `input_vertices` are places in
 ///   `vertices(mesh)`. Facets with more than three sides are triangulated, facets without area are
-///   removed where the surface stays a 2-manifold, isolated vertices are dropped.
+///   removed where the surface stays a 2-manifold, isolated vertices are dropped. Sheets that touch
+///   in a vertex get copies of it.
 /// \throws Invalid_input_error no facet, a coordinate that is not finite, no area, or not a
 ///   2-manifold
 template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
-Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_counts& repairs)
+Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_counts& repairs,
+                       Repair repair = Repair::yes)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -62,7 +65,7 @@ Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_
       soup.corners.push_back(get(index, v));
     soup.end_polygon();
   }
-  return internal::clean_surface(std::move(soup), false, repairs);
+  return internal::clean_surface(std::move(soup), false, repair, repairs);
 }
 
 /// Imports a polygon soup, as read from a file. Vertices at exactly the same place become one,
@@ -71,13 +74,16 @@ Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_
 /// \param points range of `Vec3d` or of points with `x()`, `y()`, `z()`
 /// \param polygons range of ranges of indices into `points`
 /// \param repairs counts what had to be mended
+/// \param repair no: all that is named below is refused
 /// \returns the surface as `import_surface()` does; `input_vertices` are indices into `points`.
 ///   Repeated polygons are dropped; neighbours are turned to agree, as few as possible (a component
-///   that is inside out stays so).
-/// \throws Invalid_input_error as `import_surface()`; also for an index out of range and for a
-///   surface that cannot be oriented
+///   that is inside out stays so); sheets that meet in an edge are parted (`split_sheets()`), cracks
+///   that rounding has torn are closed (`merged_near_borders()`).
+/// \throws Invalid_input_error as `import_surface()`; also for an index out of range, for a surface
+///   that cannot be oriented and for facets at an edge that do not pair up into sheets
 template <class PointRange, class PolygonRange>
-Surface import_soup(const PointRange& points, const PolygonRange& polygons, Repair_counts& repairs)
+Surface import_soup(const PointRange& points, const PolygonRange& polygons, Repair_counts& repairs,
+                    Repair repair = Repair::yes)
 {
   internal::Polygon_soup soup;
   soup.points.reserve(points.size());
@@ -87,7 +93,7 @@ Surface import_soup(const PointRange& points, const PolygonRange& polygons, Repa
     for (const auto v : polygon) soup.add_corner(v);
     soup.end_polygon();
   }
-  return internal::clean_surface(std::move(soup), true, repairs);
+  return internal::clean_surface(std::move(soup), true, repair, repairs);
 }
 
 } // namespace PowerRTF

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/surface/facet_adjacency.h>
+#include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/random_source.h>
 #include <CGAL/PowerRTF/surface/sample_elimination.h>
 #include <CGAL/PowerRTF/surface/surface_geometry.h>
@@ -58,8 +59,11 @@ Facet_distribution facet_distribution(const std::vector<int>& component, int com
 }
 
 /// Shares `n` samples among components in proportion to their masses, by the method of the largest
-/// remainder; no component gets fewer than 4 samples if `n` allows (none without mass gets any).
-inline std::vector<std::size_t> allocate_samples(const std::vector<double>& masses, std::size_t n)
+/// remainder; no component gets fewer than its least number if `n` allows (none without mass gets
+/// any).
+inline std::vector<std::size_t> allocate_samples(const std::vector<double>& masses,
+                                                 const std::vector<std::size_t>& least,
+                                                 std::size_t n)
 {
   const std::size_t components = masses.size();
   std::vector<std::size_t> samples(components, 0);
@@ -67,15 +71,15 @@ inline std::vector<std::size_t> allocate_samples(const std::vector<double>& mass
   for (std::size_t c = 0; c < components; ++c) is_fixed[c] = !(masses[c] > 0);
   std::size_t free_samples = n;
   double free_mass = std::accumulate(masses.begin(), masses.end(), 0.);
-  if (n >= min_samples_per_component * components) {
+  if (n >= std::accumulate(least.begin(), least.end(), std::size_t(0))) {
     for (bool changed = true; changed;) { // each fixed component takes samples from the others
       changed = false;
       const double per_mass = static_cast<double>(free_samples) / free_mass;
       for (std::size_t c = 0; c < components; ++c) {
-        if (is_fixed[c] || masses[c] * per_mass > min_samples_per_component - 1e-6) continue;
+        if (is_fixed[c] || masses[c] * per_mass > static_cast<double>(least[c]) - 1e-6) continue;
         is_fixed[c] = 1;
-        samples[c] = min_samples_per_component;
-        free_samples -= min_samples_per_component;
+        samples[c] = least[c];
+        free_samples -= least[c];
         free_mass -= masses[c];
         changed = true;
       }
@@ -160,18 +164,33 @@ inline std::vector<int> draw_by_density(const Samples& candidates, std::size_t n
   return chosen;
 }
 
-/// `n` of the candidates of a component of the given mass, by sample elimination.
-inline std::vector<int> draw_by_elimination(const Samples& candidates, double mass, std::size_t n,
+/// `n` of the candidates of component `c`, by sample elimination among themselves and the sites of
+/// `features` on it. `cell_mass`: what each sample stands for.
+inline std::vector<int> draw_by_elimination(Samples candidates, const Feature_samples& features,
+                                            int c, double cell_mass, std::size_t n,
                                             double normal_angle)
 {
-  // n discs of radius r in hexagonal arrangement cover n * 2 sqrt(3) r^2.
-  const double per_sample = mass / (2 * std::sqrt(3.) * static_cast<double>(n));
+  const std::size_t count = candidates.size();
+  if (count <= n) { // none is to go
+    std::vector<int> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  const Samples& sites = features.sites;
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    if (sites.patches[s] != c) continue;
+    candidates.points.push_back(sites.points[s]);
+    candidates.normals.push_back(sites.normals[s]);
+    candidates.density.push_back(sites.density[s]);
+  }
+  // Discs of radius r in hexagonal arrangement take 2 sqrt(3) r^2 each.
+  const double per_sample = cell_mass / (2 * std::sqrt(3.));
   std::vector<double> radii;
   radii.reserve(candidates.size());
   for (const double rho : candidates.density) radii.push_back(std::sqrt(per_sample / rho));
   constexpr double radians = 3.14159265358979323846 / 180;
   return eliminate_samples(candidates.points, candidates.normals, radii,
-                           std::cos(normal_angle * radians), n);
+                           std::cos(normal_angle * radians), n, candidates.size() - count);
 }
 
 } // namespace internal
@@ -188,11 +207,15 @@ inline std::vector<int> draw_by_elimination(const Samples& candidates, double ma
 /// \returns the samples with their facets; normals and density are interpolated over the facet,
 ///   weights are 0. The same seed gives the same samples, also for a scaled surface.
 /// \throws Invalid_input_error fewer than 4 samples, or more candidates than an `int` can count
-inline Samples sample_surface(const Surface& surface, const Remeshing_options& options)
+///
+/// `features`: samples that are there already, on the patches' boundaries; they count among the n.
+inline Samples sample_surface(const Surface& surface, const Remeshing_options& options,
+                              const Feature_samples& features = {})
 {
-  const std::size_t n = options.number_of_samples;
-  if (n < internal::min_samples_per_component)
-    throw Invalid_input_error("at least 4 samples are needed, not " + std::to_string(n));
+  if (options.number_of_samples < internal::min_samples_per_component)
+    throw Invalid_input_error("at least 4 samples are needed, not " +
+                              std::to_string(options.number_of_samples));
+  const std::size_t n = options.number_of_samples - features.size();
   if (!(options.oversampling >= 1))
     throw Invalid_input_error("there must be at least one candidate per sample");
   if (!(static_cast<double>(n) * options.oversampling < 1e9))
@@ -215,7 +238,16 @@ inline Samples sample_surface(const Surface& surface, const Remeshing_options& o
 
   std::vector<double> masses;
   for (int c = 0; c < components; ++c) masses.push_back(by_density.mass(c));
-  const std::vector<std::size_t> allocation = internal::allocate_samples(masses, n);
+  std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
+  std::vector<std::size_t> least(components, internal::min_samples_per_component);
+  const double cell_mass = density_integral(surface) / equivalent_cells(options.number_of_samples, features);
+  for (std::size_t s = 0; s < features.sites.size(); ++s) {
+    const int c = features.sites.patches[s];
+    least[c] = 0;
+    free_masses[c] = (std::max)(0., free_masses[c] - features.shares[s] * cell_mass);
+  }
+  if (!(*std::max_element(free_masses.begin(), free_masses.end()) > 0)) free_masses = masses;
+  const std::vector<std::size_t> allocation = internal::allocate_samples(free_masses, least, n);
 
   Random_source random(options.random_seed);
   Samples samples;
@@ -228,12 +260,16 @@ inline Samples sample_surface(const Surface& surface, const Remeshing_options& o
         eliminate ? internal::stratified_candidates(surface, by_density, c, count, random)
                   : internal::random_candidates(surface, by_area, c, count, random);
     const std::vector<int> chosen =
-        eliminate ? internal::draw_by_elimination(candidates, masses[c], allocation[c],
-                                                  options.normal_angle)
+        eliminate ? internal::draw_by_elimination(
+                        candidates, features, c,
+                        features.size() > 0 ? cell_mass
+                                            : masses[c] / static_cast<double>(allocation[c]),
+                        allocation[c], options.normal_angle)
                   : internal::draw_by_density(candidates, allocation[c], random);
     for (const int i : chosen) {
       samples.points.push_back(candidates.points[i]);
       samples.facets.push_back(candidates.facets[i]);
+      if (components > 1) samples.patches.push_back(c);
       samples.normals.push_back(candidates.normals[i]);
       samples.density.push_back(candidates.density[i]);
     }

@@ -97,7 +97,8 @@ inline Candidate_graph candidate_graph(const std::vector<Vec3d>& points,
 inline std::vector<int> eliminate_samples(const std::vector<Vec3d>& points,
                                           const std::vector<Vec3d>& normals,
                                           const std::vector<double>& radii,
-                                          double cos_normal_angle, std::size_t n)
+                                          double cos_normal_angle, std::size_t n,
+                                          std::size_t fixed = 0)
 {
   const internal::Candidate_graph graph =
       internal::candidate_graph(points, normals, radii, cos_normal_angle);
@@ -114,7 +115,7 @@ inline std::vector<int> eliminate_samples(const std::vector<Vec3d>& points,
   // up to date. Weights are summed anew, not updated by subtraction: the last two neighbours have
   // the same weight, and rounding must not choose between them.
   using Entry = std::pair<double, int>; // weight, candidate; ties by index
-  const int candidates = static_cast<int>(points.size());
+  const int candidates = static_cast<int>(points.size() - fixed);
   std::vector<char> is_outdated(points.size(), 0);
   std::vector<Entry> heap;
   heap.reserve(points.size());

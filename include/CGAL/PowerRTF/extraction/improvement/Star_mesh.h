@@ -3,7 +3,8 @@
 //
 // The mesh that the improvement works on: the working mesh, the place of each vertex on the
 // surface, and which vertices may move. A move is tried on the star of a vertex and kept only if it
-// folds nothing.
+// folds nothing. The ends of feature edges and the vertices on borders never move; features have no
+// normal: what lies beside them is judged by its own side alone.
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
 
@@ -42,20 +43,27 @@ public:
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
 
-  /// Border vertices do not move. \throw Invalid_input_error if `mesh` is no oriented 2-manifold
+  /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_guide& guide)
       : m_guide(guide), m(refined(mesh)), m_heights(mesh.points.size(), 0),
         m_locked(mesh.points.size(), false), m_movable(mesh.points.size()),
-        m_pinned(mesh.points.size(), false)
+        m_pinned(mesh.points.size(), false), m_on_feature(mesh.points.size(), false),
+        m_is_feature(m.mesh.number_of_edges(), false)
   {
     const std::size_t n = mesh.points.size();
+    for (const auto& [a, b] : mesh.feature_edges) {
+      m_on_feature[a] = m_on_feature[b] = true;
+      const Halfedge h =
+          m.mesh.halfedge(Vertex(Vertex::size_type(a)), Vertex(Vertex::size_type(b)));
+      if (h.is_valid()) m_is_feature[m.mesh.edge(h)] = true;
+    }
     m_facets.reserve(n);
     for (std::size_t v = 0; v < n; ++v) {
       const auto place = guide.nearest(mesh.points[v]);
       m_facets.push_back(place.facet);
       m.normals[v] = place.normal;
       const Vertex w = Vertex(Vertex::size_type(v));
-      m_movable[v] = !m.mesh.is_isolated(w) && !m.mesh.is_border(w);
+      m_movable[v] = !m_on_feature[v] && !m.mesh.is_isolated(w) && !m.mesh.is_border(w);
     }
   }
 
@@ -91,10 +99,12 @@ public:
   const Vec3d& normal(Vertex v) const { return m.normals[v]; }
   int facet(Vertex v) const { return m_facets[v]; }
 
-  /// False if one of the four vertices around the edge is locked.
+  bool is_on_feature(Vertex v) const { return m_on_feature[v]; }
+
+  /// False for borders, features, and if one of the four vertices around the edge is locked.
   bool is_free(Edge e) const
   {
-    if (m.mesh.is_border(e)) return false;
+    if (m.mesh.is_border(e) || m_is_feature[e]) return false;
     const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
     return !(m_locked[m.mesh.source(h)] || m_locked[m.mesh.target(h)] ||
              m_locked[m.mesh.target(m.mesh.next(h))] || m_locked[m.mesh.target(m.mesh.next(o))]);
@@ -122,11 +132,15 @@ public:
 
   double height(Vertex v) const { return m_heights[v]; }
 
-  /// Moves `v` along the surface's normal.
-  void raise(Vertex v, double by)
+  /// Moves `v`, off the surface too. False if no place of the surface agrees: then it stays.
+  bool move_off(Vertex v, const Vec3d& p)
   {
-    set_point(v, m.point(v) + by * m.normals[v]);
-    m_heights[v] += by;
+    const auto place = m_guide.project(p, m.normals[v], m_facets[v]);
+    if (place.facet < 0) return false;
+    move(v, place);
+    set_point(v, p);
+    m_heights[v] = dot(p - place.point, place.normal);
+    return true;
   }
 
   /// The smallest cosine between the normals of the star's triangles, with its centre at `p`, and
@@ -138,11 +152,30 @@ public:
       const Vec3d n = cross(c.a - p, c.b - p);
       const double l = length(n);
       if (!(l > 0)) return -1;
-      const double d =
-          std::min({dot(n, normal), dot(n, m.normals[c.vertex_a]), dot(n, m.normals[c.vertex_b])});
+      double d = dot(n, normal);
+      for (const Vertex v : {c.vertex_a, c.vertex_b})
+        if (!m_on_feature[v]) d = std::min(d, dot(n, m.normals[v]));
       least = std::min(least, d / l);
     }
     return least;
+  }
+
+  /// The same for one triangle. Between features alone the surface's nearest facet counts.
+  double agreement(Vertex a, Vertex b, Vertex c) const
+  {
+    const Vec3d n = m.area_vector(a, b, c);
+    const double l = length(n);
+    if (!(l > 0)) return -1;
+    double least = l;
+    bool has_normal = false;
+    for (const Vertex v : {a, b, c})
+      if (!m_on_feature[v]) {
+        least = std::min(least, dot(n, m.normals[v]));
+        has_normal = true;
+      }
+    if (!has_normal)
+      least = dot(n, m_guide.nearest((m.point(a) + m.point(b) + m.point(c)) * (1 / 3.)).normal);
+    return least / l;
   }
 
   Surface_guide::Place place(Vertex v) const { return {m.point(v), m.normals[v], m_facets[v]}; }
@@ -183,7 +216,8 @@ private:
   Working_mesh m;
   std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
   std::vector<double> m_heights; // by vertex: over the surface
-  std::vector<char> m_locked, m_movable, m_pinned;
+  std::vector<char> m_locked, m_movable, m_pinned, m_on_feature;
+  std::vector<char> m_is_feature; // by edge
 };
 
 } // namespace internal

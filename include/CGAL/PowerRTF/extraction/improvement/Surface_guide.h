@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where a vertex of the improved mesh may be: points of the surface, found by projection onto the
-// facets whose normals agree with the vertex's (NVISPC: never onto another sheet).
+// facets of the vertex's patch whose normals agree with the vertex's (NVISPC: never onto another
+// sheet).
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_GUIDE_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_GUIDE_H
 
@@ -25,9 +26,8 @@ public:
     int facet = -1;
   };
 
-  /// Keeps a reference to `surface`.
-  explicit Surface_guide(const Surface& surface)
-      : m_surface(surface), m_tree(surface.points, surface.triangles)
+  /// Keeps references to both; `tree` holds the surface's facets and their patches.
+  Surface_guide(const Surface& surface, const Facet_tree& tree) : m_surface(surface), m_tree(tree)
   {
   }
 
@@ -35,13 +35,15 @@ public:
   Place nearest(const Vec3d& p) const { return place(m_tree.nearest(p)); }
 
   /// The nearest place to `p` on the facets that agree with `normal`; its facet is -1 if there is
-  /// none. `hint`: a facet that is probably near, or -1.
+  /// none. `hint`: a facet of the patch, probably near; or -1.
   Place project(const Vec3d& p, const Vec3d& normal, int hint) const
   {
     return place(nearest_facet(m_tree.view(), p, normal, largest_turn, hint));
   }
 
   const Surface& surface() const { return m_surface; }
+  /// The surface's facets in spatial order.
+  const Facets_view<double>& facets() const { return m_facets; }
 
 private:
   static constexpr double largest_turn = -0.35; // cosine: about 110 degrees
@@ -66,7 +68,8 @@ private:
   }
 
   const Surface& m_surface;
-  Facet_tree m_tree;
+  const Facet_tree& m_tree;
+  Facets_view<double> m_facets = m_tree.view();
 };
 
 } // namespace internal

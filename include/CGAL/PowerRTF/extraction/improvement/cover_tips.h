@@ -42,13 +42,14 @@ public:
     const double least = share * m_watch.max_distance();
     std::vector<std::pair<double, int>> far;
     for (int i = 0; i < m_watch.size(); ++i)
-      if (m_watch.distance(i) > least) far.push_back({-m_watch.distance(i), i});
+      if (m_watch[i].face.is_valid() && m_watch[i].distance > least)
+        far.push_back({-m_watch[i].distance, i});
     std::sort(far.begin(), far.end());
     std::size_t covered = 0, tried = 0;
     for (const auto& [d, i] : far) {
-      if (!(m_watch.distance(i) > least)) continue; // covered with a neighbour
+      if (!(m_watch[i].distance > least)) continue; // covered with a neighbour
       if (++tried > 10 + m.size() / 100) break;
-      while (m_watch.distance(i) > least && cover(i)) ++covered;
+      while (m_watch[i].distance > least && cover(i)) ++covered;
     }
     return covered;
   }
@@ -60,18 +61,18 @@ private:
   bool cover(int i)
   {
     const auto& mesh = m.working().mesh;
-    const Vec3d x = m_watch.point(i);
+    const Vec3d x = m_watch[i].point;
     struct {
       double distance;
       Vertex v;
       Surface_guide::Place place;
     } best{worthwhile, Vertex(), {}};
-    Halfedge h = mesh.halfedge(Working_mesh::Mesh::Face_index(m_watch.face(i)));
+    Halfedge h = m_watch[i].face;
     for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
       const Vertex v = mesh.target(h);
       if (!m.is_movable(v)) continue;
       const Star star = m.star(v);
-      const Vec3d p = m.point(v), r = x - m_watch.nearest(i);
+      const Vec3d p = m.point(v), r = x - m_watch[i].nearest;
       const double agreement = std::min(foldless, m.agreement(star, p, m.normal(v)));
       const double before = m_watch.farthest_around(v, p);
       for (const Vec3d& q : {x, p + r, p + 0.5 * r, p + 0.25 * r}) {

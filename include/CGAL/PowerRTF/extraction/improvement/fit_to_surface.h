@@ -1,19 +1,22 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Moves the vertices along their normals so that the surface runs through the triangles: least
-// squares of the distances, at a quadrature of each triangle, to the points that are nearest now.
-// With all vertices on the surface, a curved part has all triangles on one side of it; this halves
-// the mean distance.
+// Moves the vertices, off the surface too, so that the triangles come near to it: least squares of
+// the distances, at a quadrature of each triangle, to the points of the surface that are nearest
+// now, and of those from the surface's vertices to the mesh, that also see its tips. With all
+// vertices on the surface, a curved part has all triangles on one side of it: to move along the
+// normals halves the mean distance. Where the normals vary, on ridges and tips, the vertices are
+// also drawn sideways to where they are needed (quadrics: Garland and Heckbert, "Surface
+// simplification using quadric error metrics", 1997).
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_FIT_TO_SURFACE_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_FIT_TO_SURFACE_H
 
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/extraction/improvement/Surface_watch.h>
 #include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace CGAL
@@ -23,6 +26,34 @@ namespace PowerRTF
 namespace internal
 {
 
+/// A symmetric matrix of size 3.
+struct Symmetric_matrix {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  /// Adds w d d^T.
+  void add(const Vec3d& d, double w)
+  {
+    xx += w * d.x * d.x, xy += w * d.x * d.y, xz += w * d.x * d.z;
+    yy += w * d.y * d.y, yz += w * d.y * d.z, zz += w * d.z * d.z;
+  }
+  void add_identity(double w) { xx += w, yy += w, zz += w; }
+
+  Vec3d operator*(const Vec3d& v) const
+  {
+    return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+            xz * v.x + yz * v.y + zz * v.z};
+  }
+
+  /// The x with A x = r; 0 if A is not positive definite.
+  Vec3d solve(const Vec3d& r) const
+  {
+    const Vec3d a{xx, xy, xz}, b{xy, yy, yz}, c{xz, yz, zz}, bc = cross(b, c);
+    const double determinant = dot(a, bc);
+    if (!(determinant > 0)) return {0, 0, 0};
+    return Vec3d{dot(r, bc), dot(r, cross(c, a)), dot(r, cross(a, b))} * (1 / determinant);
+  }
+};
+
 class Surface_fitter
 {
 public:
@@ -30,10 +61,9 @@ public:
   using Halfedge = Star_mesh::Halfedge;
 
   /// `limit`: the badness that a move may bring upon a triangle that was better.
-  Surface_fitter(Star_mesh& mesh, double limit)
-      : m(mesh), m_badness_limit(limit), m_diagonal(mesh.size(), 0), m_right(mesh.size(), 0),
-        m_limit(mesh.size(), 0), m_move(mesh.size(), 0),
-        m_off_diagonal(mesh.working().mesh.number_of_edges(), 0)
+  Surface_fitter(Star_mesh& mesh, const Surface_watch& watch, double limit)
+      : m(mesh), m_watch(watch), m_badness_limit(limit), m_unknowns(mesh.size()),
+        m_coupling(mesh.working().mesh.number_of_edges())
   {
   }
 
@@ -42,35 +72,65 @@ public:
     measure();
     solve();
     for (const Vertex v : m.working().mesh.vertices())
-      if (m.is_movable(v)) raise(v);
+      if (m.is_movable(v)) move(v);
   }
 
 private:
-  using Barycentric = std::array<double, 3>;
+  using Edges = std::array<Halfedge, 3>;     // of a face
+  using Barycentric = std::array<double, 3>; // of the sources of its edges
+
+  struct Unknown {
+    Symmetric_matrix matrix;
+    Vec3d right{0, 0, 0}, move{0, 0, 0};
+    double weight = 0, longest = 0;
+  };
 
   static constexpr int sweeps = 8; // the matrix is like a mass matrix: they converge fast
   static constexpr double largest_turn = 0.5; // of a triangle by one move: cosine
+  static constexpr double sideways = 0.3;     // what moves in the tangent plane cost
+  static constexpr double upwards = 1e-3;     // and those along the normal
+  // The weight of the surface's vertices, with 8 or more for each vertex of the mesh; the fewer
+  // there are, the more they are a random choice.
+  static constexpr double watched_share = 0.7, watched_fully = 8;
 
-  // A rule that is exact for cubics: the corners, the middles of the edges, the centroid.
   void measure()
   {
     const auto& mesh = m.working().mesh;
-    for (const auto f : mesh.faces()) {
-      const std::array<Halfedge, 3> h{mesh.halfedge(f), mesh.next(mesh.halfedge(f)),
-                                      mesh.prev(mesh.halfedge(f))};
-      const double a = area(h[0]);
-      add(h, {1 / 3., 1 / 3., 1 / 3.}, a * 9 / 20);
-      for (int k = 0; k < 3; ++k) {
-        const Vertex v = mesh.target(h[k]);
-        m_diagonal[v] += a / 20;
-        m_right[v] -= a / 20 * m.height(v);
-        const Halfedge o = mesh.opposite(h[k]);
-        if (h[k] < o || mesh.is_border(o)) {
-          Barycentric b{.5, .5, .5};
-          b[(k + 1) % 3] = 0; // the corner opposite to h[k]
-          add(h, b, (a + (mesh.is_border(o) ? 0 : area(o))) * 2 / 15);
-        }
-      }
+    for (const auto f : mesh.faces()) measure_face(mesh.halfedge(f));
+    const double share =
+        watched_share * std::min(1., double(m_watch.size()) / (watched_fully * double(m.size())));
+    for (int i = 0; i < m_watch.size(); ++i) {
+      const auto& w = m_watch[i];
+      if (!w.face.is_valid()) continue;
+      const Edges edges{w.face, mesh.next(w.face), mesh.prev(w.face)};
+      const Vec3d direction = w.distance > 0 ? (w.point - w.nearest) * (1 / w.distance) : w.normal;
+      add(edges, w.barycentric, direction, w.distance, share * w.weight);
+    }
+    for (const Vertex v : mesh.vertices()) {
+      Unknown& u = m_unknowns[v];
+      u.matrix.add_identity(sideways * u.weight);
+      u.matrix.add(m.normal(v), (upwards - sideways) * u.weight);
+    }
+  }
+
+  // A rule that is exact for cubics: the corners, the middles of the edges, the centroid.
+  void measure_face(Halfedge first)
+  {
+    const auto& mesh = m.working().mesh;
+    const Edges edges{first, mesh.next(first), mesh.prev(first)};
+    const double a = area(first);
+    add_point(edges, {1 / 3., 1 / 3., 1 / 3.}, a * 9 / 20);
+    for (int k = 0; k < 3; ++k) {
+      Barycentric corner{0, 0, 0}, middle{.5, .5, .5};
+      corner[k] = 1;
+      middle[(k + 2) % 3] = 0;
+      const Vertex v = mesh.source(edges[k]);
+      if (m.is_movable(v)) add(edges, corner, m.normal(v), -m.height(v), a / 20);
+      const Halfedge o = mesh.opposite(edges[k]);
+      if (mesh.is_border(o))
+        add_point(edges, middle, a * 2 / 15);
+      else if (edges[k] < o)
+        add_point(edges, middle, (a + area(o)) * 2 / 15);
     }
   }
 
@@ -82,32 +142,40 @@ private:
            2;
   }
 
-  // `corners`: the halfedges of a triangle, each for its target.
-  void add(const std::array<Halfedge, 3>& corners, const Barycentric& barycentric, double weight)
+  // A point of the mesh, where the surface is now. `edges`: of its face.
+  void add_point(const Edges& edges, const Barycentric& barycentric, double weight)
   {
     const auto& mesh = m.working().mesh;
-    std::array<Vertex, 3> v;
     Vec3d p{0, 0, 0}, n{0, 0, 0};
     int nearest = 0;
     for (int k = 0; k < 3; ++k) {
-      v[k] = mesh.target(corners[k]);
-      p += barycentric[k] * m.point(v[k]);
-      n += barycentric[k] * m.normal(v[k]);
+      const Vertex v = mesh.source(edges[k]);
+      p += barycentric[k] * m.point(v);
+      n += barycentric[k] * m.normal(v);
       if (barycentric[k] > barycentric[nearest]) nearest = k;
     }
     n = normalized(n);
-    const auto place = m.guide().project(p, n, m.facet(v[nearest]));
+    const auto place = m.guide().project(p, n, m.facet(mesh.source(edges[nearest])));
     if (place.facet < 0) return;
     const double distance = length(place.point - p);
-    const Vec3d direction = distance > 0 ? (place.point - p) * (1 / distance) : n;
-    Barycentric c;
-    for (int k = 0; k < 3; ++k) c[k] = barycentric[k] * dot(direction, m.normal(v[k]));
+    add(edges, barycentric, distance > 0 ? (place.point - p) * (1 / distance) : n, distance,
+        weight);
+  }
+
+  // A point with these barycentric coordinates is to move by `distance` along `direction`.
+  void add(const Edges& edges, const Barycentric& barycentric, const Vec3d& direction,
+           double distance, double weight)
+  {
+    const auto& mesh = m.working().mesh;
     for (int k = 0; k < 3; ++k) {
-      m_diagonal[v[k]] += weight * c[k] * c[k];
-      m_right[v[k]] += weight * c[k] * distance;
-      m_limit[v[k]] = std::max(m_limit[v[k]], distance);
-      // corners[k + 1] is the edge between the corners k and k + 1
-      m_off_diagonal[mesh.edge(corners[(k + 1) % 3])] += weight * c[k] * c[(k + 1) % 3];
+      const double b = barycentric[k], c = barycentric[(k + 1) % 3];
+      if (!(b > 0)) continue;
+      Unknown& u = m_unknowns[mesh.source(edges[k])];
+      u.matrix.add(direction, weight * b * b);
+      u.right += (weight * b * distance) * direction;
+      u.weight += weight * b * b;
+      if (b > 0.1) u.longest = std::max(u.longest, std::abs(distance));
+      if (c > 0) m_coupling[mesh.edge(edges[k])].add(direction, weight * b * c);
     }
   }
 
@@ -116,30 +184,35 @@ private:
     const auto& mesh = m.working().mesh;
     for (int sweep = 0; sweep < sweeps; ++sweep)
       for (const Vertex v : mesh.vertices()) {
-        if (!m.is_movable(v) || !(m_diagonal[v] > 0)) continue;
-        double x = m_right[v];
+        if (!m.is_movable(v)) continue;
+        Unknown& u = m_unknowns[v];
+        Vec3d right = u.right;
         for (const Halfedge h : halfedges_around_target(v, mesh))
-          x -= m_off_diagonal[mesh.edge(h)] * m_move[mesh.source(h)];
-        m_move[v] = std::max(-m_limit[v], std::min(m_limit[v], x / m_diagonal[v]));
+          right -= m_coupling[mesh.edge(h)] * m_unknowns[mesh.source(h)].move;
+        u.move = u.matrix.solve(right);
+        const double l = length(u.move);
+        if (l > u.longest) u.move *= u.longest / l;
       }
   }
 
-  void raise(Vertex v)
+  void move(Vertex v)
   {
-    const Vec3d p = m.point(v), q = p + m_move[v] * m.normal(v);
+    const Vec3d p = m.point(v), q = p + m_unknowns[v].move;
     for (const Star::Corner& c : m.star(v).corners) {
       const Vec3d before = cross(c.a - p, c.b - p), after = cross(c.a - q, c.b - q);
       if (!(dot(before, after) > largest_turn * length(before) * length(after))) return;
       const double badness = triangle_badness(q, c.a, c.b).badness;
       if (badness > m_badness_limit && badness > triangle_badness(p, c.a, c.b).badness) return;
     }
-    m.raise(v, m_move[v]);
+    m.move_off(v, q);
   }
 
   Star_mesh& m;
+  const Surface_watch& m_watch;
   double m_badness_limit;
-  // the normal equations, and their solution: the way of each vertex along its normal
-  std::vector<double> m_diagonal, m_right, m_limit, m_move, m_off_diagonal;
+  // the normal equations, and their solution
+  std::vector<Unknown> m_unknowns;          // by vertex
+  std::vector<Symmetric_matrix> m_coupling; // by edge
 };
 
 } // namespace internal

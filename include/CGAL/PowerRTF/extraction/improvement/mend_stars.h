@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace CGAL
@@ -40,13 +41,13 @@ public:
     for (const Vertex v : mesh.working().mesh.vertices()) m_anchors.push_back(mesh.point(v));
   }
 
-  /// Releases the pinned vertices of the triangles that are clearly bad. \returns their number.
+  /// Releases the pinned vertices of the triangles that are still bad. \returns their number.
   std::size_t release_pinned()
   {
     const auto& mesh = m.working().mesh;
     std::size_t released = 0;
     for (const Face f : mesh.faces())
-      if (badness(f) > Triangle_badness::severe)
+      if (badness(f) > Triangle_badness::tolerable)
         for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) released += m.release(v);
     return released;
   }
@@ -90,8 +91,9 @@ private:
   static constexpr double anchor_pull = 0.25, curved = 0.8;
   static constexpr double foldless = 0.5;    // least agreement of a star that had more
   static constexpr double worthwhile = 0.95; // least gain of two passes that are followed by more
-  static constexpr double clearly = 1 - 1e-9; // less than this times is less: rounding decides nothing
-  static constexpr double first_step = 0.2;  // in edges of the star
+  static constexpr double clearly =
+      1 - 1e-9; // less than this times is less: rounding decides nothing
+  static constexpr double first_step = 0.2; // in edges of the star
   static constexpr int halvings = 3;
   static constexpr int max_steps = 8;
   static constexpr double least_shape = 0.5; // of triangles that a flip may make
@@ -126,10 +128,11 @@ private:
     return sum;
   }
 
-  static double star_energy(const Star& star, const Vec3d& p)
+  // Adds the triangles' energies to `sum`, until that is no less than `limit`.
+  static double star_energy(const Star& star, const Vec3d& p, double sum, double limit)
   {
-    double sum = 0;
-    for (const Star::Corner& c : star.corners) sum += triangle_badness(p, c.a, c.b).energy();
+    for (const Star::Corner& c : star.corners)
+      if (!((sum += triangle_badness(p, c.a, c.b).energy()) < limit)) break;
     return sum;
   }
 
@@ -146,10 +149,11 @@ private:
     const double scale = size / double(star.corners.size());
     const double pull =
         anchor_pull * std::max(0., curved - m.agreement(star, p, n)) / (scale * scale);
-    const auto energy = [&](const Vec3d& q) {
-      return star_energy(star, q) + pull * squared_length(q - m_anchors[v]);
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    const auto energy = [&](const Vec3d& q, double limit) {
+      return star_energy(star, q, pull * squared_length(q - m_anchors[v]), limit);
     };
-    const double start = energy(p);
+    const double start = energy(p, unlimited);
     double step = first_step * scale, least = start, su = 0, sw = 0;
     constexpr double d = 0.7071067811865476;
     constexpr double directions[8][2] = {{1, 0},  {d, d},   {0, 1},  {-d, d},
@@ -159,7 +163,8 @@ private:
       int best = -1;
       for (int k = 0; k < 8; ++k) {
         const double e =
-            energy(p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w);
+            energy(p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w,
+                   clearly * least);
         if (e < clearly * least) least = e, best = k;
       }
       if (best >= 0) {
@@ -172,7 +177,7 @@ private:
     }
     if (!(least < clearly * start)) return false;
     const auto place = m.project(v, p + su * u + sw * w);
-    if (place.facet < 0 || !(energy(place.point) < clearly * start)) return false;
+    if (place.facet < 0 || !(energy(place.point, clearly * start) < clearly * start)) return false;
     if (m.agreement(star, place.point, place.normal) <
         std::min(foldless, m.agreement(star, p, n) - slack))
       return false;
@@ -254,8 +259,8 @@ private:
     double least = 1;
     for (const Face f : patch(corners)) {
       const Halfedge h = mesh.halfedge(f);
-      least = std::min(
-          least, m.working().agreement(mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))));
+      least =
+          std::min(least, m.agreement(mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))));
     }
     return least;
   }

@@ -84,9 +84,8 @@ private:
     const double now = term(pa, pb, pc) + term(pb, pa, pd),
                  then = term(pd, pc, pa) + term(pc, pd, pb);
     if (!(then < (1 - gain) * now)) return false;
-    const Working_mesh& w = m.working();
-    const double agreement = std::min(w.agreement(a, b, c), w.agreement(b, a, d));
-    if (std::min(w.agreement(d, c, a), w.agreement(c, d, b)) < std::min(flat, agreement))
+    const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
+    if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) < std::min(flat, agreement))
       return false;
     if (!m_flipper.is_legal(e)) return false;
     m_flipper.flip(e);

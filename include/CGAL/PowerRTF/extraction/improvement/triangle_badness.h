@@ -24,7 +24,6 @@ struct Triangle_badness {
   double inverse_mean_ratio = 1; ///< 1: equilateral
 
   static constexpr double tolerable = 0.0012; ///< Q .753, or 40.5 degrees, or 86.7 degrees
-  static constexpr double severe = 0.02;      ///< Q .70, or 37.3 degrees, or 89 degrees
 
   /// What the search lowers: badness first, then the shape of all.
   double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }

@@ -1,0 +1,85 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The surface cut open along its creases: each side of a crease gets vertices and normals of its
+// own, so that nothing that works on edges or normals (curvature, smoothing, interpolation) looks
+// across. The facets keep their numbers.
+#ifndef CGAL_POWER_RTF_SURFACE_CUT_SURFACE_H
+#define CGAL_POWER_RTF_SURFACE_CUT_SURFACE_H
+
+#include <CGAL/PowerRTF/surface/facet_adjacency.h>
+#include <CGAL/PowerRTF/surface/surface_geometry.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+struct Cut_surface {
+  Surface surface;            ///< no creases; its patches are its components
+  std::vector<int> originals; ///< for each vertex of `surface`, the one that it is a copy of
+};
+
+/// Cuts `surface` along its creases (which are edges between two facets). The first copy of a
+/// vertex keeps its number.
+inline Cut_surface cut_along_creases(const Surface& surface)
+{
+  const auto& triangles = surface.triangles;
+  const Facet_adjacency adjacency = facet_adjacency(triangles, surface.points.size());
+  const int halfedges = static_cast<int>(adjacency.opposite.size());
+  const auto opposite = [&](int h) {
+    const int o = adjacency.opposite[h];
+    if (o == Facet_adjacency::none) return o;
+    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+    const Edge edge{(std::min)(a, b), (std::max)(a, b)};
+    const bool is_crease =
+        std::binary_search(surface.creases.begin(), surface.creases.end(), edge);
+    return is_crease ? Facet_adjacency::none : o;
+  };
+
+  Cut_surface cut;
+  cut.surface = surface;
+  cut.surface.creases.clear();
+  for (std::size_t v = 0; v < surface.points.size(); ++v) cut.originals.push_back(static_cast<int>(v));
+  std::vector<char> taken(surface.points.size(), 0), visited(halfedges, 0);
+  for (int start = 0; start < halfedges; ++start) {
+    if (visited[start]) continue;
+    int copy = halfedge_source(triangles, start);
+    if (taken[copy]) {
+      cut.originals.push_back(copy);
+      cut.surface.points.push_back(surface.points[copy]);
+      cut.surface.vertex_density.push_back(surface.vertex_density[copy]);
+      cut.surface.input_vertices.push_back(surface.input_vertices[copy]);
+      copy = static_cast<int>(cut.surface.points.size()) - 1;
+    } else {
+      taken[copy] = 1;
+    }
+    const auto visit = [&](int h) {
+      visited[h] = 1;
+      cut.surface.triangles[h / 3][h % 3] = copy;
+    };
+    int h = start; // counter-clockwise around the source, then clockwise if a border stopped it
+    do {
+      visit(h);
+      h = opposite(previous_halfedge(h));
+    } while (h != Facet_adjacency::none && h != start);
+    if (h == start) continue;
+    for (h = opposite(start); h != Facet_adjacency::none; h = opposite(h)) {
+      h = next_halfedge(h);
+      if (visited[h]) break;
+      visit(h);
+    }
+  }
+  compute_geometry(cut.surface);
+  cut.surface.facet_patches =
+      facet_components(facet_adjacency(cut.surface.triangles, cut.surface.points.size())).first;
+  return cut;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_SURFACE_CUT_SURFACE_H

@@ -1,0 +1,310 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Samples on corners, creases and borders: spaced by the density along each curve, where they stay.
+// To the cells they are sites, one copy for each patch that they bound.
+#ifndef CGAL_POWER_RTF_SURFACE_FEATURE_SAMPLES_H
+#define CGAL_POWER_RTF_SURFACE_FEATURE_SAMPLES_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/surface/cut_surface.h>
+#include <CGAL/PowerRTF/surface/feature_curves.h>
+#include <CGAL/PowerRTF/surface/gradation.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// A place on an edge of the surface, or at a vertex (`from == to`).
+struct Edge_place {
+  int from, to;
+  double at; ///< 0: at `from`, 1: at `to`
+};
+
+struct Feature_samples {
+  Samples samples;                ///< their normals are the means over the patches
+  std::vector<Edge_place> places; ///< of the samples
+  std::vector<Edge> edges;        ///< pairs of samples that the result must join
+  Samples sites;                  ///< a copy of each sample for each patch
+  /// For each site the next one along its patch's boundary, the patch to the left; -1: none.
+  std::vector<int> next;
+  std::vector<double> shares; ///< of a full turn that each site's patch takes around it
+
+  std::size_t size() const { return samples.size(); }
+};
+
+namespace internal {
+
+class Feature_sampler {
+public:
+  /// `cut`: `surface`, cut along its creases.
+  Feature_sampler(const Surface& surface, const Cut_surface& cut,
+                  const std::vector<Feature_curve>& curves)
+      : m_surface(surface), m_cut(cut), m_curves(curves)
+  {}
+
+  /// `spacing`: the constant C of the spacing C / sqrt(rho).
+  Feature_samples run(double spacing)
+  {
+    for (const Feature_curve& curve : m_curves) sample(curve, spacing);
+    add_sites();
+    return std::move(m_result);
+  }
+
+  /// The number of samples that `run()` makes.
+  std::size_t count(double spacing) const
+  {
+    std::size_t count = 0;
+    std::vector<char> is_corner(m_surface.points.size(), 0);
+    for (const Feature_curve& curve : m_curves) {
+      count += segments(curve, spacing);
+      if (!curve.has_corners) continue;
+      --count;
+      is_corner[curve.vertices.front()] = is_corner[curve.vertices.back()] = 1;
+    }
+    return count + std::count(is_corner.begin(), is_corner.end(), 1);
+  }
+
+private:
+  /// Length of edge `ab` in units of sqrt(rho), integrated over the linear density.
+  double weighted_length(int a, int b) const
+  {
+    const double ra = std::sqrt(m_surface.vertex_density[a]), rb = std::sqrt(m_surface.vertex_density[b]);
+    const double mean = 2. / 3 * (ra * ra + ra * rb + rb * rb) / (ra + rb);
+    return mean * length(m_surface.points[b] - m_surface.points[a]);
+  }
+
+  std::size_t segments(const Feature_curve& curve, double spacing) const
+  {
+    double sum = 0;
+    for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k)
+      sum += weighted_length(curve.vertices[k], curve.vertices[k + 1]);
+    const bool is_closed = curve.vertices.front() == curve.vertices.back();
+    const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
+    return static_cast<std::size_t>((std::max)(least, std::floor(sum / spacing + 0.5)));
+  }
+
+  int add_sample(const Edge_place& place)
+  {
+    const auto& p = m_surface.points;
+    const auto& rho = m_surface.vertex_density;
+    m_result.places.push_back(place);
+    m_result.samples.points.push_back(p[place.from] + (p[place.to] - p[place.from]) * place.at);
+    m_result.samples.density.push_back(rho[place.from] + (rho[place.to] - rho[place.from]) * place.at);
+    return static_cast<int>(m_result.places.size()) - 1;
+  }
+
+  int corner_sample(int v)
+  {
+    const auto [it, is_new] = m_corners.insert({v, 0});
+    if (is_new) it->second = add_sample({v, v, 0});
+    return it->second;
+  }
+
+  void sample(const Feature_curve& curve, double spacing)
+  {
+    const auto& vertices = curve.vertices;
+    std::vector<double> sums(1, 0); // along the curve
+    for (std::size_t k = 0; k + 1 < vertices.size(); ++k)
+      sums.push_back(sums.back() + weighted_length(vertices[k], vertices[k + 1]));
+    const std::size_t n = segments(curve, spacing);
+    const int first = curve.has_corners ? corner_sample(vertices.front()) : add_sample({vertices[0], vertices[0], 0});
+    int last = first;
+    std::size_t k = 0;
+    for (std::size_t s = 1; s < n; ++s) {
+      const double sum = sums.back() * static_cast<double>(s) / static_cast<double>(n);
+      while (k + 2 < sums.size() && sums[k + 1] <= sum) ++k;
+      const double at = (sum - sums[k]) / (sums[k + 1] - sums[k]);
+      constexpr double near = 1e-5; // so near an end that it is taken for the end
+      const Edge_place place = at < near       ? Edge_place{vertices[k], vertices[k], 0}
+                               : at > 1 - near ? Edge_place{vertices[k + 1], vertices[k + 1], 0}
+                                               : Edge_place{vertices[k], vertices[k + 1], at};
+      const int now = add_sample(place);
+      m_result.edges.push_back({last, now});
+      last = now;
+    }
+    m_result.edges.push_back({last, curve.has_corners ? corner_sample(vertices.back()) : first});
+  }
+
+  /// Walks along the borders of the cut surface, which are its patches' boundaries.
+  void add_sites()
+  {
+    const Surface& cut = m_cut.surface;
+    const auto& triangles = cut.triangles;
+    std::vector<int> at_vertex(m_surface.points.size(), -1);
+    std::vector<std::pair<Edge, int>> on_edges; // by edge, then along it from the smaller vertex
+    for (std::size_t s = 0; s < m_result.places.size(); ++s) {
+      const Edge_place& p = m_result.places[s];
+      if (p.from == p.to) at_vertex[p.from] = static_cast<int>(s);
+      else on_edges.emplace_back(sorted_edge(p.from, p.to), static_cast<int>(s));
+    }
+    const auto along = [&](int s) { // from the smaller vertex
+      const Edge_place& p = m_result.places[s];
+      return p.from < p.to ? p.at : 1 - p.at;
+    };
+    std::sort(on_edges.begin(), on_edges.end(), [&](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first < b.first : along(a.second) < along(b.second);
+    });
+
+    const Facet_adjacency adjacency = facet_adjacency(triangles, cut.points.size());
+    const int halfedges = static_cast<int>(adjacency.opposite.size());
+    std::vector<int> outgoing(cut.points.size(), -1);
+    for (int h = 0; h < halfedges; ++h)
+      if (adjacency.opposite[h] == Facet_adjacency::none) outgoing[halfedge_source(triangles, h)] = h;
+    const std::vector<double> turns = turns_of(outgoing);
+
+    std::vector<char> seen(halfedges, 0);
+    for (int start = 0; start < halfedges; ++start) {
+      if (adjacency.opposite[start] != Facet_adjacency::none || seen[start]) continue;
+      const std::size_t first = m_result.sites.size();
+      for (int h = start; !seen[h]; h = outgoing[halfedge_target(triangles, h)]) {
+        seen[h] = 1;
+        const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+        const int from = m_cut.originals[a], to = m_cut.originals[b];
+        if (at_vertex[from] >= 0) add_site(at_vertex[from], h, 0, turns[a]);
+        const Edge edge = sorted_edge(from, to);
+        const auto begin = std::lower_bound(on_edges.begin(), on_edges.end(), std::make_pair(edge, -1),
+                                            [](const auto& x, const auto& y) { return x.first < y.first; });
+        const auto end = std::find_if(begin, on_edges.end(), [&](const auto& x) { return x.first != edge; });
+        if (from < to)
+          for (auto it = begin; it != end; ++it) add_site(it->second, h, along(it->second), 0.5);
+        else
+          for (auto it = end; it != begin;) { --it; add_site(it->second, h, 1 - along(it->second), 0.5); }
+      }
+      const std::size_t last = m_result.sites.size();
+      for (std::size_t s = first; s < last; ++s)
+        m_result.next.push_back(static_cast<int>(s + 1 < last ? s + 1 : first));
+    }
+    finish_samples();
+  }
+
+  /// The angle of the cut surface around each boundary vertex, in full turns.
+  std::vector<double> turns_of(const std::vector<int>& outgoing) const
+  {
+    const Surface& cut = m_cut.surface;
+    std::vector<double> turns(cut.points.size(), 0);
+    for (const Triangle& t : cut.triangles)
+      for (int i = 0; i < 3; ++i) {
+        if (outgoing[t[i]] < 0) continue;
+        const Vec3d a = cut.points[t[(i + 1) % 3]] - cut.points[t[i]];
+        const Vec3d b = cut.points[t[(i + 2) % 3]] - cut.points[t[i]];
+        turns[t[i]] += std::atan2(length(cross(a, b)), dot(a, b)) / (2 * 3.14159265358979323846);
+      }
+    return turns;
+  }
+
+  void add_site(int sample, int h, double at, double turn)
+  {
+    const Surface& cut = m_cut.surface;
+    std::array<double, 3> weights{0, 0, 0};
+    weights[h % 3] = 1 - at;
+    weights[(h + 1) % 3] = at;
+    Samples& sites = m_result.sites;
+    sites.points.push_back(m_result.samples.points[sample]);
+    sites.facets.push_back(h / 3);
+    sites.normals.push_back(interpolated_normal(cut, h / 3, weights));
+    sites.density.push_back(m_result.samples.density[sample]);
+    sites.weights.push_back(0);
+    sites.patches.push_back(cut.facet_patches[h / 3]);
+    m_result.shares.push_back(turn);
+    m_sample_of_site.push_back(sample);
+  }
+
+  /// The samples' facets, patches and normals from those of their sites.
+  void finish_samples()
+  {
+    Samples& samples = m_result.samples;
+    samples.facets.assign(samples.points.size(), -1);
+    samples.patches.assign(samples.points.size(), -1);
+    samples.normals.assign(samples.points.size(), {0, 0, 0});
+    samples.weights.assign(samples.points.size(), 0);
+    for (std::size_t k = 0; k < m_sample_of_site.size(); ++k) {
+      const int s = m_sample_of_site[k];
+      samples.normals[s] += m_result.sites.normals[k];
+      if (samples.facets[s] >= 0) continue;
+      samples.facets[s] = m_result.sites.facets[k];
+      samples.patches[s] = m_result.sites.patches[k];
+    }
+    for (std::size_t s = 0; s < samples.points.size(); ++s) {
+      const Vec3d n = normalized(samples.normals[s]);
+      samples.normals[s] = squared_length(n) > 0 ? n : m_surface.facet_normals[samples.facets[s]];
+    }
+  }
+
+  const Surface& m_surface;
+  const Cut_surface& m_cut;
+  const std::vector<Feature_curve>& m_curves;
+  Feature_samples m_result;
+  std::map<int, int> m_corners; // vertex -> sample
+  std::vector<int> m_sample_of_site;
+};
+
+} // namespace internal
+
+/// Fewest samples that keep the creases and borders of `surface`.
+inline std::size_t min_feature_samples(const Surface& surface)
+{
+  const Cut_surface none;
+  const std::vector<Feature_curve> curves = feature_curves(surface, 0);
+  return internal::Feature_sampler(surface, none, curves).count(std::numeric_limits<double>::infinity());
+}
+
+/// The number of cells of the mean size that the surface has room for when `n` samples are spread
+/// over it, `features` among them: samples on a border have half a cell.
+inline double equivalent_cells(std::size_t n, const Feature_samples& features)
+{
+  double cells = static_cast<double>(n) - static_cast<double>(features.size());
+  for (const double share : features.shares) cells += share;
+  return (std::max)(1., cells);
+}
+
+/// Samples on the corners, creases and borders of `surface`, spaced like `n` samples in all.
+/// \param cut `surface`, cut along its creases
+/// \throws Invalid_input_error when `n` samples are too few
+inline Feature_samples sample_features(const Surface& surface, const Cut_surface& cut, std::size_t n)
+{
+  const double h = std::sqrt(surface.area / static_cast<double>(n));
+  std::vector<Feature_curve> curves = feature_curves(surface, 0.5 * h);
+  if (curves.empty()) return {};
+  const auto least = [&]() {
+    return internal::Feature_sampler(surface, cut, curves).count(std::numeric_limits<double>::infinity());
+  };
+  if (2 * least() > n) curves = feature_curves(surface, 0); // turns are dispensable
+  if (least() > n)
+    throw Invalid_input_error(std::to_string(n) + " samples are too few: the borders and creases need " +
+                              std::to_string(least()));
+  double spacing = spacing_constant(surface, n);
+  Feature_samples features = internal::Feature_sampler(surface, cut, curves).run(spacing);
+  const double cells = equivalent_cells(n, features);
+  spacing *= std::sqrt(static_cast<double>(n) / cells);
+  // On slender surfaces there may be more border than n samples can line.
+  while (internal::Feature_sampler(surface, cut, curves).count(spacing) > n) spacing *= 1.05;
+  return internal::Feature_sampler(surface, cut, curves).run(spacing);
+}
+
+/// Sets the creases that `options` asks for. They are left out when they need more than half of the
+/// samples: so few samples show the shape better without.
+inline void set_creases(Surface& surface, const Remeshing_options& options)
+{
+  if (!(options.feature_angle > 0 && options.feature_angle <= 180))
+    throw Invalid_input_error("the angle of features must lie between 0 and 180 degrees");
+  surface.creases.clear();
+  if (options.feature_angle == 180) return;
+  surface.creases = find_creases(surface, options.feature_angle, options.number_of_samples);
+  if (2 * min_feature_samples(surface) > options.number_of_samples) surface.creases.clear();
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_SURFACE_FEATURE_SAMPLES_H

@@ -1,0 +1,293 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Creases and borders: found, cut, sampled, and kept from the samples to the mesh.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include "shapes.h"
+
+#include <CGAL/PowerRTF/cells/clip_at_features.h>
+#include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/quality/assess.h>
+#include <CGAL/PowerRTF/surface/Surface_patches.h>
+#include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/surface/initial_sampling.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+
+namespace
+{
+
+/// A cylinder with lids around the z axis: two closed creases.
+shapes::Soup can(int nu, int nz)
+{
+  shapes::Soup s = shapes::open_cylinder(nu, nz, 1, 2);
+  for (const int z : {0, 2}) {
+    const int center = int(s.points.size()), first = z == 0 ? 0 : nz * nu;
+    s.points.push_back({0, 0, double(z)});
+    for (int i = 0; i < nu; ++i) {
+      const int a = first + i, b = first + (i + 1) % nu;
+      if (z == 0)
+        s.triangles.push_back({center, b, a});
+      else
+        s.triangles.push_back({center, a, b});
+    }
+  }
+  return s;
+}
+
+Surface with_creases(const shapes::Soup& soup, std::size_t n)
+{
+  Surface surface = shapes::make_surface(soup);
+  Remeshing_options options;
+  options.number_of_samples = n;
+  set_creases(surface, options);
+  return surface;
+}
+
+/// The distance of `p` from the polyline through the vertices of `curve`.
+double distance_to(const Surface& surface, const Feature_curve& curve, const Vec3d& p)
+{
+  double least = 1e300;
+  for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k) {
+    const Vec3d a = surface.points[curve.vertices[k]], b = surface.points[curve.vertices[k + 1]];
+    const double t = dot(p - a, b - a) / squared_length(b - a);
+    least = std::min(least, length(p - (a + (b - a) * std::min(1., std::max(0., t)))));
+  }
+  return least;
+}
+
+} // namespace
+
+TEST_CASE("creases of clean shapes are found, whatever size and place")
+{
+  for (const double scale : {1., 1e-6, 1e9}) {
+    CHECK(find_creases(shapes::make_surface(shapes::scaled(shapes::box(7), scale)), 40, 3000).size() ==
+          12 * 7);
+    CHECK(find_creases(shapes::make_surface(shapes::scaled(can(50, 6), scale)), 40, 3000).size() ==
+          100);
+  }
+  const shapes::Soup turned = shapes::rotated(shapes::translated(shapes::box(5), {3, 1, 2}), 1.1);
+  CHECK(find_creases(shapes::make_surface(turned), 40, 3000).size() == 60);
+  CHECK(find_creases(shapes::make_surface(shapes::permuted(turned, 3)), 40, 3000).size() == 60);
+  CHECK(find_creases(shapes::make_surface(turned), 91, 3000).empty());
+}
+
+TEST_CASE("smooth and noisy shapes have no creases")
+{
+  CHECK(find_creases(shapes::make_surface(shapes::icosphere(3)), 40, 3000).empty());
+  CHECK(find_creases(shapes::make_surface(shapes::torus(40, 20, 2, 1)), 40, 3000).empty());
+  for (unsigned seed : {1, 2, 3}) {
+    std::mt19937_64 random(seed);
+    shapes::Soup rough = shapes::icosphere(4);
+    for (Vec3d& p : rough.points) p *= 1 + 0.03 * (double(random() % 1000) / 1000);
+    const Surface surface = shapes::make_surface(rough);
+    CHECK(find_creases(surface, 180. - 1e-9, 3000).empty());
+    CHECK(find_creases(surface, 40, 3000).empty());
+  }
+}
+
+TEST_CASE("short dangling creases are noise")
+{
+  const Surface plane = shapes::make_surface(shapes::plane_patch(10, 10)); // vertex = 11 row + column
+  const auto on_border = internal::border_vertices(
+      plane, facet_adjacency(plane.triangles, plane.points.size()));
+  const auto pruned = [&](std::vector<Edge> edges) {
+    internal::prune_creases(plane, on_border, 0.25, edges);
+    return edges.size();
+  };
+  std::vector<Edge> across; // from border to border, 10 edges of length 0.1
+  for (int v = 44; v < 54; ++v) across.push_back({v, v + 1});
+  CHECK(pruned(across) == 10);
+  std::vector<Edge> twig = across;
+  twig.push_back({48, 59}); // a twig of two edges
+  twig.push_back({59, 70});
+  CHECK(pruned(twig) == 10);
+  twig.push_back({70, 81}); // of three
+  CHECK(pruned(twig) == 13);
+  CHECK(pruned({{24, 25}, {25, 26}, {26, 27}, {27, 28}}) == 0); // a piece of 0.4
+  CHECK(pruned({{24, 25}, {25, 26}, {26, 27}, {27, 28}, {28, 29}, {29, 30}}) == 6); // of 0.6
+  CHECK(pruned({{24, 25}, {25, 36}, {35, 36}, {24, 35}}) == 0); // a small ring
+}
+
+TEST_CASE("a surface is cut into its patches")
+{
+  const Surface box = with_creases(shapes::box(4), 1000);
+  const Cut_surface cut = cut_along_creases(box);
+  const auto& patches = cut.surface.facet_patches;
+  CHECK(std::set<int>(patches.begin(), patches.end()).size() == 6);
+  CHECK(cut.surface.points.size() == 6 * 25);
+  for (std::size_t v = 0; v < cut.originals.size(); ++v) {
+    CHECK(cut.surface.points[v] == box.points[cut.originals[v]]);
+    const Vec3d n = cut.surface.vertex_normals[v]; // that of one face
+    CHECK(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) == doctest::Approx(1).epsilon(1e-14));
+  }
+  for (std::size_t f = 0; f < box.triangles.size(); ++f)
+    for (int i = 0; i < 3; ++i)
+      CHECK(cut.originals[cut.surface.triangles[f][i]] == box.triangles[f][i]);
+
+  SUBCASE("a crease that ends inside is a slit")
+  {
+    Surface plane = shapes::make_surface(shapes::plane_patch(4, 4));
+    plane.creases = {{6, 7}, {7, 8}};
+    const Cut_surface slit = cut_along_creases(plane);
+    CHECK(slit.surface.points.size() == plane.points.size() + 1);
+    CHECK(std::set<int>(slit.surface.facet_patches.begin(), slit.surface.facet_patches.end()).size() == 1);
+  }
+}
+
+TEST_CASE("curves run from corner to corner")
+{
+  const auto curves = feature_curves(with_creases(shapes::box(6), 1000), 0.01);
+  CHECK(curves.size() == 12);
+  std::set<int> corners;
+  for (const Feature_curve& c : curves) {
+    CHECK(c.vertices.size() == 7);
+    CHECK(c.has_corners);
+    CHECK(c.parallels == 1);
+    corners.insert({c.vertices.front(), c.vertices.back()});
+  }
+  CHECK(corners.size() == 8);
+
+  const auto rims = feature_curves(with_creases(can(60, 5), 1000), 0.01);
+  CHECK(rims.size() == 2);
+  for (const Feature_curve& c : rims) {
+    CHECK_FALSE(c.has_corners);
+    CHECK(c.vertices.size() == 61);
+    CHECK(c.vertices.front() == c.vertices.back());
+  }
+
+  // The corners of a border are turns.
+  const auto sides = feature_curves(shapes::make_surface(shapes::plane_patch(9, 5)), 0.05);
+  CHECK(sides.size() == 4);
+  const auto loop = feature_curves(shapes::make_surface(shapes::plane_patch(9, 5)), 0);
+  CHECK(loop.size() == 1);
+}
+
+TEST_CASE("samples line creases and borders evenly")
+{
+  for (const shapes::Soup& soup : {shapes::box(5), can(80, 6), shapes::plane_patch(8, 8),
+                                   shapes::open_cylinder(60, 10, 1, 3)}) {
+    for (const std::size_t n : {200, 3000}) {
+      const Surface surface = with_creases(soup, n);
+      const Cut_surface cut = cut_along_creases(surface);
+      const Feature_samples features = sample_features(surface, cut, n);
+      const double spacing = std::sqrt(2 / std::sqrt(3.) * surface.area / double(n));
+      CHECK(features.size() > 3);
+      CHECK(features.size() < n);
+      CHECK(features.edges.size() >= features.size()); // closed curves, or more at corners
+      for (const Edge& e : features.edges) {
+        const double l = length(features.samples.points[e[1]] - features.samples.points[e[0]]);
+        CHECK(l > 0.7 * spacing);
+        CHECK(l < 1.4 * spacing);
+      }
+      const auto curves = feature_curves(surface, 0);
+      for (std::size_t s = 0; s < features.size(); ++s) {
+        double least = 1;
+        for (const Feature_curve& c : curves)
+          least = std::min(least, distance_to(surface, c, features.samples.points[s]));
+        CHECK(least < 1e-15);
+      }
+      // Along the boundary of its patch each site is followed by the next, the patch to the left.
+      const Samples& sites = features.sites;
+      CHECK(features.next.size() == sites.size());
+      for (std::size_t s = 0; s < sites.size(); ++s) {
+        const int next = features.next[s];
+        CHECK(sites.patches[next] == sites.patches[s]);
+        CHECK(length(sites.points[next] - sites.points[s]) < 1.4 * spacing);
+        const Triangle& t = surface.triangles[sites.facets[s]];
+        const Vec3d center =
+            (surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]) * (1. / 3);
+        const Vec3d along = sites.points[next] - sites.points[s];
+        CHECK(dot(cross(along, center - sites.points[s]), surface.facet_normals[sites.facets[s]]) > 0);
+      }
+      double turns = 0; // each sample on a smooth crease has two halves, on a border one
+      for (double share : features.shares) turns += share;
+      CHECK(equivalent_cells(n, features) == doctest::Approx(double(n) - double(features.size()) + turns));
+    }
+  }
+}
+
+TEST_CASE("too few samples for the borders are refused, for found creases these are left out")
+{
+  const Surface plane = shapes::make_surface(shapes::plane_patch(4, 4));
+  CHECK_THROWS_AS(sample_features(plane, cut_along_creases(plane), 2), Invalid_input_error);
+  CHECK(with_creases(shapes::box(5), 15).creases.empty());
+  CHECK(with_creases(shapes::box(5), 16).creases.size() == 60);
+  Remeshing_options options;
+  Surface box = shapes::make_surface(shapes::box(3));
+  for (double angle : {0., -1., 181., std::nan("")}) {
+    options.feature_angle = angle;
+    CHECK_THROWS_AS(set_creases(box, options), Invalid_input_error);
+  }
+}
+
+TEST_CASE("cells are cut at the chords between neighbours on a boundary")
+{
+  // The cell [-1, 1]^2 of the site (0, 0); sites 1, 2, 3 are the boundary, the patch to the left.
+  const int next[] = {-1, 2, 3, 1}, previous[] = {-1, 3, 1, 2};
+  const Tangent_frame<double> frame({0, 0, 1});
+  const auto area_after = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c, bool is_cut) {
+    const Site<double> sites[] = {{{0, 0, 0}, 0}, {a, 0}, {b, 0}, {c, 0}};
+    Sites_view<double> view;
+    view.sites = sites;
+    Tangent_polygon<double> polygon;
+    polygon.set_square(1);
+    CHECK_FALSE(clip_at_features(view, 0, next, previous, frame, polygon)); // no neighbour on it
+    polygon.neighbor[0] = 1;
+    CHECK(clip_at_features(view, 0, next, previous, frame, polygon) == is_cut);
+    double sum = 0;
+    for (int k = 0; k < polygon.size; ++k) {
+      const int l = polygon.next(k);
+      sum += (polygon.x[k] * polygon.y[l] - polygon.x[l] * polygon.y[k]) / 2;
+    }
+    return sum;
+  };
+  CHECK(area_after({-2, -0.5, 0}, {2, -0.5, 0}, {0, 50, 0}, true) == doctest::Approx(3));
+  CHECK(area_after({-0.8, -0.5, 0}, {0.8, -0.5, 0}, {0, 50, 0}, true) < 3); // two chords
+  CHECK(area_after({-2, -1.5, 0}, {2, -1.5, 0}, {0, 50, 0}, false) == doctest::Approx(4));
+  // The site a little outside, between chord and curve; far outside it is the other side of a slit.
+  CHECK(area_after({-2, 0.5, 0}, {2, 0.5, 0}, {0, 50, 0}, true) == doctest::Approx(1));
+  CHECK(area_after({2, -0.9, 0}, {-2, -0.9, 0}, {0, -50, 0}, false) == doctest::Approx(4));
+}
+
+TEST_CASE("the extraction keeps creases and borders, wherever the other samples are")
+{
+  for (const shapes::Soup& soup : {shapes::box(5), can(80, 6), shapes::plane_patch(8, 8),
+                                   shapes::open_cylinder(60, 10, 1, 3)})
+    for (const unsigned seed : {0, 1}) {
+      Surface surface = with_creases(soup, 400);
+      Remeshing_options options;
+      options.number_of_samples = 400;
+      options.random_seed = seed;
+      const Surface_patches patches(surface, options);
+      const Samples free = sample_surface(patches.surface(), options, patches.features());
+      CHECK(free.size() + patches.features().size() == 400);
+      const Extracted_mesh mesh = extract_by_insertion(
+          surface, joined(free, patches.features().samples), patches.features());
+      CHECK(mesh.points.size() == 400);
+      CHECK(mesh.feature_edges.size() == patches.features().edges.size());
+      Remeshing_report report;
+      report.samples_asked = 400;
+      assess<CGAL::Sequential_tag>(surface, mesh, report);
+      CHECK(report.missed_guarantees().empty());
+      CHECK(report.lost_feature_edges == 0);
+      CHECK(report.topology.border_loops == report.input_topology.border_loops);
+    }
+}
+
+TEST_CASE("density does not see a crease as curvature")
+{
+  Remeshing_options options;
+  options.number_of_samples = 500;
+  Surface surface = with_creases(shapes::box(8), 500);
+  set_density(surface, options);
+  for (double rho : surface.vertex_density) CHECK(rho == doctest::Approx(1));
+}
