@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
 #include <CGAL/PowerRTF/extraction/improve_mesh.h>
+#include <CGAL/PowerRTF/extraction/one_sided.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
@@ -89,18 +90,14 @@ public:
   template <class Visitor>
   PowerRTF::Extracted_mesh extract(Visitor& visitor)
   {
-    visitor.on_stage("extraction");
+    const PowerRTF::Feature_samples& features = m_patches.features();
     PowerRTF::Extracted_mesh mesh;
-    {
-      PowerRTF::internal::Stopwatch watch(m_report.seconds.extraction);
-      mesh = m_options.extraction == PowerRTF::Extraction_method::insertion
-                 ? PowerRTF::extract_by_insertion(m_surface, samples(), m_patches.features())
-                 : PowerRTF::extract_restricted_delaunay(m_surface, samples(), m_patches.features());
-    }
-    if (m_options.improvement == PowerRTF::Improvement::yes) {
-      visitor.on_stage("improvement");
-      PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
-      PowerRTF::improve_mesh(m_patches.surface(), mesh);
+    if (m_surface.seams.empty()) {
+      mesh = triangulate(visitor, m_surface, samples(), features);
+    } else {
+      const PowerRTF::Opened_surface opened(m_surface, samples(), features);
+      mesh = triangulate(visitor, opened.surface(), opened.samples(), opened.features());
+      opened.sew_up(mesh);
     }
     visitor.on_stage("quality");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.quality);
@@ -170,6 +167,28 @@ private:
     if (m_options.weight_method != Weight_method::newton) return;
     for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass)
       if (!m_engine.newton_weights()) break;
+  }
+
+  template <class Visitor>
+  PowerRTF::Extracted_mesh triangulate(Visitor& visitor, const PowerRTF::Surface& surface,
+                                       const PowerRTF::Samples& samples,
+                                       const PowerRTF::Feature_samples& features)
+  {
+    visitor.on_stage("extraction");
+    PowerRTF::Extracted_mesh mesh;
+    {
+      PowerRTF::internal::Stopwatch watch(m_report.seconds.extraction);
+      mesh = m_options.extraction == PowerRTF::Extraction_method::insertion
+                 ? PowerRTF::extract_by_insertion(surface, samples, features,
+                                                  !m_surface.seams.empty())
+                 : PowerRTF::extract_restricted_delaunay(surface, samples, features);
+    }
+    if (m_options.improvement == PowerRTF::Improvement::yes) {
+      visitor.on_stage("improvement");
+      PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
+      PowerRTF::improve_mesh(m_patches.surface(), mesh);
+    }
+    return mesh;
   }
 
   template <class Visitor>

@@ -5,10 +5,12 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
+#include "dirty_shapes.h"
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/cells/clip_at_features.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/extraction/one_sided.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/surface/Surface_patches.h>
 #include <CGAL/PowerRTF/surface/density.h>
@@ -281,6 +283,70 @@ TEST_CASE("the extraction keeps creases and borders, wherever the other samples 
       CHECK(report.lost_feature_edges == 0);
       CHECK(report.topology.border_loops == report.input_topology.border_loops);
     }
+}
+
+TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
+{
+  // Klein's bottle as a torus that comes back mirrored; it passes through itself nowhere in this
+  // test's sense: only its topology counts.
+  shapes::Soup klein = shapes::torus(24, 12, 3, 1);
+  for (Triangle& t : klein.triangles)
+    for (int& v : t)
+      if (v / 12 == 0 && std::any_of(t.begin(), t.end(), [](int w) { return w / 12 == 23; }))
+        v = (12 - v) % 12;
+  struct Case {
+    shapes::Soup soup;
+    std::size_t loops;
+  };
+  for (const Case& c : {Case{shapes::moebius_strip(60), 1},
+                        Case{shapes::some_reversed(shapes::moebius_strip(61), 4), 1}, Case{klein, 0}})
+    for (const Preset preset : {Preset::quality, Preset::paper}) {
+      Surface surface = shapes::make_surface(c.soup);
+      CHECK_FALSE(surface.seams.empty());
+      CHECK(surface.seams == surface.creases);
+      Remeshing_options options;
+      if (preset == Preset::paper) options = Remeshing_options::paper_preset();
+      options.number_of_samples = 300;
+      const Surface_patches patches(surface, options);
+      CHECK(topology(patches.surface().triangles).oriented);
+      const Samples free = sample_surface(patches.surface(), options, patches.features());
+      const Opened_surface opened(surface, joined(free, patches.features().samples),
+                                  patches.features());
+      Extracted_mesh mesh =
+          extract_by_insertion(opened.surface(), opened.samples(), opened.features(), true);
+      CHECK(topology(mesh.triangles).oriented);
+      CHECK(mesh.points.size() > 300);
+      opened.sew_up(mesh);
+      CHECK(mesh.points.size() == 300);
+      CHECK(internal::lost_feature_edges(mesh) == 0);
+      const Topology_statistics is = topology(mesh.triangles), was = topology(surface.triangles);
+      CHECK(is.vertices == 300);
+      CHECK_FALSE(is.oriented);
+      CHECK(is.euler_characteristic == was.euler_characteristic);
+      CHECK(is.components == 1);
+      CHECK(is.border_loops == c.loops);
+      CHECK(was.border_loops == c.loops);
+      CHECK(is.non_manifold_edges + is.non_manifold_vertices == 0);
+    }
+}
+
+TEST_CASE("narrow patches are joined to a neighbour")
+{
+  shapes::Soup slab = shapes::box(6);
+  for (Vec3d& p : slab.points) p.z *= 0.02;
+  Surface surface = shapes::make_surface(slab);
+  surface.creases = find_creases(surface, 40, 1000);
+  CHECK(surface.creases.size() == 72);
+  join_narrow_patches(surface, 0.001);
+  CHECK(surface.creases.size() == 72);
+  const double width = 0.1 * surface.normalization.scale; // wider than the four walls
+  join_narrow_patches(surface, width);
+  const Cut_surface cut = cut_along_creases(surface);
+  const auto& patches = cut.surface.facet_patches;
+  std::vector<double> areas(*std::max_element(patches.begin(), patches.end()) + 1, 0);
+  for (std::size_t f = 0; f < patches.size(); ++f) areas[patches[f]] += surface.facet_areas[f];
+  CHECK(areas.size() == 2); // the two large faces stay apart
+  for (double area : areas) CHECK(area > 0.45 * surface.area);
 }
 
 TEST_CASE("density does not see a crease as curvature")

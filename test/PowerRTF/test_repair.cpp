@@ -4,6 +4,7 @@
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/quality/topology.h>
+#include <CGAL/PowerRTF/surface/topology_minimum.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -164,11 +165,9 @@ TEST_CASE("what would change its shape is refused")
     CHECK(mentions(text, "4 edge(s) with more than two facets"));
     CHECK(mentions(text, "shape"));
   }
-  SUBCASE("a Moebius strip")
+  SUBCASE("a Moebius strip that is not to be touched")
   {
-    CHECK(mentions(refusal(shapes::moebius_strip(30), Repair::yes), "one side only"));
-    CHECK(mentions(refusal(shapes::some_reversed(shapes::moebius_strip(31), 4), Repair::yes),
-                   "one side only"));
+    CHECK(mentions(refusal(shapes::moebius_strip(30), Repair::no), "oriented"));
   }
 }
 
@@ -221,4 +220,39 @@ TEST_CASE("a mesh may touch itself in a vertex; its vertices are known by their 
   CHECK_THROWS_AS(
       PRTF::import_surface(mesh, CGAL::parameters::default_values(), repairs, Repair::no),
       PRTF::Invalid_input_error);
+}
+
+TEST_CASE("the fewest vertices of a surface of given topology")
+{
+  CHECK(PRTF::least_vertices(2, 0) == 4);   // tetrahedron
+  CHECK(PRTF::least_vertices(0, 0) == 7);   // Csaszar's torus
+  CHECK(PRTF::least_vertices(-2, 0) <= 10); // the bound, 9, is not reached for genus 2
+  CHECK(PRTF::least_vertices(-4, 0) == 10);
+  CHECK(PRTF::least_vertices(1, 1) == 3); // a triangle
+  CHECK(PRTF::least_vertices(0, 2) == 6); // a prism's side
+}
+
+TEST_CASE("topology of the components; too few samples for it are refused with the number needed")
+{
+  const shapes::Soup soup = shapes::joined(
+      shapes::joined(shapes::icosphere(1), shapes::translated(shapes::torus(12, 8, 2, 1), {9, 0, 0})),
+      shapes::translated(shapes::open_cylinder(8, 3, 1, 1), {0, 9, 0}));
+  Repair_counts repairs;
+  const Surface s = check(soup, {3, 2, 2}, repairs);
+  const auto components = PRTF::component_topologies(s.triangles, s.points.size());
+  REQUIRE(components.size() == 3);
+  CHECK(components[0].euler_characteristic == 2);
+  CHECK(components[1].euler_characteristic == 0);
+  CHECK(components[1].border_loops == 0);
+  CHECK(components[2].euler_characteristic == 0);
+  CHECK(components[2].border_loops == 2);
+  CHECK_NOTHROW(PRTF::require_enough_samples(s, 4 + 7 + 6));
+  try {
+    PRTF::require_enough_samples(s, 16);
+    FAIL("16 samples are too few");
+  } catch (const PRTF::Invalid_input_error& e) {
+    CHECK(mentions(e.what(), "at least 17 are needed for its 3 components"));
+    CHECK(mentions(e.what(), "7 of them for the one at vertex"));
+    CHECK(mentions(e.what(), "genus 1 with 0 border loops"));
+  }
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Keeps a mesh free of self-intersections while edges are collapsed and flipped: says of each
-// change whether it would add some. Triangles are kept in hashed grids, one for each power of two of
-// their size, as the mesh has very large and very small ones at the same time.
+// change whether it would add some, by exact predicates.
 #ifndef CGAL_POWER_RTF_EXTRACTION_INTERSECTION_GUARD_H
 #define CGAL_POWER_RTF_EXTRACTION_INTERSECTION_GUARD_H
 
@@ -13,13 +12,16 @@
 #include <CGAL/Bbox_3.h>
 
 #include <boost/container/small_vector.hpp>
+#include <boost/geometry/algorithms/covered_by.hpp>
+#include <boost/geometry/algorithms/equals.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
-#include <map>
-#include <unordered_map>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -41,15 +43,25 @@ public:
   using Faces = boost::container::small_vector<Face, 24>;
   using Triangles = boost::container::small_vector<Corners, 24>;
 
-  /// \param is_watched by vertex: changes that make triangles at watched vertices are judged, others
-  ///   are always allowed
-  Intersection_guard(const Working_mesh& mesh, std::vector<char>&& is_watched)
-      : m(mesh), m_is_watched(std::move(is_watched))
+  /// How a vertex is seen: changes that make triangles at a watched one are judged, against the
+  /// triangles at known ones.
+  enum Sight : char { unknown, known, watched };
+
+  /// `sight`: by vertex.
+  Intersection_guard(const Working_mesh& mesh, std::vector<Sight>&& sight)
+      : m(mesh), m_sight(std::move(sight)), m_is_inserted(mesh.mesh.number_of_faces(), false)
   {
     for (const Face f : m.mesh.faces()) insert(f);
   }
 
-  void watch(Vertex v) { m_is_watched[v] = true; }
+  /// Watches the vertices around `u`.
+  void watch_around(Vertex u)
+  {
+    for (const Halfedge h : halfedges_around_target(u, m.mesh)) m_sight[m.mesh.source(h)] = watched;
+    for (const Halfedge h : halfedges_around_target(u, m.mesh))
+      for (const Halfedge g : halfedges_around_target(m.mesh.source(h), m.mesh))
+        if (!m.mesh.is_border(g) && !m_is_inserted[m.mesh.face(g)]) insert(m.mesh.face(g));
+  }
 
   /// Whether flipping the edge adds an intersection.
   bool forbids_flip(Edge e) const
@@ -76,14 +88,18 @@ public:
   }
 
   /// To be called before and after a change, for the faces that it touches.
-  void insert(Face f) { at_cells(f, [f](auto& cell) { cell.push_back(f); }); }
+  void insert(Face f)
+  {
+    const Corners t = corners(f);
+    if (std::all_of(t.begin(), t.end(), [this](Vertex v) { return m_sight[v] == unknown; })) return;
+    m_is_inserted[f] = true;
+    m_tree.insert(entry(f));
+  }
   void erase(Face f)
   {
-    at_cells(f, [f](auto& cell) {
-      const auto it = std::find(cell.begin(), cell.end(), f);
-      *it = cell.back();
-      cell.pop_back();
-    });
+    if (!m_is_inserted[f]) return;
+    m_is_inserted[f] = false;
+    m_tree.remove(entry(f));
   }
   void erase_around(Vertex u, Vertex v)
   {
@@ -101,11 +117,10 @@ public:
 
 private:
   using Points = std::array<Epick::Point_3, 3>;
-  using Cell = boost::container::small_vector<Face, 4>;
-  struct Level {
-    double cell_size;
-    std::unordered_map<std::uint64_t, Cell> cells;
-  };
+  using Tree_point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+  using Tree_box = boost::geometry::model::box<Tree_point>;
+  using Entry = std::pair<Tree_box, Face>;
+  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
 
   Points points(const Corners& t) const
   {
@@ -120,78 +135,44 @@ private:
     return {m.mesh.source(h), m.mesh.target(h), m.mesh.target(m.mesh.next(h))};
   }
 
-  static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z)
-  {
-    constexpr std::uint64_t mask = (1u << 21) - 1;
-    return (std::uint64_t(x) & mask) | (std::uint64_t(y) & mask) << 21 |
-           (std::uint64_t(z) & mask) << 42;
-  }
-
-  template <class Visit>
-  static void for_each_key(const Bbox_3& b, double cell_size, Visit visit)
-  {
-    const auto along = [&](double x) { return std::int64_t(std::floor(x / cell_size)); };
-    for (std::int64_t z = along(b.zmin()); z <= along(b.zmax()); ++z)
-      for (std::int64_t y = along(b.ymin()); y <= along(b.ymax()); ++y)
-        for (std::int64_t x = along(b.xmin()); x <= along(b.xmax()); ++x) visit(key(x, y, z));
-  }
-
-  template <class Change>
-  void at_cells(Face f, Change change)
+  Entry entry(Face f) const
   {
     const Bbox_3 b = box(points(corners(f)));
-    const double size = std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
-    constexpr double smallest = 0x1p-19; // 21 bits for the number of a cell along an axis
-    const int exponent = std::ilogb(std::max(size, smallest)) + 1;
-    const auto it = m_levels.insert({exponent, Level{std::ldexp(1., exponent), {}}}).first;
-    for_each_key(b, it->second.cell_size, [&](std::uint64_t k) { change(it->second.cells[k]); });
+    return {to_tree(b), f};
   }
-
-  // Calls visit(face) for the faces near the box; some more than once.
-  template <class Visit>
-  void for_each_near(const Bbox_3& b, Visit visit) const
+  static Tree_box to_tree(const Bbox_3& b)
   {
-    const double size = std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
-    for (const auto& [exponent, level] : m_levels) {
-      const double along = size / level.cell_size + 1;
-      if (along * along * along > double(level.cells.size()))
-        for (const auto& [k, cell] : level.cells)
-          for (const Face f : cell) visit(f);
-      else
-        for_each_key(b, level.cell_size, [&, &cells = level.cells](std::uint64_t k) {
-          const auto it = cells.find(k);
-          if (it == cells.end()) return;
-          for (const Face f : it->second) visit(f);
-        });
-    }
+    return {{b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()}};
   }
 
-  // The faces, none of `except`, that intersect the triangle.
-  std::size_t count(const Corners& t, const Faces& except) const
+  // The faces, none of `except`, that intersect the triangle; at most `most`.
+  std::size_t count(const Corners& t, const Faces& except, std::size_t most) const
   {
     const Points p = points(t);
     const Bbox_3 b = box(p);
-    Faces found;
-    for_each_near(b, [&](Face f) {
-      if (std::find(except.begin(), except.end(), f) != except.end()) return;
-      if (std::find(found.begin(), found.end(), f) != found.end()) return;
+    std::size_t found = 0;
+    for (auto it = m_tree.qbegin(boost::geometry::index::intersects(to_tree(b)));
+         it != m_tree.qend() && found < most; ++it) {
+      const Face f = it->second;
+      if (std::find(except.begin(), except.end(), f) != except.end()) continue;
       const Corners u = corners(f);
       const Points q = points(u);
-      if (do_overlap(b, box(q)) && !is_degenerate(q) && triangles_intersect(t, p, u, q))
-        found.push_back(f);
-    });
-    return found.size();
+      if (!is_degenerate(q) && triangles_intersect(t, p, u, q)) ++found;
+    }
+    return found;
   }
 
-  std::size_t count(const Triangles& triangles, const Faces& except) const
+  // The intersections of the triangles with each other and with faces that are none of `except`; no
+  // more are counted once there are `most`. A triangle without area counts as one.
+  std::size_t count(const Triangles& triangles, const Faces& except, std::size_t most) const
   {
     std::size_t sum = 0;
-    for (auto t = triangles.begin(); t != triangles.end(); ++t) {
+    for (auto t = triangles.begin(); t != triangles.end() && sum < most; ++t) {
       if (is_degenerate(points(*t))) {
         ++sum;
         continue;
       }
-      sum += count(*t, except);
+      sum += count(*t, except, most - sum);
       for (auto u = triangles.begin(); u != t; ++u)
         if (!is_degenerate(points(*u)) && triangles_intersect(*t, points(*t), *u, points(*u)))
           ++sum;
@@ -202,19 +183,20 @@ private:
   bool adds_intersections(const Faces& old, const Triangles& fresh) const
   {
     const bool is_watched = std::any_of(fresh.begin(), fresh.end(), [this](const Corners& t) {
-      return m_is_watched[t[0]] || m_is_watched[t[1]] || m_is_watched[t[2]];
+      return std::max({m_sight[t[0]], m_sight[t[1]], m_sight[t[2]]}) == watched;
     });
     if (!is_watched) return false;
-    const std::size_t then = count(fresh, old);
-    if (then == 0) return false;
+    if (count(fresh, old, 1) == 0) return false;
     Triangles now;
     for (const Face f : old) now.push_back(corners(f));
-    return then > count(now, old);
+    const std::size_t before = count(now, old, std::size_t(-1));
+    return count(fresh, old, before + 1) > before;
   }
 
   const Working_mesh& m;
-  std::vector<char> m_is_watched;
-  std::map<int, Level> m_levels; // by the exponent of the cell size
+  std::vector<Sight> m_sight;      // by vertex
+  std::vector<char> m_is_inserted; // by face
+  Tree m_tree; // of the inserted faces' boxes
 };
 
 } // namespace internal

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/extraction/extract_guarded.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/remove_intersections.h>
 
@@ -26,7 +27,9 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
   result.points = samples.points;
   std::vector<int> name(working.samples);
   for (const auto v : mesh.vertices())
-    if (name[v] < 0 && !mesh.is_isolated(v)) {
+    if (name[v] >= 0)
+      result.points[name[v]] = working.point(v); // another one if the sample was exchanged
+    else if (!mesh.is_isolated(v)) {
       name[v] = int(result.points.size());
       result.points.push_back(working.point(v));
     }
@@ -55,10 +58,14 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
 /// `features`: the last samples; edges between those that are next to each other on a curve stay.
 /// Without it borders recede to the samples.
 ///
+/// `may_touch_itself`: self-intersections are let be (an opened surface touches itself along its
+/// seams).
+///
 /// \pre `surface` is an oriented 2-manifold
 /// \throw Invalid_input_error if it is not, or if a sample lies on no facet
 inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples,
-                                           const Feature_samples& features = {})
+                                           const Feature_samples& features = {},
+                                           bool may_touch_itself = false)
 {
   internal::Working_mesh mesh(internal::insert_samples(surface, samples, features.places));
   // While the mesh is fine, normals that differ by more than 84 degrees are a fold; among the
@@ -70,8 +77,24 @@ inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples
   internal::Edge_flipper flipper(mesh, -0.7);
   for (const auto e : mesh.mesh.edges()) flipper.push(e);
   flipper.run(20 * mesh.mesh.number_of_edges());
+  if (may_touch_itself) return internal::to_extracted_mesh(mesh, samples);
   internal::Intersection_remover(mesh, flipper).run();
-  return internal::to_extracted_mesh(mesh, samples);
+  std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
+  Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
+
+  // Where the samples are too sparse: more carefully, and more widely as long as that helps.
+  std::size_t fewest = sparse.size();
+  std::vector<internal::Ball> guarded;
+  for (double reach = 2; !sparse.empty() && reach <= 16; reach *= 2) {
+    guarded.insert(guarded.end(), sparse.begin(), sparse.end());
+    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach);
+    extraction.run();
+    sparse = internal::sparse_places(extraction.mesh());
+    if (sparse.size() >= fewest) break;
+    fewest = sparse.size();
+    result = internal::to_extracted_mesh(extraction.mesh(), samples);
+  }
+  return result;
 }
 
 } // namespace PowerRTF

@@ -1,17 +1,18 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Extraction where the samples are too sparse for the surface: a thin part, close sheets, a small
-// handle. No collapse and no flip may add a self-intersection there; the vertices of the surface
-// that have to stay for that become samples, in exchange for samples at flat places: their number
-// stays. Slower than `extract_by_insertion()`, which it mends. (An addition to the paper.)
+// Extraction by insertion where the samples are too sparse for the surface: a thin part, close
+// sheets, a small handle. No collapse and no flip may add a self-intersection there; the vertices of
+// the surface that have to stay for that become samples, in exchange for samples at flat places, so
+// that their number stays. (An addition to the paper.)
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 
-#include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/extraction/Intersection_guard.h>
+#include <CGAL/PowerRTF/extraction/decimate.h>
+#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/point_grid.h>
-#include <CGAL/PowerRTF/surface/surface_geometry.h>
-#include <CGAL/PowerRTF/surface/vertex_facets.h>
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
@@ -30,24 +31,49 @@ namespace PowerRTF
 namespace internal
 {
 
+struct Ball {
+  Vec3d center;
+  double radius;
+};
+
+/// Balls around the triangles that intersect others and around the vertices that are no samples.
+inline std::vector<Ball> sparse_places(const Working_mesh& m)
+{
+  using Face = Working_mesh::Mesh::Face_index;
+  const auto longest_edge = [&m](Working_mesh::Vertex v) {
+    double longest = 0;
+    for (const auto h : halfedges_around_target(v, m.mesh))
+      longest = std::max(longest, length(m.point(m.mesh.source(h)) - m.point(v)));
+    return longest;
+  };
+  std::vector<Ball> balls;
+  std::vector<std::pair<Face, Face>> pairs;
+  Polygon_mesh_processing::self_intersections(m.mesh, std::back_inserter(pairs));
+  for (const auto& [f, g] : pairs)
+    for (const Face face : {f, g})
+      for (const auto v : m.mesh.vertices_around_face(m.mesh.halfedge(face)))
+        balls.push_back({m.point(v), longest_edge(v)});
+  for (const auto v : m.mesh.vertices())
+    if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) balls.push_back({m.point(v), longest_edge(v)});
+  return balls;
+}
+
 class Guarded_extraction
 {
 public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
 
-  /// `movable`: the first so many samples may be exchanged. `is_watched`: function point -> whether
-  /// intersections matter there.
-  template <class Is_watched>
-  Guarded_extraction(const Surface& surface, Samples& samples, const Feature_samples& features,
-                     std::size_t movable, const Is_watched& is_watched)
-      : m_surface(surface), m_samples(samples), m_movable(movable),
-        m(insert_samples(surface, samples, features.places)), m_guard(m, flags(is_watched)),
+  /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
+  Guarded_extraction(const Surface& surface, const Samples& samples,
+                     const Feature_samples& features, const std::vector<Ball>& balls, double reach)
+      : m_movable(samples.size() - features.size()),
+        m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
         m_flipper(m, 0.1, &m_guard)
   {
   }
 
-  Extracted_mesh run()
+  void run()
   {
     m_flipper.push_around_samples();
     m_flipper.run(20 * m.mesh.number_of_edges());
@@ -56,15 +82,32 @@ public:
     Edge_flipper flipper(m, -0.7, &m_guard);
     for (const auto e : m.mesh.edges()) flipper.push(e);
     flipper.run(20 * m.mesh.number_of_edges());
-    return to_extracted_mesh(m, m_samples);
   }
 
+  const Working_mesh& mesh() const { return m; }
+
 private:
-  template <class Is_watched>
-  std::vector<char> flags(const Is_watched& is_watched) const
+  std::vector<Intersection_guard::Sight> sight(const std::vector<Ball>& balls, double reach) const
   {
-    std::vector<char> result;
-    for (const Vertex v : m.mesh.vertices()) result.push_back(is_watched(m.point(v)));
+    std::vector<Vec3d> centers;
+    double largest = 0;
+    for (const Ball& ball : balls) {
+      centers.push_back(ball.center);
+      largest = std::max(largest, ball.radius);
+    }
+    std::vector<int> all(balls.size());
+    std::iota(all.begin(), all.end(), 0);
+    const Point_grid grid(centers, all, 2 * reach * largest);
+    std::vector<Intersection_guard::Sight> result;
+    for (const Vertex v : m.mesh.vertices()) {
+      double nearest = 2 * reach; // in units of the balls' radii
+      grid.for_each_near(m.point(v), 2 * reach * largest, [&](int k, double squared_distance) {
+        nearest = std::min(nearest, std::sqrt(squared_distance) / balls[k].radius);
+      });
+      result.push_back(nearest < reach       ? Intersection_guard::watched
+                       : nearest < 2 * reach ? Intersection_guard::known
+                                             : Intersection_guard::unknown);
+    }
     return result;
   }
 
@@ -87,18 +130,10 @@ private:
         may_go[s] = false;
         m.samples[rest[k]] = s;
         m.samples[removable[k]] = -1;
-        for (const Halfedge h : halfedges_around_target(removable[k], m.mesh))
-          m_guard.watch(m.mesh.source(h));
-        put(s, rest[k]);
+        m_guard.watch_around(removable[k]);
       }
       decimate();
     }
-  }
-
-  void put(int s, Vertex v)
-  {
-    m_samples.points[s] = m.point(v);
-    m_samples.normals[s] = m.normals[v];
   }
 
   // Samples that are away from the vertices `rest`, no two of them neighbours, those first over
@@ -143,9 +178,7 @@ private:
   static constexpr int max_exchanges = 10;
   static constexpr int rings_kept = 2; // around vertices that must stay
 
-  const Surface& m_surface;
-  Samples& m_samples;
-  std::size_t m_movable;
+  std::size_t m_movable; // the first so many samples; the others are features
   Working_mesh m;
   Intersection_guard m_guard;
   Edge_flipper m_flipper;

@@ -89,7 +89,7 @@ private:
     Tip_coverer(stars, watch, Triangle_badness::tolerable).run(far);
     m_too_far.clear();
     for (int i = 0; i < watch.size(); ++i)
-      if (watch[i].face.is_valid() && watch[i].distance > m_largest_distance)
+      if (watch[i].distance > m_largest_distance)
         m_too_far.push_back(stars.working().mesh.face(watch[i].face));
   }
 

@@ -3,7 +3,7 @@
 //
 // Removes self-intersections by edge flips near the intersecting triangles, also flips that are not
 // Delaunay. They are rare: thin parts and close sheets with few or badly distributed samples. What
-// flips cannot repair stays, and the quality stage reports it.
+// flips cannot repair is left to `Guarded_extraction`.
 #ifndef CGAL_POWER_RTF_EXTRACTION_REMOVE_INTERSECTIONS_H
 #define CGAL_POWER_RTF_EXTRACTION_REMOVE_INTERSECTIONS_H
 
@@ -33,7 +33,7 @@ public:
   std::size_t run()
   {
     Pairs pairs = intersections(m.mesh.faces());
-    for (int round = 0; round < max_rounds && !pairs.empty() && m_trials < max_trials; ++round) {
+    for (int round = 0; round < max_rounds && !pairs.empty() && m_tested < max_tested; ++round) {
       for (const Pair& pair : pairs) separate(pair);
       pairs = intersections(m.mesh.faces());
     }
@@ -51,7 +51,7 @@ private:
 
   static constexpr int max_rounds = 5;
   static constexpr int max_flips = 8;     // for each pair
-  static constexpr int max_trials = 5000; // of flips, in all: hopeless cases must not cost minutes
+  static constexpr std::size_t max_tested = 100000; // faces: hopeless cases must not cost minutes
   static constexpr int rings = 2;
 
   template <class FaceRange>
@@ -66,9 +66,9 @@ private:
   // one.
   void separate(const Pair& pair)
   {
-    if (m_trials >= max_trials) return;
+    if (m_tested >= max_tested) return;
     if (intersections(std::vector<Face>{pair.first, pair.second}).empty()) return;
-    for (int i = 0; i < max_flips && m_trials < max_trials; ++i) {
+    for (int i = 0; i < max_flips && m_tested < max_tested; ++i) {
       const std::vector<Face> region = faces_around({pair.first, pair.second}, rings);
       std::size_t best = intersections(region).size();
       if (best == 0) return;
@@ -76,7 +76,7 @@ private:
       double best_shape = -1;
       for (const Edge e : edges_of(faces_around({pair.first, pair.second}, 1))) {
         if (!m_flipper.is_legal(e)) continue;
-        ++m_trials;
+        m_tested += region.size();
         m_flipper.flip(e);
         const std::size_t count = intersections(region).size();
         const double shape = worst_shape(e);
@@ -129,7 +129,7 @@ private:
 
   Working_mesh& m;
   Edge_flipper& m_flipper;
-  int m_trials = 0;
+  std::size_t m_tested = 0;
 };
 
 } // namespace internal

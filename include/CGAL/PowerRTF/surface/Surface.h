@@ -27,7 +27,8 @@ struct Normalization {
 };
 
 /// A triangulated, oriented 2-manifold surface (possibly with borders and several components) in
-/// the coordinates of the unit box, with the fields that steer the sampling.
+/// the coordinates of the unit box, with the fields that steer the sampling. One with one side only
+/// (a Moebius strip) is oriented but for its seams.
 struct Surface {
   std::vector<Vec3d> points;          ///< #V positions
   std::vector<Triangle> triangles;    ///< #F vertex indices, counter-clockwise seen from outside
@@ -37,6 +38,7 @@ struct Surface {
   std::vector<double> vertex_density; ///< #V densities rho > 0; 1 everywhere: uniform
   std::vector<int> input_vertices;    ///< #V place of each vertex among those of the input
   std::vector<Edge> creases;          ///< edges, smaller vertex first, that the result must keep
+  std::vector<Edge> seams;            ///< the creases at which the orientations do not agree
   /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
   std::vector<int> facet_patches;
   double area = 0;                    ///< sum of the facets' areas

@@ -185,10 +185,13 @@ inline void make_manifold(Triangle_soup& soup, Manifold_repair allowed, Repair_c
   if (adjacency.same_direction) {
     if (allowed == Manifold_repair::none)
       throw Invalid_input_error("the facets are not consistently oriented");
-    if (!orient_facets(triangles, adjacency, repairs.reoriented_facets))
-      throw Invalid_input_error(
-          "the surface cannot be oriented (it has one side only, like a Moebius strip)");
+    soup.seams = orient_facets(triangles, adjacency, repairs.reoriented_facets);
     adjacency = facet_adjacency(triangles, soup.points.size());
+    if (!soup.seams.empty()) {
+      if (!has_single_fans(triangles, adjacency, soup.points.size()))
+        refuse("it has one side only, and parts of it touch in a point only");
+      return;
+    }
   }
   const auto touching = count_non_manifold_vertices(triangles, adjacency, soup.points.size());
   if (touching == 0) return;
@@ -214,6 +217,8 @@ inline Surface compacted(const Triangle_soup& soup, const Normalization& normali
   surface.triangles = soup.triangles;
   for (Triangle& t : surface.triangles)
     for (int& v : t) v = new_index[v];
+  for (const Edge& e : soup.seams) surface.seams.push_back({new_index[e[0]], new_index[e[1]]});
+  surface.creases = surface.seams;
   surface.vertex_density.assign(surface.points.size(), 1);
   surface.normalization = normalization;
   return surface;
@@ -254,7 +259,7 @@ inline Surface clean_surface_of(const Polygon_soup& polygons, const std::vector<
                                 const Normalization& normalization, Manifold_repair allowed,
                                 Repair_counts& repairs)
 {
-  Triangle_soup soup{points, triangulated(polygons, points, vertex, repairs), {}};
+  Triangle_soup soup{points, triangulated(polygons, points, vertex, repairs), {}, {}};
   soup.originals.resize(points.size());
   std::iota(soup.originals.begin(), soup.originals.end(), 0);
   const std::size_t degenerate = degenerate_facets(soup.points, soup.triangles).size();
@@ -263,7 +268,7 @@ inline Surface clean_surface_of(const Polygon_soup& polygons, const std::vector<
     throw Invalid_input_error(std::to_string(degenerate) + " facet(s) have no area");
   make_manifold(soup, allowed, repairs);
   if (merge && allowed != Manifold_repair::none) close_cracks(soup, repairs);
-  if (degenerate > 0) {
+  if (degenerate > 0 && soup.seams.empty()) {
     const std::size_t before = degenerate_facets(soup.points, soup.triangles).size();
     repairs.duplicate_vertices += remove_degenerate_facets(soup.points, soup.triangles);
     repairs.degenerate_facets += before - degenerate_facets(soup.points, soup.triangles).size();

@@ -136,9 +136,12 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
   for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
     const int o = adjacency.opposite[h];
     if (o < h) continue; // border, or seen
-    const double cosine = dot(surface.facet_normals[h / 3], surface.facet_normals[o / 3]);
-    if (cosine > cos_soft) continue;
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+    const bool is_seam =
+        std::binary_search(surface.seams.begin(), surface.seams.end(), internal::sorted_edge(a, b));
+    const double cosine =
+        dot(surface.facet_normals[h / 3], surface.facet_normals[o / 3]) * (is_seam ? -1 : 1);
+    if (cosine > cos_soft) continue;
     const double l = length(surface.points[b] - surface.points[a]);
     (cosine <= cos_sharp ? sharp : soft) += l;
     if (cosine <= cos_sharp) creases.push_back(internal::sorted_edge(a, b));

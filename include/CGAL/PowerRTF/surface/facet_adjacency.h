@@ -144,9 +144,12 @@ inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& tria
 
 /// Turns facets so that neighbours agree; in each component as few as possible.
 /// \param partners function halfedge -> range of the halfedges that must run the other way
+/// \param is_allowed function halfedge, partner -> bool, called where neighbours cannot agree:
+///   whether to go on
 /// \returns false if a component cannot be oriented; `turned` counts the turned facets
-template <class Partners>
-bool orient_facets(std::vector<Triangle>& triangles, const Partners& partners, std::size_t& turned)
+template <class Partners, class IsAllowed>
+bool orient_facets(std::vector<Triangle>& triangles, const Partners& partners,
+                   const IsAllowed& is_allowed, std::size_t& turned)
 {
   const int facets = static_cast<int>(triangles.size());
   std::vector<char> side(facets, -1); // 1: turned with respect to the component's first facet
@@ -166,7 +169,7 @@ bool orient_facets(std::vector<Triangle>& triangles, const Partners& partners, s
           if (side[o / 3] < 0) {
             side[o / 3] = expected;
             component.push_back(o / 3);
-          } else if (side[o / 3] != expected) return false;
+          } else if (side[o / 3] != expected && !is_allowed(h, o)) return false;
         }
     }
     const char minority = 2 * ones <= component.size() ? 1 : 0;
@@ -179,16 +182,55 @@ bool orient_facets(std::vector<Triangle>& triangles, const Partners& partners, s
 }
 
 /// The same, of facets that share an edge with one other.
-inline bool orient_facets(std::vector<Triangle>& triangles, const Facet_adjacency& adjacency,
-                          std::size_t& turned)
+/// \returns the edges, smaller vertex first, sorted, at which neighbours do not agree: a component
+///   with one side only is oriented once it is cut there
+inline std::vector<Edge> orient_facets(std::vector<Triangle>& triangles,
+                                       const Facet_adjacency& adjacency, std::size_t& turned)
 {
-  return orient_facets(
+  std::vector<Edge> seams;
+  orient_facets(
       triangles,
       [&](int h) {
         return boost::make_iterator_range_n(&adjacency.opposite[h],
                                             adjacency.opposite[h] == Facet_adjacency::none ? 0 : 1);
       },
+      [&](int h, int) {
+        const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+        seams.push_back({(std::min)(a, b), (std::max)(a, b)});
+        return true;
+      },
       turned);
+  std::sort(seams.begin(), seams.end());
+  seams.erase(std::unique(seams.begin(), seams.end()), seams.end());
+  return seams;
+}
+
+/// Whether the facets at each vertex form one fan, whatever their orientations.
+inline bool has_single_fans(const std::vector<Triangle>& triangles, const Facet_adjacency& adjacency,
+                            std::size_t number_of_vertices)
+{
+  // An edge joins two facets at both its ends; a fan of k facets has k - 1 edges, or k if closed.
+  std::vector<int> parent(3 * triangles.size());
+  for (std::size_t c = 0; c < parent.size(); ++c) parent[c] = static_cast<int>(c);
+  const auto root = [&](int c) {
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  const auto corner_at = [&](int f, int v) {
+    return triangles[f][0] == v ? 3 * f : triangles[f][1] == v ? 3 * f + 1 : 3 * f + 2;
+  };
+  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
+    if (adjacency.opposite[h] < h) continue;
+    for (const int v : {halfedge_source(triangles, h), halfedge_target(triangles, h)})
+      parent[root(corner_at(h / 3, v))] = root(corner_at(adjacency.opposite[h] / 3, v));
+  }
+  std::vector<int> fan(number_of_vertices, -1);
+  for (int c = 0; c < static_cast<int>(parent.size()); ++c) {
+    int& of_vertex = fan[triangles[c / 3][c % 3]];
+    if (of_vertex < 0) of_vertex = root(c);
+    else if (of_vertex != root(c)) return false;
+  }
+  return true;
 }
 
 } // namespace PowerRTF

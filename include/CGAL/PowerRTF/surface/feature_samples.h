@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/surface/cut_surface.h>
 #include <CGAL/PowerRTF/surface/feature_curves.h>
 #include <CGAL/PowerRTF/surface/gradation.h>
+#include <CGAL/PowerRTF/surface/narrow_patches.h>
 
 #include <algorithm>
 #include <array>
@@ -292,16 +293,25 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
   return internal::Feature_sampler(surface, cut, curves).run(spacing);
 }
 
-/// Sets the creases that `options` asks for. They are left out when they need more than half of the
+/// Sets the creases that `options` asks for. Of those closer together than h / 2, h = sqrt(area / n),
+/// only one is kept. They are left out when they need more than half of the
 /// samples: so few samples show the shape better without.
 inline void set_creases(Surface& surface, const Remeshing_options& options)
 {
   if (!(options.feature_angle > 0 && options.feature_angle <= 180))
     throw Invalid_input_error("the angle of features must lie between 0 and 180 degrees");
-  surface.creases.clear();
+  surface.creases = surface.seams;
   if (options.feature_angle == 180) return;
-  surface.creases = find_creases(surface, options.feature_angle, options.number_of_samples);
-  if (2 * min_feature_samples(surface) > options.number_of_samples) surface.creases.clear();
+  const std::vector<Edge> found =
+      find_creases(surface, options.feature_angle, options.number_of_samples);
+  surface.creases.insert(surface.creases.end(), found.begin(), found.end());
+  std::sort(surface.creases.begin(), surface.creases.end());
+  surface.creases.erase(std::unique(surface.creases.begin(), surface.creases.end()),
+                        surface.creases.end());
+  const double h = std::sqrt(surface.area / static_cast<double>(options.number_of_samples));
+  join_narrow_patches(surface, 0.5 * h);
+  if (2 * min_feature_samples(surface) > options.number_of_samples)
+    surface.creases = surface.seams;
 }
 
 } // namespace PowerRTF

@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/surface/random_source.h>
 #include <CGAL/PowerRTF/surface/sample_elimination.h>
 #include <CGAL/PowerRTF/surface/surface_geometry.h>
+#include <CGAL/PowerRTF/surface/topology_minimum.h>
 
 #include <algorithm>
 #include <array>
@@ -239,7 +240,9 @@ inline Samples sample_surface(const Surface& surface, const Remeshing_options& o
   std::vector<double> masses;
   for (int c = 0; c < components; ++c) masses.push_back(by_density.mass(c));
   std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
-  std::vector<std::size_t> least(components, internal::min_samples_per_component);
+  std::vector<std::size_t> least;
+  for (const Component_topology& c : component_topologies(surface.triangles, surface.points.size()))
+    least.push_back(c.least_samples());
   const double cell_mass = density_integral(surface) / equivalent_cells(options.number_of_samples, features);
   for (std::size_t s = 0; s < features.sites.size(); ++s) {
     const int c = features.sites.patches[s];

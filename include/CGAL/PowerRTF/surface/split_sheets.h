@@ -27,6 +27,7 @@ struct Triangle_soup {
   std::vector<Vec3d> points;
   std::vector<Triangle> triangles;
   std::vector<int> originals; ///< for each vertex the one of the input that it is or copies
+  std::vector<Edge> seams;    ///< see `Surface`
 };
 
 namespace internal {
@@ -135,7 +136,7 @@ inline bool orient_crowds(std::vector<Triangle>& triangles, const Facet_adjacenc
   for (std::size_t h = 0; h < partners.size(); ++h)
     if (adjacency.opposite[h] != Facet_adjacency::none) partners[h] = {adjacency.opposite[h]};
   return orient_facets(triangles, [&](int h) -> const std::vector<int>& { return partners[h]; },
-                       turned);
+                       [](int, int) { return false; }, turned);
 }
 
 /// Gives each fan of facets around a vertex a vertex of its own; the first keeps the vertex.

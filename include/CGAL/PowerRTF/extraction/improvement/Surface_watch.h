@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The distance from the surface to the mesh, seen from the surface's vertices. Each knows the point
-// of the mesh that is nearest to it, on a face whose normal agrees. After changes of the mesh it is
-// found again by going downhill from face to face, which can overestimate small distances; large
-// ones are exact.
+// of the mesh that is nearest to it, on a face whose normal agrees (if there is one). After changes
+// of the mesh it is found again by going downhill from face to face, which can overestimate small
+// distances; large ones are exact.
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_WATCH_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_WATCH_H
 
@@ -37,21 +37,25 @@ public:
   /// A point of the surface and where the mesh is nearest to it.
   struct Watched {
     Vec3d point, normal;
-    double weight;                     ///< area of the surface that it stands for, of its vertices
-    Halfedge face;                     ///< invalid: no face agrees
+    double weight; ///< area of the surface that it stands for, of its vertices
+    Halfedge face;
     std::array<double, 3> barycentric; ///< of the nearest point: source, target, apex of `face`
     Vec3d nearest;
     double distance;
   };
 
+  /// \pre `mesh` has a face
   explicit Surface_watch(const Star_mesh& mesh)
       : m_mesh(&mesh), m_far(large * std::sqrt(mesh.guide().surface().area / double(mesh.size())))
   {
     choose_points();
-    std::vector<Watched*> all;
-    for (Watched& w : m_points) all.push_back(&w);
-    find(all);
-    assign();
+    Halfedge start = topology().halfedge(*topology().faces().begin());
+    for (Watched& w : m_points) { // they are in spatial order: most often it is not far
+      w.face = start;
+      go_downhill(w);
+      if (w.distance <= m_far) start = w.face;
+    }
+    find_far();
   }
 
   /// The same for a copy of that mesh.
@@ -66,22 +70,15 @@ public:
   double max_distance() const
   {
     double d = 0;
-    for (const Watched& w : m_points)
-      if (w.face.is_valid()) d = std::max(d, w.distance);
+    for (const Watched& w : m_points) d = std::max(d, w.distance);
     return d;
   }
 
   /// After any changes of the mesh.
   void update()
   {
-    std::vector<Watched*> far;
-    for (Watched& w : m_points)
-      if (w.face.is_valid()) {
-        go_downhill(w);
-        if (w.distance > m_far) far.push_back(&w);
-      }
-    find(far);
-    assign();
+    for (Watched& w : m_points) go_downhill(w);
+    find_far();
   }
 
   /// The largest distance of what is nearest to the star of `v`, with `v` at `p`.
@@ -154,10 +151,18 @@ private:
     }
   }
 
-  // The nearest points, by a search in the whole mesh.
+  // Those that seem to be far are searched for in the whole mesh.
+  void find_far()
+  {
+    std::vector<Watched*> far;
+    for (Watched& w : m_points)
+      if (w.distance > m_far) far.push_back(&w);
+    if (!far.empty()) find(far);
+    assign();
+  }
+
   void find(const std::vector<Watched*>& some)
   {
-    if (some.empty()) return;
     std::vector<Vec3d> points;
     std::vector<Triangle> triangles;
     std::vector<Halfedge> halfedges;
@@ -171,10 +176,9 @@ private:
     const Facet_tree tree(points, triangles);
     int hint = -1;
     for (Watched* w : some) {
-      const auto y = nearest_facet(tree.view(), w->point, w->normal, largest_turn, hint);
-      if (y.facet < 0) continue;
-      hint = y.facet;
-      look_at(*w, halfedges[y.facet], Vertex(), {}, std::numeric_limits<double>::infinity());
+      hint = nearest_facet(tree.view(), w->point, w->normal, largest_turn, hint).facet;
+      if (hint < 0) hint = tree.nearest(w->point).facet; // none agrees: any
+      look_at(*w, halfedges[hint], Vertex(), {}, any);
     }
   }
 
@@ -182,11 +186,17 @@ private:
   {
     m_at_face.resize(topology().number_of_faces());
     for (auto& here : m_at_face) here.clear();
-    for (int i = 0; i < size(); ++i)
-      if (m_points[i].face.is_valid()) m_at_face[topology().face(m_points[i].face)].push_back(i);
+    for (int i = 0; i < size(); ++i) m_at_face[topology().face(m_points[i].face)].push_back(i);
   }
 
-  // Takes the face of `h` if it is nearer than `distance` and agrees. With v at p.
+  static bool agrees(const Watched& w, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+  {
+    const Vec3d n = cross(b - a, c - a);
+    return dot(n, w.normal) > largest_turn * length(n);
+  }
+
+  // Takes the face of `h` if it is nearer than `distance` and agrees, or if `distance` is `any`.
+  // With v at p.
   bool look_at(Watched& w, Halfedge h, Vertex v, const Vec3d& p, double distance) const
   {
     const auto& mesh = topology();
@@ -194,12 +204,7 @@ private:
     const Vec3d a = at(mesh.source(h)), b = at(mesh.target(h)), c = at(mesh.target(mesh.next(h)));
     const Vec3d y = nearest_point_on_triangle(w.point, a, b, c);
     const double d = length(y - w.point);
-    if (!(d < distance)) return false;
-    const Vec3d n = cross(b - a, c - a);
-    const double l = length(n);
-    if (distance < std::numeric_limits<double>::infinity() &&
-        !(dot(n, w.normal) > largest_turn * l))
-      return false;
+    if (distance < any && !(d < distance && agrees(w, a, b, c))) return false;
     double beta, gamma;
     barycentric_coordinates(y, a, b, c, beta, gamma);
     w.face = h;
@@ -213,7 +218,10 @@ private:
   void go_downhill(Watched& w) const
   {
     const auto& mesh = topology();
-    look_at(w, w.face, Vertex(), {}, std::numeric_limits<double>::infinity());
+    look_at(w, w.face, Vertex(), {}, any);
+    if (!agrees(w, m_mesh->point(mesh.source(w.face)), m_mesh->point(mesh.target(w.face)),
+                m_mesh->point(mesh.target(mesh.next(w.face)))))
+      w.distance = disagreement; // worse than all that agree
     for (int step = 0; step < max_steps; ++step) {
       const std::array<Halfedge, 3> around{w.face, mesh.next(w.face), mesh.prev(w.face)};
       int corner = -1, opposite = -1; // of the corners source, target, apex
@@ -251,10 +259,12 @@ private:
 
   void find(Watched& w, const Faces& faces, Vertex v, const Vec3d& p) const
   {
-    look_at(w, w.face, v, p, std::numeric_limits<double>::infinity());
+    look_at(w, w.face, v, p, any);
     for (const Face f : faces) look_at(w, topology().halfedge(f), v, p, w.distance);
   }
 
+  static constexpr double disagreement = std::numeric_limits<double>::max();
+  static constexpr double any = std::numeric_limits<double>::infinity();
   static constexpr double rounding = 1e-9;   // of barycentric coordinates
   static constexpr double closer = 1 - 1e-9; // what is less than this times is less
 

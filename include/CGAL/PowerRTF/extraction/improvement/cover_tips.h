@@ -42,8 +42,7 @@ public:
     const double least = share * m_watch.max_distance();
     std::vector<std::pair<double, int>> far;
     for (int i = 0; i < m_watch.size(); ++i)
-      if (m_watch[i].face.is_valid() && m_watch[i].distance > least)
-        far.push_back({-m_watch[i].distance, i});
+      if (m_watch[i].distance > least) far.push_back({-m_watch[i].distance, i});
     std::sort(far.begin(), far.end());
     std::size_t covered = 0, tried = 0;
     for (const auto& [d, i] : far) {

@@ -101,7 +101,6 @@ private:
         watched_share * std::min(1., double(m_watch.size()) / (watched_fully * double(m.size())));
     for (int i = 0; i < m_watch.size(); ++i) {
       const auto& w = m_watch[i];
-      if (!w.face.is_valid()) continue;
       const Edges edges{w.face, mesh.next(w.face), mesh.prev(w.face)};
       const Vec3d direction = w.distance > 0 ? (w.point - w.nearest) * (1 / w.distance) : w.normal;
       add(edges, w.barycentric, direction, w.distance, share * w.weight);

@@ -96,7 +96,7 @@ private:
   static constexpr double first_step = 0.2; // in edges of the star
   static constexpr int halvings = 3;
   static constexpr int max_steps = 8;
-  static constexpr double least_shape = 0.5; // of triangles that a flip may make
+  static constexpr double least_shape = 0.6; // of triangles that a flip may make
 
   using Vertices = boost::container::small_vector<Vertex, 16>;
 

@@ -47,17 +47,21 @@ inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const V
   if (s[1] > s[2]) std::swap(s[1], s[2]);
   if (s[0] > s[1]) std::swap(s[0], s[1]);
   const double l0 = std::sqrt(s[0]), l1 = std::sqrt(s[1]), l2 = std::sqrt(s[2]);
-  const double q = 2 * 1.7320508075688772 * twice_area / ((l0 + l1 + l2) * l2);
   result.inverse_mean_ratio = (s[0] + s[1] + s[2]) / (2 * 1.7320508075688772 * twice_area);
-  if (q < quality) result.badness += 4 * (quality - q) * (quality - q);
-  const double cos_min = (s[1] + s[2] - s[0]) / (2 * l1 * l2),
-               cos_max = (s[0] + s[1] - s[2]) / (2 * l0 * l1);
-  if (cos_min > cos_smallest) {
-    const double x = (smallest - std::acos(std::min(1., cos_min)) * degrees) / 60;
+  // the divisions only for what is bad
+  const double q_above = 2 * 1.7320508075688772 * twice_area, q_below = (l0 + l1 + l2) * l2,
+               min_above = s[1] + s[2] - s[0], min_below = 2 * l1 * l2,
+               max_above = s[0] + s[1] - s[2], max_below = 2 * l0 * l1;
+  if (q_above < quality * q_below) {
+    const double x = quality - q_above / q_below;
     result.badness += 4 * x * x;
   }
-  if (cos_max < cos_largest) {
-    const double x = (std::acos(std::max(-1., cos_max)) * degrees - largest) / 60;
+  if (min_above > cos_smallest * min_below) {
+    const double x = (smallest - std::acos(std::min(1., min_above / min_below)) * degrees) / 60;
+    result.badness += 4 * x * x;
+  }
+  if (max_above < cos_largest * max_below) {
+    const double x = (std::acos(std::max(-1., max_above / max_below)) * degrees - largest) / 60;
     result.badness += 8 * x * x;
   }
   return result;
