@@ -68,7 +68,7 @@ struct Stage_seconds {
 /// What ran the optimisation, when it was no CPU.
 struct Device_report {
   std::string name;      ///< of the GPU; empty: the CPU
-  double seconds = 0;    ///< on the device, from the first samples to the last cells
+  double seconds = 0;    ///< on the device, from the upload of the first samples to the last cells
   std::size_t bytes = 0; ///< of memory held on the device
 };
 

@@ -82,17 +82,20 @@ inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples
   std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
   Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
 
-  // Where the samples are too sparse: more carefully, and more widely as long as that helps.
+  // Where the samples are too sparse: more carefully there, and more widely if that does not help.
   std::size_t fewest = sparse.size();
   std::vector<internal::Ball> guarded;
-  for (double reach = 2; !sparse.empty() && reach <= 16; reach *= 2) {
+  for (const double reach : {2., 8., 1e3}) {
+    if (sparse.empty()) break;
     guarded.insert(guarded.end(), sparse.begin(), sparse.end());
     internal::Guarded_extraction extraction(surface, samples, features, guarded, reach);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
-    if (sparse.size() >= fewest) break;
-    fewest = sparse.size();
-    result = internal::to_extracted_mesh(extraction.mesh(), samples);
+    if (sparse.size() < fewest) {
+      fewest = sparse.size();
+      result = internal::to_extracted_mesh(extraction.mesh(), samples);
+    }
+    if (extraction.is_hopeless()) break;
   }
   return result;
 }

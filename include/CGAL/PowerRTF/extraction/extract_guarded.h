@@ -75,6 +75,7 @@ public:
 
   void run()
   {
+    m_input_intersects = Polygon_mesh_processing::does_self_intersect(m.mesh);
     m_flipper.push_around_samples();
     m_flipper.run(20 * m.mesh.number_of_edges());
     decimate();
@@ -85,6 +86,8 @@ public:
   }
 
   const Working_mesh& mesh() const { return m; }
+  /// Whether more care would not help: the surface intersects itself, or there are too few samples.
+  bool is_hopeless() const { return m_input_intersects || m_rest.size() > m_movable; }
 
 private:
   std::vector<Intersection_guard::Sight> sight(const std::vector<Ball>& balls, double reach) const
@@ -119,16 +122,18 @@ private:
   {
     std::vector<char> may_go(m_movable, true);
     for (int round = 0; round < max_exchanges; ++round) {
-      std::vector<Vertex> rest;
+      m_rest.clear();
       for (const Vertex v : m.mesh.vertices())
-        if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) rest.push_back(v);
-      const std::vector<Vertex> removable = removable_samples(rest, may_go);
-      const std::size_t count = std::min(rest.size(), removable.size());
-      if (count == 0) return;
+        if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
+      std::vector<Vertex> removable;
+      for (int rings = 2; rings >= 0 && removable.empty(); --rings)
+        removable = removable_samples(rings, may_go);
+      const std::size_t count = std::min(m_rest.size(), removable.size());
+      if (count == 0 || m_rest.size() > m_movable) return;
       for (std::size_t k = 0; k < count; ++k) {
         const int s = m.samples[removable[k]];
         may_go[s] = false;
-        m.samples[rest[k]] = s;
+        m.samples[m_rest[k]] = s;
         m.samples[removable[k]] = -1;
         m_guard.watch_around(removable[k]);
       }
@@ -136,14 +141,13 @@ private:
     }
   }
 
-  // Samples that are away from the vertices `rest`, no two of them neighbours, those first over
-  // whose neighbours the mesh is least high.
-  std::vector<Vertex> removable_samples(const std::vector<Vertex>& rest,
-                                        const std::vector<char>& may_go) const
+  // Samples that are so many edges away from the vertices that are to stay, no two of them
+  // neighbours, those first over whose neighbours the mesh is least high.
+  std::vector<Vertex> removable_samples(int rings, const std::vector<char>& may_go) const
   {
     std::vector<char> is_near(m.samples.size(), false);
-    for (const Vertex v : rest) is_near[v] = true;
-    for (int ring = 0; ring < rings_kept; ++ring) {
+    for (const Vertex v : m_rest) is_near[v] = true;
+    for (int ring = 0; ring < rings; ++ring) {
       const std::vector<char> inner = is_near;
       for (const auto e : m.mesh.edges()) {
         const Vertex a = m.mesh.vertex(e, 0), b = m.mesh.vertex(e, 1);
@@ -176,9 +180,10 @@ private:
   }
 
   static constexpr int max_exchanges = 10;
-  static constexpr int rings_kept = 2; // around vertices that must stay
 
   std::size_t m_movable; // the first so many samples; the others are features
+  std::vector<Vertex> m_rest; // could not be removed, though they were no samples
+  bool m_input_intersects = false;
   Working_mesh m;
   Intersection_guard m_guard;
   Edge_flipper m_flipper;

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Improvement of an extracted mesh: rounder triangles by flips and
-// smoothing, a targeted search for the few that stay bad, and moves along the normal that bring the
-// mesh nearer to the surface. (An addition to the paper.)
+// Improvement of an extracted mesh: rounder triangles by flips and smoothing, a targeted search for
+// the few that stay bad, a least-squares fit that brings the mesh nearer to the surface, and
+// vertices for the places that are farthest from it. (An addition to the paper.)
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVE_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVE_MESH_H
 
@@ -11,6 +11,8 @@
 #include <CGAL/PowerRTF/extraction/improvement/cover_tips.h>
 #include <CGAL/PowerRTF/extraction/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>
+#include <CGAL/PowerRTF/extraction/improvement/relocate_vertices.h>
+#include <CGAL/PowerRTF/extraction/improvement/slide_features.h>
 #include <CGAL/PowerRTF/extraction/improvement/smooth_stars.h>
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
@@ -32,7 +34,7 @@ class Mesh_improver
 public:
   /// \throw Invalid_input_error if `raw` is not an oriented 2-manifold
   Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw)
-      : m_guide(surface, tree), m_raw(raw), m_locked(raw.points.size(), false),
+      : m_surface(surface), m_guide(surface, tree), m_raw(raw), m_locked(raw.points.size(), false),
         m_raw_stars(raw, m_guide), m_raw_watch(m_raw_stars),
         m_largest_distance(m_raw_watch.max_distance() +
                            worsening * std::sqrt(surface.area / double(raw.points.size())))
@@ -64,6 +66,7 @@ private:
   static constexpr int max_attempts = 5;
   static constexpr int smoothing_steps = 4;
   static constexpr int mending_rounds = 8;
+  static constexpr int sliding_rounds = 4;
   static constexpr double far = 0.7;   // share of the maximal distance from which tips are covered
   static constexpr double rough = 0.3; // badness that the mending after it can heal
 
@@ -77,6 +80,10 @@ private:
     }
     const auto mend = [&] { Star_mender(stars, flipper).run(mending_rounds); };
     mend();
+    if (!m_raw.feature_edges.empty()) {
+      Feature_slider(stars, m_surface).run(sliding_rounds);
+      mend();
+    }
     Surface_watch watch(m_raw_watch, stars);
     watch.update();
     Tip_coverer(stars, watch, rough).run(far);
@@ -86,6 +93,7 @@ private:
     mend();
     if (Star_mender(stars, flipper).release_pinned() > 0) mend();
     watch.update();
+    Vertex_relocator(stars, flipper, watch).run(far);
     Tip_coverer(stars, watch, Triangle_badness::tolerable).run(far);
     m_too_far.clear();
     for (int i = 0; i < watch.size(); ++i)
@@ -118,6 +126,7 @@ private:
     return !broken.empty();
   }
 
+  const Surface& m_surface;
   Surface_guide m_guide;
   const Extracted_mesh& m_raw;
   std::vector<char> m_locked;
@@ -129,10 +138,11 @@ private:
 
 } // namespace internal
 
-/// Improves the triangles of `mesh` and its distance to `surface`. Keeps the vertices' number and
-/// order, the topology, and the place of border vertices. Makes no self-intersection. The largest
-/// distance of the surface's vertices to the mesh grows by at most 0.2 h, h = sqrt(area / n). Where
-/// an improvement would break one of these, everything stays as it is.
+/// Improves the triangles of `mesh` and its distance to `surface`. Keeps the vertices' number, the
+/// topology, the feature edges and the border; vertices on these slide along them where that
+/// helps, corners stay, the others move, and a few may go far. Makes no self-intersection. The
+/// largest distance of the surface's vertices to the mesh grows by at most 0.2 h, h = sqrt(area /
+/// n). Where an improvement would break one of these, everything stays as it is.
 ///
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches.

@@ -52,6 +52,8 @@ void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report
   report.feature_edges = mesh.feature_edges.size();
   report.lost_feature_edges = internal::lost_feature_edges(mesh);
   report.self_intersections = self_intersections(mesh.points, mesh.triangles);
+  if (report.self_intersections > 0)
+    report.input_self_intersections = self_intersections(surface.points, surface.triangles);
   report.quality = triangle_quality(mesh.points, mesh.triangles);
   report.distance = surface_distance<ConcurrencyTag>(surface.points, surface.triangles, mesh.points,
                                                      mesh.triangles);

@@ -7,12 +7,13 @@
 #ifndef CGAL_POWER_RTF_QUALITY_SELF_INTERSECTIONS_H
 #define CGAL_POWER_RTF_QUALITY_SELF_INTERSECTIONS_H
 
+#include <CGAL/PowerRTF/internal/triangles_intersect.h>
 #include <CGAL/PowerRTF/surface/Surface.h>
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 
+#include <array>
 #include <vector>
 
 namespace CGAL
@@ -25,8 +26,7 @@ namespace internal
 /// Decides whether two facets of a soup meet in more than the vertices and edges that they share.
 class Facets_intersect
 {
-  using Kernel = Exact_predicates_inexact_constructions_kernel;
-  using Point = Kernel::Point_3;
+  using Point = Epick::Point_3;
 
 public:
   Facets_intersect(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
@@ -42,39 +42,15 @@ public:
 
   bool operator()(int f, int g) const
   {
-    const Triangle &s = m_triangles[f], &t = m_triangles[g];
-    int shared = 0, k_s = 0, k_t = 0; // the last pair of corners with the same vertex
-    bool s_is_shared[3] = {false, false, false}, t_is_shared[3] = {false, false, false};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (s[i] == t[j]) {
-          ++shared;
-          s_is_shared[i] = t_is_shared[j] = true;
-          k_s = i;
-          k_t = j;
-        }
-    if (shared == 0) return do_intersect(triangle(s), triangle(t));
-    if (shared == 1)
-      return do_intersect(triangle(s), opposite_edge(t, k_t)) ||
-             do_intersect(triangle(t), opposite_edge(s, k_s));
-    if (shared == 3) return true;
-    // a shared edge: the facets overlap when they are coplanar and on the same side of it
-    const int a = s_is_shared[0] ? (s_is_shared[1] ? 2 : 1) : 0; // the corners off the edge
-    const int b = t_is_shared[0] ? (t_is_shared[1] ? 2 : 1) : 0;
-    const Point p = point(s[(a + 1) % 3]), q = point(s[(a + 2) % 3]), r = point(s[a]),
-                x = point(t[b]);
-    return coplanar(p, q, r, x) && coplanar_orientation(p, q, r, x) == POSITIVE;
+    return triangles_intersect(m_triangles[f], points(f), m_triangles[g], points(g));
   }
 
 private:
   Point point(int v) const { return Point(m_points[v].x, m_points[v].y, m_points[v].z); }
-  Kernel::Triangle_3 triangle(const Triangle& t) const
+  std::array<Point, 3> points(int f) const
   {
-    return Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
-  }
-  Kernel::Segment_3 opposite_edge(const Triangle& t, int k) const
-  {
-    return Kernel::Segment_3(point(t[(k + 1) % 3]), point(t[(k + 2) % 3]));
+    const Triangle& t = m_triangles[f];
+    return {point(t[0]), point(t[1]), point(t[2])};
   }
 
   const std::vector<Vec3d>& m_points;

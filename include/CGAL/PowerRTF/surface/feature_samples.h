@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/surface/curve_samples.h>
 #include <CGAL/PowerRTF/surface/cut_surface.h>
 #include <CGAL/PowerRTF/surface/feature_curves.h>
 #include <CGAL/PowerRTF/surface/gradation.h>
@@ -18,19 +19,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace PowerRTF {
-
-/// A place on an edge of the surface, or at a vertex (`from == to`).
-struct Edge_place {
-  int from, to;
-  double at; ///< 0: at `from`, 1: at `to`
-};
 
 struct Feature_samples {
   Samples samples;                ///< their normals are the means over the patches
@@ -46,97 +40,27 @@ struct Feature_samples {
 
 namespace internal {
 
-class Feature_sampler {
+/// Makes the samples and sites of places on curves.
+class Feature_site_builder {
 public:
   /// `cut`: `surface`, cut along its creases.
-  Feature_sampler(const Surface& surface, const Cut_surface& cut,
-                  const std::vector<Feature_curve>& curves)
-      : m_surface(surface), m_cut(cut), m_curves(curves)
-  {}
-
-  /// `spacing`: the constant C of the spacing C / sqrt(rho).
-  Feature_samples run(double spacing)
+  Feature_site_builder(const Surface& surface, const Cut_surface& cut, Curve_samples&& curves)
+      : m_surface(surface), m_cut(cut)
   {
-    for (const Feature_curve& curve : m_curves) sample(curve, spacing);
-    add_sites();
-    return std::move(m_result);
-  }
-
-  /// The number of samples that `run()` makes.
-  std::size_t count(double spacing) const
-  {
-    std::size_t count = 0;
-    std::vector<char> is_corner(m_surface.points.size(), 0);
-    for (const Feature_curve& curve : m_curves) {
-      count += segments(curve, spacing);
-      if (!curve.has_corners) continue;
-      --count;
-      is_corner[curve.vertices.front()] = is_corner[curve.vertices.back()] = 1;
+    m_result.places = std::move(curves.places);
+    m_result.edges = std::move(curves.edges);
+    for (const Edge_place& place : m_result.places) {
+      const Vec3d &a = surface.points[place.from], &b = surface.points[place.to];
+      const double ra = surface.vertex_density[place.from], rb = surface.vertex_density[place.to];
+      m_result.samples.points.push_back(a + (b - a) * place.at);
+      m_result.samples.density.push_back(ra + (rb - ra) * place.at);
     }
-    return count + std::count(is_corner.begin(), is_corner.end(), 1);
+    add_sites();
   }
+
+  Feature_samples release() { return std::move(m_result); }
 
 private:
-  /// Length of edge `ab` in units of sqrt(rho), integrated over the linear density.
-  double weighted_length(int a, int b) const
-  {
-    const double ra = std::sqrt(m_surface.vertex_density[a]), rb = std::sqrt(m_surface.vertex_density[b]);
-    const double mean = 2. / 3 * (ra * ra + ra * rb + rb * rb) / (ra + rb);
-    return mean * length(m_surface.points[b] - m_surface.points[a]);
-  }
-
-  std::size_t segments(const Feature_curve& curve, double spacing) const
-  {
-    double sum = 0;
-    for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k)
-      sum += weighted_length(curve.vertices[k], curve.vertices[k + 1]);
-    const bool is_closed = curve.vertices.front() == curve.vertices.back();
-    const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
-    return static_cast<std::size_t>((std::max)(least, std::floor(sum / spacing + 0.5)));
-  }
-
-  int add_sample(const Edge_place& place)
-  {
-    const auto& p = m_surface.points;
-    const auto& rho = m_surface.vertex_density;
-    m_result.places.push_back(place);
-    m_result.samples.points.push_back(p[place.from] + (p[place.to] - p[place.from]) * place.at);
-    m_result.samples.density.push_back(rho[place.from] + (rho[place.to] - rho[place.from]) * place.at);
-    return static_cast<int>(m_result.places.size()) - 1;
-  }
-
-  int corner_sample(int v)
-  {
-    const auto [it, is_new] = m_corners.insert({v, 0});
-    if (is_new) it->second = add_sample({v, v, 0});
-    return it->second;
-  }
-
-  void sample(const Feature_curve& curve, double spacing)
-  {
-    const auto& vertices = curve.vertices;
-    std::vector<double> sums(1, 0); // along the curve
-    for (std::size_t k = 0; k + 1 < vertices.size(); ++k)
-      sums.push_back(sums.back() + weighted_length(vertices[k], vertices[k + 1]));
-    const std::size_t n = segments(curve, spacing);
-    const int first = curve.has_corners ? corner_sample(vertices.front()) : add_sample({vertices[0], vertices[0], 0});
-    int last = first;
-    std::size_t k = 0;
-    for (std::size_t s = 1; s < n; ++s) {
-      const double sum = sums.back() * static_cast<double>(s) / static_cast<double>(n);
-      while (k + 2 < sums.size() && sums[k + 1] <= sum) ++k;
-      const double at = (sum - sums[k]) / (sums[k + 1] - sums[k]);
-      constexpr double near = 1e-5; // so near an end that it is taken for the end
-      const Edge_place place = at < near       ? Edge_place{vertices[k], vertices[k], 0}
-                               : at > 1 - near ? Edge_place{vertices[k + 1], vertices[k + 1], 0}
-                                               : Edge_place{vertices[k], vertices[k + 1], at};
-      const int now = add_sample(place);
-      m_result.edges.push_back({last, now});
-      last = now;
-    }
-    m_result.edges.push_back({last, curve.has_corners ? corner_sample(vertices.back()) : first});
-  }
-
   /// Walks along the borders of the cut surface, which are its patches' boundaries.
   void add_sites()
   {
@@ -244,9 +168,7 @@ private:
 
   const Surface& m_surface;
   const Cut_surface& m_cut;
-  const std::vector<Feature_curve>& m_curves;
   Feature_samples m_result;
-  std::map<int, int> m_corners; // vertex -> sample
   std::vector<int> m_sample_of_site;
 };
 
@@ -255,9 +177,8 @@ private:
 /// Fewest samples that keep the creases and borders of `surface`.
 inline std::size_t min_feature_samples(const Surface& surface)
 {
-  const Cut_surface none;
-  const std::vector<Feature_curve> curves = feature_curves(surface, 0);
-  return internal::Feature_sampler(surface, none, curves).count(std::numeric_limits<double>::infinity());
+  return internal::Curve_sampler(surface, feature_curves(surface, 0))
+      .count(std::numeric_limits<double>::infinity());
 }
 
 /// The number of cells of the mean size that the surface has room for when `n` samples are spread
@@ -277,20 +198,24 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
   const double h = std::sqrt(surface.area / static_cast<double>(n));
   std::vector<Feature_curve> curves = feature_curves(surface, 0.5 * h);
   if (curves.empty()) return {};
-  const auto least = [&]() {
-    return internal::Feature_sampler(surface, cut, curves).count(std::numeric_limits<double>::infinity());
+  const auto count = [&](double spacing) {
+    return internal::Curve_sampler(surface, curves).count(spacing);
   };
-  if (2 * least() > n) curves = feature_curves(surface, 0); // turns are dispensable
-  if (least() > n)
+  const auto samples = [&](double spacing) {
+    return internal::Feature_site_builder(surface, cut,
+                                          internal::Curve_sampler(surface, curves).run(spacing))
+        .release();
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (2 * count(infinity) > n) curves = feature_curves(surface, 0); // turns are dispensable
+  if (count(infinity) > n)
     throw Invalid_input_error(std::to_string(n) + " samples are too few: the borders and creases need " +
-                              std::to_string(least()));
+                              std::to_string(count(infinity)));
   double spacing = spacing_constant(surface, n);
-  Feature_samples features = internal::Feature_sampler(surface, cut, curves).run(spacing);
-  const double cells = equivalent_cells(n, features);
-  spacing *= std::sqrt(static_cast<double>(n) / cells);
+  spacing *= std::sqrt(static_cast<double>(n) / equivalent_cells(n, samples(spacing)));
   // On slender surfaces there may be more border than n samples can line.
-  while (internal::Feature_sampler(surface, cut, curves).count(spacing) > n) spacing *= 1.05;
-  return internal::Feature_sampler(surface, cut, curves).run(spacing);
+  while (count(spacing) > n) spacing *= 1.05;
+  return samples(spacing);
 }
 
 /// Sets the creases that `options` asks for. Of those closer together than h / 2, h = sqrt(area / n),

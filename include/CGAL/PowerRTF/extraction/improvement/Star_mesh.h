@@ -45,7 +45,7 @@ public:
 
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_guide& guide)
-      : m_guide(guide), m(refined(mesh)), m_heights(mesh.points.size(), 0),
+      : m_guide(&guide), m(refined(mesh)), m_heights(mesh.points.size(), 0),
         m_locked(mesh.points.size(), false), m_movable(mesh.points.size()),
         m_pinned(mesh.points.size(), false), m_on_feature(mesh.points.size(), false),
         m_is_feature(m.mesh.number_of_edges(), false)
@@ -77,7 +77,7 @@ public:
 
   Working_mesh& working() { return m; }
   const Working_mesh& working() const { return m; }
-  const Surface_guide& guide() const { return m_guide; }
+  const Surface_guide& guide() const { return *m_guide; }
   std::size_t size() const { return m_facets.size(); }
   bool is_movable(Vertex v) const { return m_movable[v]; }
   /// A pinned vertex does not move until it is released.
@@ -100,6 +100,8 @@ public:
   int facet(Vertex v) const { return m_facets[v]; }
 
   bool is_on_feature(Vertex v) const { return m_on_feature[v]; }
+  bool is_feature(Edge e) const { return m_is_feature[e]; }
+  bool is_locked(Vertex v) const { return m_locked[v]; }
 
   /// False for borders, features, and if one of the four vertices around the edge is locked.
   bool is_free(Edge e) const
@@ -125,7 +127,7 @@ public:
   Surface_guide::Place project(Vertex v, const Vec3d& p) const
   {
     const double height = m_heights[v];
-    auto place = m_guide.project(p - height * m.normals[v], m.normals[v], m_facets[v]);
+    auto place = m_guide->project(p - height * m.normals[v], m.normals[v], m_facets[v]);
     place.point += height * place.normal;
     return place;
   }
@@ -135,7 +137,7 @@ public:
   /// Moves `v`, off the surface too. False if no place of the surface agrees: then it stays.
   bool move_off(Vertex v, const Vec3d& p)
   {
-    const auto place = m_guide.project(p, m.normals[v], m_facets[v]);
+    const auto place = m_guide->project(p, m.normals[v], m_facets[v]);
     if (place.facet < 0) return false;
     move(v, place);
     set_point(v, p);
@@ -174,8 +176,35 @@ public:
         has_normal = true;
       }
     if (!has_normal)
-      least = dot(n, m_guide.nearest((m.point(a) + m.point(b) + m.point(c)) * (1 / 3.)).normal);
+      least = dot(n, m_guide->nearest((m.point(a) + m.point(b) + m.point(c)) * (1 / 3.)).normal);
     return least / l;
+  }
+
+  /// Takes a vertex out of the mesh: of the two ends of `h` one stays, as its target was.
+  /// \pre both may move, the link condition holds, no feature is near
+  /// \returns what stays.
+  Vertex collapse(Halfedge h)
+  {
+    const Vertex target = m.mesh.target(h);
+    const Surface_guide::Place there = place(target);
+    const double height = m_heights[target];
+    const Vertex kept = Euler::collapse_edge(m.mesh.edge(h), m.mesh);
+    move(kept, there);
+    m_heights[kept] = height;
+    return kept;
+  }
+
+  /// Splits an edge and its two triangles at a new vertex, which gets the number of one that has
+  /// been taken out.
+  Vertex split(Halfedge h, const Surface_guide::Place& place)
+  {
+    const Halfedge o = m.mesh.opposite(h), first = Euler::split_edge(h, m.mesh);
+    Euler::split_face(first, m.mesh.next(h), m.mesh);
+    Euler::split_face(o, m.mesh.next(m.mesh.opposite(first)), m.mesh);
+    const Vertex v = m.mesh.target(first);
+    move(v, place);
+    m_heights[v] = 0;
+    return v;
   }
 
   Surface_guide::Place place(Vertex v) const { return {m.point(v), m.normals[v], m_facets[v]}; }
@@ -212,7 +241,7 @@ private:
     return r;
   }
 
-  const Surface_guide& m_guide;
+  const Surface_guide* m_guide;
   Working_mesh m;
   std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
   std::vector<double> m_heights; // by vertex: over the surface

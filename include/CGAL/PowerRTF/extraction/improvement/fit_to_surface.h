@@ -62,8 +62,9 @@ public:
 
   /// `limit`: the badness that a move may bring upon a triangle that was better.
   Surface_fitter(Star_mesh& mesh, const Surface_watch& watch, double limit)
-      : m(mesh), m_watch(watch), m_badness_limit(limit), m_unknowns(mesh.size()),
-        m_coupling(mesh.working().mesh.number_of_edges())
+      : m(mesh), m_watch(watch), m_badness_limit(limit),
+        m_sideways(is_even(mesh.guide().surface()) ? sideways_even : sideways),
+        m_unknowns(mesh.size()), m_coupling(mesh.working().mesh.number_of_edges())
   {
   }
 
@@ -87,18 +88,26 @@ private:
 
   static constexpr int sweeps = 8; // the matrix is like a mass matrix: they converge fast
   static constexpr double largest_turn = 0.5; // of a triangle by one move: cosine
-  static constexpr double sideways = 0.3;     // what moves in the tangent plane cost
-  static constexpr double upwards = 1e-3;     // and those along the normal
-  // The weight of the surface's vertices, with 8 or more for each vertex of the mesh; the fewer
-  // there are, the more they are a random choice.
+  // What moves in the tangent plane cost; more where the samples are to be spaced evenly.
+  static constexpr double sideways = 0.05, sideways_even = 0.3;
+  static constexpr double upwards = 1e-3; // and those along the normal
+  // The weight of the surface's vertices, with 8 or more for each vertex of the mesh. The fewer
+  // there are, the more they are a random choice: it falls with the square of their number.
   static constexpr double watched_share = 0.7, watched_fully = 8;
+
+  static bool is_even(const Surface& surface)
+  {
+    const auto& density = surface.vertex_density;
+    return std::equal(density.begin() + 1, density.end(), density.begin());
+  }
 
   void measure()
   {
     const auto& mesh = m.working().mesh;
     for (const auto f : mesh.faces()) measure_face(mesh.halfedge(f));
-    const double share =
-        watched_share * std::min(1., double(m_watch.size()) / (watched_fully * double(m.size())));
+    const double density =
+        std::min(1., double(m_watch.size()) / (watched_fully * double(m.size())));
+    const double share = watched_share * density * density;
     for (int i = 0; i < m_watch.size(); ++i) {
       const auto& w = m_watch[i];
       const Edges edges{w.face, mesh.next(w.face), mesh.prev(w.face)};
@@ -107,8 +116,8 @@ private:
     }
     for (const Vertex v : mesh.vertices()) {
       Unknown& u = m_unknowns[v];
-      u.matrix.add_identity(sideways * u.weight);
-      u.matrix.add(m.normal(v), (upwards - sideways) * u.weight);
+      u.matrix.add_identity(m_sideways * u.weight);
+      u.matrix.add(m.normal(v), (upwards - m_sideways) * u.weight);
     }
   }
 
@@ -208,7 +217,7 @@ private:
 
   Star_mesh& m;
   const Surface_watch& m_watch;
-  double m_badness_limit;
+  double m_badness_limit, m_sideways;
   // the normal equations, and their solution
   std::vector<Unknown> m_unknowns;          // by vertex
   std::vector<Symmetric_matrix> m_coupling; // by edge

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL
@@ -58,6 +59,36 @@ public:
     std::vector<Face> bad;
     for (const Face f : m.working().mesh.faces())
       if (badness(f) > 0) bad.push_back(f);
+    return run(rounds, std::move(bad)).size();
+  }
+
+  /// The same for the triangles around `v` and its neighbours. \returns the largest badness that is
+  /// left there.
+  double run_around(Vertex v, int rounds)
+  {
+    const auto& mesh = m.working().mesh;
+    const auto faces = [&] {
+      std::vector<Face> result;
+      for (const Halfedge h : halfedges_around_target(v, mesh))
+        for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
+          if (!mesh.is_border(g)) result.push_back(mesh.face(g));
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(), result.end()), result.end());
+      return result;
+    };
+    std::vector<Face> bad = faces();
+    const auto is_good = [&](Face f) { return !(badness(f) > 0); };
+    bad.erase(std::remove_if(bad.begin(), bad.end(), is_good), bad.end());
+    double worst = 0;
+    for (const Face f : run(rounds, std::move(bad))) worst = std::max(worst, badness(f));
+    for (const Face f : faces()) worst = std::max(worst, badness(f));
+    return worst;
+  }
+
+private:
+  // \returns the triangles that are left.
+  std::vector<Face> run(int rounds, std::vector<Face> bad)
+  {
     double total = total_badness(bad);
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
       std::vector<Vertex> vertices;
@@ -81,10 +112,9 @@ public:
       if (round % 2 == 1 && now > worthwhile * total) break;
       if (round % 2 == 1) total = now;
     }
-    return bad.size();
+    return bad;
   }
 
-private:
   static constexpr double slack = 0.1; // that each move may take from the agreement
   // On curved parts (agreement below `curved`) vertices are drawn to where they were: to move them
   // costs distance to the surface.
