@@ -136,7 +136,8 @@ public:
         "check", "compare the cells with the exact ones")(
         "check-every", text("N"), "compare them every N iterations, too; 0: only at the end (0)");
     group("Program").add_options()("traits", text("NAME"),
-                                   "auto|cpu|exact|cuda: what runs the algorithm (auto)")(
+                                   "auto|cpu|exact|cuda: what runs the algorithm; auto: "
+                                   "the GPU if there is one, else the CPU (auto)")(
         "threads", text("N"), "number of threads; 0: all (0)")("quiet,q", "no progress, no table")(
         "help,h", "show this")("version", "show the version");
     m_hidden.add_options()("file", po::value<std::vector<std::string>>());
@@ -268,11 +269,16 @@ Program_options parse_command_line(int argc, const char* const* argv, std::strin
 
   o.remeshing = remeshing_options(values);
   const std::string traits = values.count("traits") ? values["traits"].as<std::string>() : "auto";
-  if (traits == "cuda")
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+  const bool has_cuda = true;
+#else
+  const bool has_cuda = false;
+#endif
+  if (traits == "cuda" && !has_cuda)
     throw Usage_error("--traits " + traits + ": these traits are not built into this program");
-  if (traits != "auto" && traits != "cpu" && traits != "exact")
+  if (traits != "auto" && traits != "cpu" && traits != "exact" && traits != "cuda")
     reject("traits", traits, "one of auto|cpu|exact|cuda");
-  o.traits = traits == "auto" ? "cpu" : traits;
+  o.traits = traits == "auto" && !has_cuda ? "cpu" : traits;
   if (values.count("check-every"))
     o.check_every = parse_value<int>("check-every", values["check-every"].as<std::string>(),
                                      {0, double(std::numeric_limits<int>::max())});

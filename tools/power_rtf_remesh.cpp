@@ -9,6 +9,9 @@
 #include "output_file.h"
 #include "report_json.h"
 
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+#include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
+#endif
 #include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/surface/density.h>
@@ -23,6 +26,7 @@
 #endif
 
 #include <iostream>
+#include <limits>
 #include <list>
 #include <new>
 #include <optional>
@@ -76,6 +80,17 @@ void check_outputs(const Program_options& o)
     if (!file.empty()) check_writable(file);
 }
 
+/// What `make` returns. \throws Invalid_input_error what it throws, with the input's name
+template <class Make>
+auto about_input(const Program_options& options, const Make& make)
+{
+  try {
+    return make();
+  } catch (const Invalid_input_error& e) {
+    throw Invalid_input_error(options.input + ": cannot be remeshed: " + e.what());
+  }
+}
+
 Surface load(const Program_options& options, Remeshing_report& report)
 {
   Polygon_mesh mesh;
@@ -85,15 +100,13 @@ Surface load(const Program_options& options, Remeshing_report& report)
   }
   stop_if_interrupted();
   Stopwatch watch(report.seconds.surface);
-  try {
+  return about_input(options, [&] {
     Surface surface = import_soup(mesh.points, mesh.polygons, report.repairs,
                                   options.remeshing.repair);
     set_creases(surface, options.remeshing);
     set_density(surface, options.remeshing);
     return surface;
-  } catch (const Invalid_input_error& e) {
-    throw Invalid_input_error(options.input + ": cannot be remeshed: " + e.what());
-  }
+  });
 }
 
 /// The files of one run: all appear at the end, or none.
@@ -128,10 +141,14 @@ template <class Remesher>
 Check check(Remesher& remesher, std::size_t iterations)
 {
   const double cos_angle = compatibility_cosine(remesher.options().normal_angle);
+  // The CUDA traits' cells are in single precision.
+  const double epsilon =
+      CGAL::PowerRTF::internal::Runs_on_device<typename Remesher::Engine>::value
+          ? std::numeric_limits<float>::epsilon()
+          : std::numeric_limits<double>::epsilon();
   return {iterations,
           check_cells<Concurrency>(remesher.sites(), remesher.cells(), cos_angle,
-                                   CGAL::PowerRTF::internal::epsilon<double>(),
-                                   remesher.options().guard_factor)};
+                                   epsilon, remesher.options().guard_factor)};
 }
 
 /// The progress of a run that compares its cells every so many iterations (--check-every).
@@ -159,9 +176,10 @@ private:
 };
 
 template <class Traits>
-Exit_code remesh(const Program_options& options)
+Exit_code remesh_with(Program_options options)
 {
   using Remesher = CGAL::PowerRTF_remesher<Traits>;
+  options.traits = Traits::name();
   Run run;
   run.options = options;
   Outputs outputs;
@@ -175,7 +193,9 @@ Exit_code remesh(const Program_options& options)
   check_outputs(options);
 
   Progress(options.quiet).on_stage("surface");
-  Remesher remesher(load(options, run.report), options.remeshing);
+  Surface surface = load(options, run.report);
+  Remesher remesher = about_input(
+      options, [&] { return Remesher(std::move(surface), options.remeshing); });
   Checking_progress<Remesher> progress(options, remesher, run.checks);
   if (!remesher.optimize(progress)) throw Cancelled();
   Extracted_mesh mesh;
@@ -226,6 +246,27 @@ Exit_code remesh(const Program_options& options)
   return run.missed.empty() ? done : missed_guarantee;
 }
 
+/// By the traits that the options name. A GPU that fails is reason to use the CPU, if any traits
+/// will do.
+Exit_code remesh(const Program_options& options)
+{
+  if (options.traits == "exact")
+    return remesh_with<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(options);
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+  if (options.traits != "cpu") {
+    try {
+      return remesh_with<CGAL::PowerRTF_cuda_traits_3<Kernel>>(options);
+    } catch (const Cuda_error& e) {
+      if (options.traits == "cuda")
+        throw Cuda_error(std::string("--traits cuda cannot be used: ") + e.what());
+      if (!options.quiet)
+        std::cerr << "power_rtf_remesh: the CPU is used: " << e.what() << '\n';
+    }
+  }
+#endif
+  return remesh_with<CGAL::PowerRTF_traits_3<Kernel, Concurrency>>(options);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -237,9 +278,7 @@ int main(int argc, char** argv)
     const Program_options options = parse_command_line(argc, argv, information);
     if (!information.empty()) return std::cout << information, done;
     input = options.input;
-    return options.traits == "exact"
-               ? remesh<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(options)
-               : remesh<CGAL::PowerRTF_traits_3<Kernel, Concurrency>>(options);
+    return remesh(options);
   } catch (const Usage_error& e) {
     return fail(wrong_usage, e.what() + std::string("\npower_rtf_remesh --help shows the options"));
   } catch (const Cancelled&) {

@@ -118,6 +118,7 @@ void add_mesh(Json& json, const Run& run)
   json["crease_edges"] = r.crease_edges;
   json["feature_edges"] = r.feature_edges;
   json["lost_feature_edges"] = r.lost_feature_edges;
+  json["input_self_intersections"] = r.input_self_intersections;
   json["input_vertices"] = r.input_topology.vertices;
   json["input_faces"] = r.input_topology.faces;
   json["input_euler_characteristic"] = r.input_topology.euler_characteristic;
@@ -159,6 +160,10 @@ void write_json(std::ostream& out, const Run& run)
   json["cells"] = to_json(r.cells);
   json["repairs"] = to_json(r.repairs);
   json["seconds"] = to_json(r.seconds);
+  if (!r.device.name.empty())
+    json["device"] = {{"name", r.device.name},
+                      {"seconds", r.device.seconds},
+                      {"bytes", r.device.bytes}};
   if (run.options.check) json["checks"] = checks(run.checks);
   json["parameters"] = parameters(run.options.remeshing);
   json["iterations"] = iterations(r);

@@ -121,6 +121,8 @@ void print_table(std::ostream& out, const Run& run)
   for (const Check& check : run.checks) print_check(out, check);
   row(out, "constructions of all cells", std::to_string(r.constructions));
   row(out, "seconds", number(r.seconds.total, 2));
+  if (!r.device.name.empty())
+    row(out, "seconds on " + r.device.name, number(r.device.seconds, 4));
   for (const auto& [name, file] :
        {std::pair{"cells", &o.cells_file}, std::pair{"samples", &o.samples_file},
         std::pair{"report", &o.report_file}})

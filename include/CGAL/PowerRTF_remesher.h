@@ -186,7 +186,10 @@ private:
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       visitor.on_stage("improvement");
       PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
-      PowerRTF::improve_mesh(m_patches.surface(), mesh);
+      if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
+        PowerRTF::improve_mesh(m_patches.surface(), mesh);
+      else
+        PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh);
     }
     return mesh;
   }

@@ -638,19 +638,66 @@ TEST_CASE("closed shapes: guarantees, quality and equal capacities")
         CHECK(report.quality.theta_min > c.theta_min);
         CHECK(report.capacity.inside_interval == 1);
         CHECK(report.capacity.largest_deviation <= 0.04);
-        CHECK(report.cells.ok + report.cells.guarded == 400);
+        CHECK(report.cells.ok + report.cells.guarded + report.feature_samples == 400);
         CHECK(report.distance.mean < 0.4);
       }
 }
 
 TEST_CASE("surfaces with borders keep them")
 {
-  for (const Soup& soup : {shapes::plane_patch(10, 10), shapes::open_cylinder(40, 20, 1, 2)}) {
-    const Remeshing_report report = remesh(soup, 300).report;
-    check_guarantees(report);
-    CHECK(report.topology.border_loops == report.input_topology.border_loops);
-    CHECK(report.quality.q_avg > 0.88);
+  for (const Soup& soup : {shapes::plane_patch(10, 10), shapes::open_cylinder(40, 20, 1, 2)})
+    for (const Preset preset : {Preset::quality, Preset::paper}) {
+      Remeshing_options options;
+      if (preset == Preset::paper) options = Remeshing_options::paper_preset();
+      options.density = Density::uniform;
+      const Result result = remesh(soup, 300, options);
+      check_guarantees(result.report);
+      CHECK(result.report.topology.border_loops == result.report.input_topology.border_loops);
+      CHECK(result.report.feature_edges > 40);
+      CHECK(result.report.quality.q_avg > (preset == Preset::paper ? 0.8 : 0.9));
+      CHECK(result.report.quality.q_min > 0.5);
+      CHECK(result.report.distance.max < 1); // of a diagonal's hundredths; the border is where it was
+    }
+  CHECK(remesh(shapes::plane_patch(10, 10), 300).report.distance.max < 1e-10);
+}
+
+TEST_CASE("creases are found and kept: polyhedra stay the same shape")
+{
+  const Soup cubes = shapes::joined(shapes::box(6), shapes::translated(shapes::box(2), {3, 0.5, 0.1}));
+  const Remeshing_report report = remesh(cubes, 600).report;
+  check_guarantees(report);
+  CHECK(report.crease_edges == 12 * 6 + 12 * 2);
+  CHECK(report.feature_edges >= 2 * 12 * 5);
+  CHECK(report.lost_feature_edges == 0);
+  CHECK(report.distance.max < 1e-10);
+  CHECK(report.quality.q_min > 0.5);
+  Remeshing_options without;
+  without.feature_angle = 180;
+  const Remeshing_report smooth = remesh(cubes, 600, without).report;
+  CHECK(smooth.crease_edges == 0);
+  CHECK(smooth.distance.max > 1);
+}
+
+TEST_CASE("creases of the user's own")
+{
+  Mesh mesh = make_mesh(shapes::plane_patch(10, 10));
+  auto is_constrained = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  const auto is_on_line = [&](Mesh::Vertex_index v) { return mesh.point(v).x() == 0.5; };
+  for (const auto e : mesh.edges())
+    is_constrained[e] = is_on_line(mesh.vertex(e, 0)) && is_on_line(mesh.vertex(e, 1));
+  Mesh output;
+  const Remeshing_report report = CGAL::power_rtf_remeshing(
+      mesh, 300, output,
+      params::remeshing_options(Remeshing_options()).edge_is_constrained_map(is_constrained));
+  check_guarantees(report);
+  CHECK(report.crease_edges == 10);
+  double on_line = 0;
+  for (const auto e : output.edges()) {
+    const auto a = output.point(output.vertex(e, 0)), b = output.point(output.vertex(e, 1));
+    if (std::abs(a.x() - 0.5) < 1e-12 && std::abs(b.x() - 0.5) < 1e-12)
+      on_line += std::sqrt(CGAL::squared_distance(a, b));
   }
+  CHECK(on_line == Approx(1));
 }
 
 TEST_CASE("the paper's preset ends with every cell inside the interval")

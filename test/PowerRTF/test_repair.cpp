@@ -234,9 +234,10 @@ TEST_CASE("the fewest vertices of a surface of given topology")
 
 TEST_CASE("topology of the components; too few samples for it are refused with the number needed")
 {
-  const shapes::Soup soup = shapes::joined(
-      shapes::joined(shapes::icosphere(1), shapes::translated(shapes::torus(12, 8, 2, 1), {9, 0, 0})),
-      shapes::translated(shapes::open_cylinder(8, 3, 1, 1), {0, 9, 0}));
+  const shapes::Soup torus = shapes::translated(shapes::torus(12, 8, 2, 1), {9, 0, 0});
+  const shapes::Soup soup =
+      shapes::joined(shapes::joined(shapes::icosphere(1), torus),
+                     shapes::translated(shapes::open_cylinder(8, 3, 1, 1), {0, 9, 0}));
   Repair_counts repairs;
   const Surface s = check(soup, {3, 2, 2}, repairs);
   const auto components = PRTF::component_topologies(s.triangles, s.points.size());

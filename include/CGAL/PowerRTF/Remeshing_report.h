@@ -112,7 +112,10 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
   const auto expect = [&missed](bool met, const std::string& text) { if (!met) missed.push_back(text); };
   const auto same = [&expect](auto is, auto asked, const std::string& what)
   { expect(is == asked, what + ": " + std::to_string(is) + " instead of " + std::to_string(asked)); };
-  same(topology.vertices, samples_asked, "vertices");
+  expect(topology.vertices == samples_asked,
+         "vertices: " + std::to_string(topology.vertices) + " instead of " +
+             std::to_string(samples_asked) +
+             (topology.vertices > samples_asked ? " (so many are needed for the topology)" : ""));
   same(topology.non_manifold_edges, std::size_t(0), "non-manifold edges");
   same(topology.non_manifold_vertices, std::size_t(0), "non-manifold vertices");
   expect(topology.oriented || !input_topology.oriented, "the facets are not consistently oriented");

@@ -95,16 +95,19 @@ printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 
 bad m1.off 'manifold'
 printf 'OFF\n7 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n' >m2.off
 printf '3 %s\n' '0 2 1' '0 1 3' '0 3 2' '1 2 3' '0 4 5' '0 6 4' '0 5 6' '4 6 5' >>m2.off
-bad m2.off 'manifold'
+run 1 m2.off 'manifold' -- m2.off out.off -n 100 --repair no
+run 3 '(the input has' -- m2.off good.off -n 100 --repair yes # they still touch
 awk 'BEGIN { pi = atan2(0, -1); n = 12; print "OFF"; print 2 * n, 2 * n, 0
   for (i = 0; i < n; ++i) for (s = -1; s <= 1; s += 2) { u = 2 * pi * i / n; r = 2 + s * cos(u / 2)
     print r * cos(u), r * sin(u), s * sin(u / 2) }
   for (i = 0; i < n; ++i) { a = 2 * i; b = 2 * i + 1; c = 2 * i + 2; d = 2 * i + 3
     if (i == n - 1) { c = 1; d = 0 }
     print 3, a, b, d; print 3, a, d, c } }' >m3.off
-bad m3.off 'orient'
+run 1 m3.off 'orient' -- m3.off out.off -n 100 --repair no
+run 0 -- m3.off good.off -n 200
 
 # --- the number of samples
+run 1 torus.off 'at least 7' 'genus 1' -- torus.off out.off -n 6
 run 1 torus.off 'at least 4' -- torus.off out.off -n 3
 run 1 torus.off 'at least 4' -- torus.off out.off -n 0
 run 1 torus.off 'at least 4' -- torus.off out.off --samples -7

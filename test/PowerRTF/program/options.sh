@@ -54,7 +54,16 @@ for name in relaxation-iterations iterations max-weight-iterations seed threads;
   refuse $name -1 'at least 0'
   refuse $name 99999999999999999999 'at most'
 done
-run 2 cuda 'not built' -- torus.off out.off --traits cuda
+said=$("$program" torus.off cuda.off "${fast[@]}" --traits cuda 2>&1)
+case $? in # a program without the engine; a machine without a GPU; a machine with one
+2) run 2 cuda 'not built' -- torus.off out.off --traits cuda ;;
+1)
+  run 1 'GPU' -- torus.off out.off "${fast[@]}" --traits cuda
+  run 0 -- torus.off out.off "${fast[@]}" --traits auto
+  ;;
+*) expect "--traits cuda: $said" test -s cuda.off ;;
+esac
+refuse device -1 'at least 0'
 refuse check-every -1 'at least 0'
 refuse check-every x 'not a whole number'
 

@@ -77,6 +77,9 @@ public:
   double displacement() const;
   std::size_t constructions() const { return m_constructions; }
 
+  /// The facets of the surface and their patches.
+  const Facet_tree& facet_tree() const { return m_sampler.facet_tree(); }
+
   /// The samples, without the feature samples.
   Samples samples() const;
   /// The cells of the samples. They are not cut at creases and borders. Neighbours from the number

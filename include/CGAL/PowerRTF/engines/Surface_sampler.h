@@ -63,6 +63,8 @@ public:
     density = interpolated_density(m_surface, facet, weights);
   }
 
+  const Facet_tree& facet_tree() const { return m_facets; }
+
 private:
   struct Vertices {
     explicit Vertices(const Surface& surface) : nearest(surface), facets(vertex_facets(surface)) {}

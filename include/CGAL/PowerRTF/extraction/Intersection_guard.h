@@ -57,7 +57,8 @@ public:
   /// Watches the vertices around `u`.
   void watch_around(Vertex u)
   {
-    for (const Halfedge h : halfedges_around_target(u, m.mesh)) m_sight[m.mesh.source(h)] = watched;
+    for (const Halfedge h : halfedges_around_target(u, m.mesh))
+      m_sight[m.mesh.source(h)] = watched;
     for (const Halfedge h : halfedges_around_target(u, m.mesh))
       for (const Halfedge g : halfedges_around_target(m.mesh.source(h), m.mesh))
         if (!m.mesh.is_border(g) && !m_is_inserted[m.mesh.face(g)]) insert(m.mesh.face(g));
@@ -69,7 +70,8 @@ public:
     const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
     const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = m.mesh.target(m.mesh.next(h)),
                  d = m.mesh.target(m.mesh.next(o));
-    return adds_intersections({m.mesh.face(h), m.mesh.face(o)}, {Corners{a, d, c}, Corners{d, b, c}});
+    return adds_intersections({m.mesh.face(h), m.mesh.face(o)},
+                              {Corners{a, d, c}, Corners{d, b, c}});
   }
 
   /// Whether moving the source of `h` to its target adds an intersection.
@@ -196,7 +198,7 @@ private:
   const Working_mesh& m;
   std::vector<Sight> m_sight;      // by vertex
   std::vector<char> m_is_inserted; // by face
-  Tree m_tree; // of the inserted faces' boxes
+  Tree m_tree;                     // of the inserted faces' boxes
 };
 
 } // namespace internal

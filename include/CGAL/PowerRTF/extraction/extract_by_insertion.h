@@ -73,16 +73,17 @@ inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples
   internal::Edge_flipper careful_flipper(mesh, 0.1);
   careful_flipper.push_around_samples();
   careful_flipper.run(20 * mesh.mesh.number_of_edges());
-  internal::Decimator(mesh, careful_flipper).run();
+  std::size_t defects = internal::Decimator(mesh, careful_flipper).run();
   internal::Edge_flipper flipper(mesh, -0.7);
   for (const auto e : mesh.mesh.edges()) flipper.push(e);
   flipper.run(20 * mesh.mesh.number_of_edges());
   if (may_touch_itself) return internal::to_extracted_mesh(mesh, samples);
-  internal::Intersection_remover(mesh, flipper).run();
-  std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
+  defects += internal::Intersection_remover(mesh, flipper).run();
   Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
+  if (defects == 0) return result;
 
   // Where the samples are too sparse: more carefully there, and more widely if that does not help.
+  std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
   std::size_t fewest = sparse.size();
   std::vector<internal::Ball> guarded;
   for (const double reach : {2., 8., 1e3}) {

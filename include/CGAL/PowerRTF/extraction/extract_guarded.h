@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Extraction by insertion where the samples are too sparse for the surface: a thin part, close
-// sheets, a small handle. No collapse and no flip may add a self-intersection there; the vertices of
-// the surface that have to stay for that become samples, in exchange for samples at flat places, so
-// that their number stays. (An addition to the paper.)
+// sheets, a small handle. No collapse and no flip may add a self-intersection there; the vertices
+// of the surface that have to stay for that become samples, in exchange for samples at flat places,
+// so that their number stays. (An addition to the paper.)
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 

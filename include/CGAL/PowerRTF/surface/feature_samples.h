@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -160,6 +161,19 @@ private:
       samples.facets[s] = m_result.sites.facets[k];
       samples.patches[s] = m_result.sites.patches[k];
     }
+    // A crease of one edge that ends at both ends inside a patch bounds nothing: it has no sites.
+    std::map<Edge, int> lonely;
+    for (std::size_t s = 0; s < samples.points.size(); ++s)
+      if (samples.facets[s] < 0) lonely[{m_result.places[s].from, m_result.places[s].to}] = static_cast<int>(s);
+    for (std::size_t f = 0; f < m_surface.triangles.size() && !lonely.empty(); ++f)
+      for (const int a : m_surface.triangles[f])
+        for (const int b : m_surface.triangles[f]) {
+          const auto found = lonely.find({a, b});
+          if (found == lonely.end()) continue;
+          samples.facets[found->second] = static_cast<int>(f);
+          samples.patches[found->second] = m_cut.surface.facet_patches[f];
+          lonely.erase(found);
+        }
     for (std::size_t s = 0; s < samples.points.size(); ++s) {
       const Vec3d n = normalized(samples.normals[s]);
       samples.normals[s] = squared_length(n) > 0 ? n : m_surface.facet_normals[samples.facets[s]];

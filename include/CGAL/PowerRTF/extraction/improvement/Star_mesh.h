@@ -12,6 +12,8 @@
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/extraction/improvement/Surface_guide.h>
 
+#include <CGAL/boost/graph/Euler_operations.h>
+
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_RELOCATE_VERTICES_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_RELOCATE_VERTICES_H
 
+#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/extraction/improvement/Surface_watch.h>
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>

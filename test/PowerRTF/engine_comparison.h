@@ -1,0 +1,171 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The steps of an engine on a device, or on the host with a device's layouts, against the CPU
+// engine's, on surfaces of all kinds.
+#ifndef POWER_RTF_TEST_ENGINE_COMPARISON_H
+#define POWER_RTF_TEST_ENGINE_COMPARISON_H
+
+#include "shapes.h"
+
+#include <CGAL/PowerRTF/engines/Cpu_engine.h>
+#include <CGAL/PowerRTF/surface/Surface_patches.h>
+#include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/surface/initial_sampling.h>
+
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace engine_comparison
+{
+
+using namespace CGAL::PowerRTF;
+using doctest::Approx;
+using Host = Cpu_engine<CGAL::Sequential_tag>;
+
+struct Case {
+  std::string name;
+  shapes::Soup soup;
+  Remeshing_options options;
+};
+
+inline Remeshing_options options_of(bool paper, Density density, std::size_t n)
+{
+  Remeshing_options o = paper ? Remeshing_options::paper_preset() : Remeshing_options();
+  o.density = density;
+  o.number_of_samples = n;
+  return o;
+}
+
+inline std::vector<Case> cases()
+{
+  const shapes::Soup egg = shapes::ellipsoid(1, 0.7, 0.5, 4);
+  return {
+      {"even, quality", egg, options_of(false, Density::uniform, 400)},
+      {"adaptive, quality", egg, options_of(false, Density::curvature, 400)},
+      {"even, paper", egg, options_of(true, Density::uniform, 300)},
+      {"adaptive, paper", shapes::torus(48, 24, 1, 0.3), options_of(true, Density::curvature, 300)},
+      {"two components", shapes::two_spheres(3), options_of(false, Density::uniform, 300)},
+      {"creases", shapes::box(8), options_of(false, Density::uniform, 500)},
+      {"borders", shapes::open_cylinder(40, 20, 0.4, 1), options_of(false, Density::uniform, 400)}};
+}
+
+/// A surface as the remesher prepares it, and its first samples.
+struct Start {
+  Surface surface;
+  std::unique_ptr<Surface_patches> patches;
+  Samples samples;
+
+  explicit Start(const Case& c) : surface(shapes::make_surface(c.soup))
+  {
+    set_creases(surface, c.options);
+    set_density(surface, c.options);
+    patches = std::make_unique<Surface_patches>(surface, c.options);
+    samples = sample_surface(patches->surface(), c.options, patches->features());
+  }
+};
+
+/// The samples of both engines in one order.
+struct Pairing {
+  std::vector<int> of_first; ///< the second one's sample nearest to each of the first
+  double distance = 0;       ///< largest, over the mean spacing
+};
+
+inline Pairing paired(const Samples& a, const Samples& b, double area)
+{
+  REQUIRE(a.size() == b.size());
+  Pairing p;
+  for (const Vec3d& x : a.points) {
+    int nearest = 0;
+    for (int j = 0; j < int(b.size()); ++j)
+      if (squared_length(b.points[j] - x) < squared_length(b.points[nearest] - x)) nearest = j;
+    p.of_first.push_back(nearest);
+    p.distance = std::max(p.distance, length(b.points[nearest] - x));
+  }
+  p.distance /= std::sqrt(area / double(a.size()));
+  return p;
+}
+
+template <class Engine>
+void paper_weights(Engine& engine, int passes)
+{
+  for (int pass = 0; pass < passes; ++pass) {
+    engine.update_weights();
+    engine.build_cells();
+  }
+}
+
+/// Runs `Engine` and the CPU engine side by side for some steps of every kind and compares them.
+/// `tolerance`: of positions over the spacing, and of normals, densities and weights.
+template <class Engine>
+void compare(const Case& c, double tolerance)
+{
+  CAPTURE(c.name);
+  const Start start(c);
+  const Surface& surface = start.patches->surface();
+  Host host(surface, c.options);
+  Engine other(surface, c.options);
+  host.set_samples(start.samples, start.patches->features());
+  other.set_samples(start.samples, start.patches->features());
+  host.build_cells();
+  other.build_cells();
+
+  const auto check = [&](const std::string& after) {
+    CAPTURE(after);
+    const Samples a = host.samples(), b = other.samples();
+    const Pairing p = paired(a, b, surface.area);
+    CHECK(p.distance < tolerance);
+    const double h2 = surface.area / double(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const int j = p.of_first[i];
+      CHECK(std::abs(a.weights[i] - b.weights[j]) < tolerance * h2);
+      CHECK(length(a.normals[i] - b.normals[j]) < tolerance);
+      CHECK(b.density[j] == Approx(a.density[i]).epsilon(tolerance));
+    }
+    const Capacity_statistics x = host.capacity(), y = other.capacity();
+    CHECK(y.rms == Approx(x.rms).epsilon(100 * tolerance));
+    CHECK(y.largest_deviation == Approx(x.largest_deviation).epsilon(100 * tolerance));
+    CHECK(other.displacement() == Approx(host.displacement()).epsilon(100 * tolerance));
+    const Cell_counts m = host.cell_counts(), n = other.cell_counts();
+    CHECK(n.ok == m.ok);
+    CHECK(n.guarded == m.guarded);
+    CHECK(n.empty == m.empty);
+    CHECK(host.constructions() == other.constructions());
+  };
+  const auto both = [&](auto&& step) {
+    step(host);
+    step(other);
+  };
+  const auto move = [&](Position_method method) {
+    both([&](auto& engine) {
+      engine.move_samples(method);
+      engine.build_cells();
+    });
+  };
+  check("the start");
+  move(Position_method::lloyd);
+  check("a step of Lloyd's method");
+  if (c.options.weight_method == Weight_method::multiplicative) {
+    both([&](auto& engine) { paper_weights(engine, 3); });
+    check("three passes of the paper's rule");
+    move(Position_method::lloyd);
+    check("another step");
+    return;
+  }
+  for (int k = 0; k < 9; ++k) move(Position_method::lbfgs); // the memory fills
+  check("nine steps of L-BFGS");
+  bool was_step = false, is_step = false;
+  was_step = host.newton_weights();
+  is_step = other.newton_weights();
+  CHECK(was_step == is_step);
+  // The linear system is solved to a thousandth.
+  const Capacity_statistics x = host.capacity(), y = other.capacity();
+  CHECK(y.rms == Approx(x.rms).epsilon(0.05));
+}
+
+} // namespace engine_comparison
+
+#endif // POWER_RTF_TEST_ENGINE_COMPARISON_H

@@ -1,0 +1,124 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The CUDA engine on a GPU, against the CPU engine and the oracle. Skipped where there is no GPU or
+// the engine is not built.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include "engine_comparison.h"
+
+#include <CGAL/PowerRTF/engines/Cuda_engine.h>
+#include <CGAL/PowerRTF/exact/check_cells.h>
+
+#include <iostream>
+#include <limits>
+
+using namespace engine_comparison;
+
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+
+namespace
+{
+
+template <class Engine>
+void run(Engine& engine, const Remeshing_options& o, int iterations)
+{
+  for (int k = 0; k < iterations; ++k) {
+    engine.build_cells();
+    if (o.weight_method == Weight_method::multiplicative) engine.optimize_weights(5);
+    engine.move_samples(k < 3 ? Position_method::lloyd : o.position_method);
+  }
+  engine.build_cells();
+  if (o.position_method == Position_method::lbfgs) engine.restore_best();
+  if (o.weight_method == Weight_method::newton)
+    for (int k = 0; k < 3; ++k) engine.newton_weights();
+}
+
+Case large_case(bool paper, Density density)
+{
+  return {paper ? "paper" : "quality", shapes::torus(96, 48, 1, 0.3),
+          options_of(paper, density, 20000)};
+}
+
+} // namespace
+
+TEST_CASE("in double precision the steps are those of the CPU engine")
+{
+  for (const Case& c : cases()) compare<Cuda_engine<double>>(c, 1e-6);
+}
+
+TEST_CASE("the same input gives the same samples bit for bit")
+{
+  for (bool paper : {false, true}) {
+    const Case c = large_case(paper, Density::curvature);
+    const Start start(c);
+    Samples first;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      Cuda_engine<float> engine(start.patches->surface(), c.options);
+      engine.set_samples(start.samples, start.patches->features());
+      run(engine, c.options, 20);
+      const Samples s = engine.samples();
+      if (repeat == 0) first = s;
+      CHECK(s.points == first.points);
+      CHECK(s.weights == first.weights);
+      CHECK(s.normals == first.normals);
+      CHECK(s.facets == first.facets);
+    }
+  }
+}
+
+TEST_CASE("the cells are the exact ones of their samples")
+{
+  std::vector<Case> all = cases();
+  all.push_back(large_case(false, Density::uniform));
+  all.push_back(large_case(true, Density::curvature));
+  for (const Case& c : all) {
+    CAPTURE(c.name);
+    const Start start(c);
+    Cuda_engine<float> engine(start.patches->surface(), c.options);
+    for (int iterations : {0, 10, 30}) { // start, middle, end
+      engine.set_samples(start.samples, start.patches->features());
+      run(engine, c.options, iterations);
+      const Cell_comparison r = check_cells<CGAL::Parallel_if_available_tag>(
+          engine.sites(), engine.cells(), compatibility_cosine(c.options.normal_angle),
+          std::numeric_limits<float>::epsilon(), c.options.guard_factor);
+      CHECK(r.certified_wrong == 0);
+      CHECK(r.uncertified_right + r.uncertified_wrong <= r.cells / 10000);
+      CHECK(r.area.p99 <= 2e-6);
+      CHECK(r.centroid.p99 <= 1e-5);
+    }
+  }
+}
+
+TEST_CASE("a GPU that is not there and too many samples are refused in words")
+{
+  Case c = cases()[0];
+  const Start start(c);
+  c.options.device = 1000;
+  CHECK_THROWS_WITH_AS(Cuda_engine<float>(start.patches->surface(), c.options),
+                       doctest::Contains("no GPU number 1000"), Cuda_error);
+  c.options.device = 0;
+  c.options.lbfgs_memory = 11;
+  Cuda_engine<float> engine(start.patches->surface(), c.options);
+  CHECK_THROWS_AS(engine.set_samples(start.samples), Invalid_input_error);
+}
+
+int main(int argc, char** argv)
+{
+  try {
+    for (const Cuda_device& d : cuda_devices()) std::cout << d.name << '\n';
+  } catch (const Cuda_error& e) {
+    std::cout << "skipped: " << e.what() << '\n';
+    return 77;
+  }
+  return doctest::Context(argc, argv).run();
+}
+
+#else
+
+int main()
+{
+  std::cout << "skipped: the CUDA engine is not built\n";
+  return 77;
+}
+
+#endif

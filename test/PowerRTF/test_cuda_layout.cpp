@@ -1,0 +1,99 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The engine of the CUDA traits with its loops run on the host: the same layouts, the same
+// functors, the same order of steps, against the CPU engine. Runs where there is no GPU.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "engine_comparison.h"
+
+#include "../../cuda/cells/Tree_cells.h"
+#include "../../cuda/device/Host_backend.h"
+#include "../../cuda/engine/Device_engine.h"
+
+#include <CGAL/PowerRTF/engines/Cuda_engine.h>
+#include <CGAL/PowerRTF/exact/check_cells.h>
+
+#include <limits>
+#include <memory>
+
+using namespace engine_comparison;
+
+namespace
+{
+
+template <class Real>
+struct Make_layout_engine {
+  using Backend = device::Host_backend;
+  using Cells = device::Tree_cells<Real, Backend>;
+
+  static void check(const Remeshing_options&) {}
+  static std::unique_ptr<Device_engine_base> make(const Device_surface_input& surface,
+                                                  const Remeshing_options& options)
+  {
+    return std::make_unique<device::Device_engine<Real, Backend, Cells>>(surface, options);
+  }
+};
+template <class Real>
+using Layout_engine = Device_engine_adaptor<Make_layout_engine<Real>>;
+
+/// The whole optimisation, as `PowerRTF_remesher` does it.
+template <class Engine>
+void run(Engine& engine, const Remeshing_options& o)
+{
+  const auto equal = [&]() { return engine.capacity().inside_interval == 1; };
+  for (int k = 0; k < o.relaxation_iterations + o.max_iterations; ++k) {
+    engine.build_cells();
+    engine.move_samples(k < o.relaxation_iterations ? Position_method::lloyd : o.position_method);
+  }
+  engine.build_cells();
+  engine.restore_best();
+  for (int k = 0; k < o.max_weight_iterations && !equal(); ++k)
+    if (!engine.newton_weights()) break;
+}
+
+} // namespace
+
+TEST_CASE("the device engine's steps are those of the CPU engine")
+{
+  for (const Case& c : cases()) compare<Layout_engine<double>>(c, 1e-6);
+}
+
+TEST_CASE("single precision ends where double precision does")
+{
+  for (const Case& c : cases()) {
+    if (c.options.weight_method != Weight_method::newton) continue;
+    CAPTURE(c.name);
+    const Start start(c);
+    const Surface& surface = start.patches->surface();
+    Host host(surface, c.options);
+    Layout_engine<float> single(surface, c.options);
+    host.set_samples(start.samples, start.patches->features());
+    single.set_samples(start.samples, start.patches->features());
+    run(host, c.options);
+    run(single, c.options);
+    CHECK(single.displacement() < 1.25 * host.displacement() + 1e-3);
+    CHECK(single.cell_counts().ok == host.cell_counts().ok);
+    CHECK(single.capacity().inside_interval == host.capacity().inside_interval);
+  }
+}
+
+TEST_CASE("single precision's cells are the exact ones of its samples")
+{
+  const Case c = cases()[1];
+  const Start start(c);
+  Layout_engine<float> engine(start.patches->surface(), c.options);
+  engine.set_samples(start.samples, start.patches->features());
+  for (int k = 0; k < 8; ++k) {
+    engine.build_cells();
+    engine.move_samples(Position_method::lloyd);
+  }
+  engine.build_cells();
+  engine.newton_weights();
+  const Cell_comparison r = check_cells<CGAL::Sequential_tag>(
+      engine.samples(), engine.cells(), compatibility_cosine(c.options.normal_angle),
+      std::numeric_limits<float>::epsilon(), c.options.guard_factor);
+  CHECK(r.cells == start.samples.size());
+  CHECK(r.certified_wrong == 0);
+  CHECK(r.area.p99 < 2e-6);
+  CHECK(r.centroid.p99 < 1e-5);
+}

@@ -1,0 +1,124 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where the samples are too sparse for the surface, the extraction goes on with more care.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "dirty_shapes.h"
+
+#include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/quality/self_intersections.h>
+#include <CGAL/PowerRTF/quality/topology.h>
+#include <CGAL/PowerRTF/surface/initial_sampling.h>
+
+#include <doctest/doctest.h>
+
+namespace PRTF = CGAL::PowerRTF;
+using PRTF::Extracted_mesh;
+using PRTF::Samples;
+using PRTF::Surface;
+using PRTF::Triangle;
+using PRTF::Vec3d;
+using PRTF::internal::Intersection_guard;
+using PRTF::internal::Working_mesh;
+
+namespace {
+
+Samples random_samples(const Surface& surface, std::size_t n, unsigned seed)
+{
+  PRTF::Remeshing_options options;
+  options.number_of_samples = n;
+  options.sampling = PRTF::Sampling::random; // worse than any that are optimised
+  options.random_seed = seed;
+  return PRTF::sample_surface(surface, options);
+}
+
+/// Two parallel squares, `gap` apart, closed at their rims, with `holes` square tubes between them.
+shapes::Soup thin_plate(int holes, double gap)
+{
+  shapes::Soup s = shapes::plate_with_holes(holes, 4);
+  for (Vec3d& p : s.points) p.z *= gap;
+  return s;
+}
+
+void check_all_promises(const Surface& surface, const Extracted_mesh& mesh, std::size_t n)
+{
+  const auto in = PRTF::topology(surface.triangles), out = PRTF::topology(mesh.triangles);
+  CHECK(out.vertices == n);
+  CHECK(out.non_manifold_edges == 0);
+  CHECK(out.non_manifold_vertices == 0);
+  CHECK(out.oriented);
+  CHECK(out.components == in.components);
+  CHECK(out.euler_characteristic == in.euler_characteristic);
+  CHECK(PRTF::self_intersections(mesh.points, mesh.triangles) == 0);
+}
+
+} // namespace
+
+TEST_CASE("thin plates with holes and few, badly distributed samples")
+{
+  for (const int holes : {0, 1, 3})
+    for (const double gap : {0.3, 0.02})
+      for (const std::size_t n : {std::size_t(60), std::size_t(200)})
+        for (const unsigned seed : {1u, 2u, 3u}) {
+          CAPTURE(holes);
+          CAPTURE(gap);
+          CAPTURE(n);
+          CAPTURE(seed);
+          const Surface surface =
+              shapes::make_surface(shapes::rotated(thin_plate(holes, gap), 0.3));
+          const Samples samples = random_samples(surface, n, seed);
+          check_all_promises(surface, PRTF::extract_by_insertion(surface, samples), n);
+        }
+}
+
+TEST_CASE("samples that are all on one side: those that are missed come from there")
+{
+  const Surface surface = shapes::make_surface(shapes::torus(40, 20, 2, 0.6));
+  Samples samples = random_samples(surface, 400, 5);
+  Samples half;
+  for (std::size_t s = 0; s < samples.size(); ++s)
+    if (samples.points[s].x > 0.02) {
+      half.points.push_back(samples.points[s]);
+      half.facets.push_back(samples.facets[s]);
+      half.normals.push_back(samples.normals[s]);
+    }
+  const Extracted_mesh mesh = PRTF::extract_by_insertion(surface, half);
+  check_all_promises(surface, mesh, half.size());
+}
+
+TEST_CASE("fewer samples than the topology needs: vertices of the surface stay, nothing intersects")
+{
+  const Surface surface = shapes::make_surface(shapes::plate_with_holes(3, 3));
+  const Samples samples = random_samples(surface, 8, 1);
+  const Extracted_mesh mesh = PRTF::extract_by_insertion(surface, samples);
+  const auto out = PRTF::topology(mesh.triangles);
+  CHECK(out.euler_characteristic == -4);
+  CHECK(out.vertices > 8);
+  CHECK(out.non_manifold_vertices == 0);
+  CHECK(PRTF::self_intersections(mesh.points, mesh.triangles) == 0);
+}
+
+TEST_CASE("the guard knows which flips and collapses add intersections")
+{
+  // A flat square of four triangles around a vertex, and a needle through one of them.
+  PRTF::internal::Refined_surface refined;
+  refined.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.3, 0.2},
+                    {0.5, 0.45, 0.1}, {0.45, 0.5, 0.1}, {0.5, 0.5, -1}};
+  refined.normals.assign(8, Vec3d{0, 0, 1});
+  refined.samples = {0, 1, 2, 3, -1, 4, 5, 6};
+  refined.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {5, 6, 7}};
+  for (const double height : {0.4, 0.05}) { // the needle's upper end, below and above the tent
+    refined.points[4].z = height;
+    refined.points[7].z = height == 0.4 ? 0.05 : 0.2;
+    const Working_mesh mesh{PRTF::internal::Refined_surface(refined)};
+    for (const auto sight : {Intersection_guard::watched, Intersection_guard::unknown}) {
+      const Intersection_guard guard(mesh, std::vector<Intersection_guard::Sight>(8, sight));
+      using Vertex = Working_mesh::Vertex;
+      const auto h = mesh.mesh.halfedge(Vertex(4), Vertex(0));
+      REQUIRE(h.is_valid());
+      // Collapsed, the tent is the square; the needle is then above it or not.
+      const bool crosses = refined.points[7].z * refined.points[5].z < 0;
+      CHECK(guard.forbids_collapse(h) == (crosses && sight == Intersection_guard::watched));
+    }
+  }
+}
