@@ -114,7 +114,7 @@ std::string stl_header_error(std::istream& in, std::uintmax_t size)
   std::uint32_t facets = 0; // little-endian, as the reader takes it too
   std::memcpy(&facets, head + 80, sizeof(facets));
   const std::uintmax_t present = (size - 84) / 50;
-  if (present < facets)
+  if (present != facets)
     return "it is not an STL file, or truncated: its header announces " + std::to_string(facets) +
            " facets, the file has room for " + std::to_string(present);
   return {};

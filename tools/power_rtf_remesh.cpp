@@ -255,6 +255,7 @@ Exit_code remesh(const Program_options& options)
 #ifdef CGAL_POWER_RTF_WITH_CUDA
   if (options.traits != "cpu") {
     try {
+      cuda_devices(); // before any work is done
       return remesh_with<CGAL::PowerRTF_cuda_traits_3<Kernel>>(options);
     } catch (const Cuda_error& e) {
       if (options.traits == "cuda")

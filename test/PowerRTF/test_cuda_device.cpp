@@ -99,7 +99,7 @@ TEST_CASE("a GPU that is not there and too many samples are refused in words")
   c.options.device = 0;
   c.options.lbfgs_memory = 11;
   Cuda_engine<float> engine(start.patches->surface(), c.options);
-  CHECK_THROWS_AS(engine.set_samples(start.samples), Invalid_input_error);
+  CHECK_THROWS_AS(engine.set_samples(start.samples), Cuda_error);
 }
 
 int main(int argc, char** argv)

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # make_figures.sh [PROGRAM [MODELS [FOLDER]]]
-# The pictures of the README and the manual: cells and mesh of three of CGAL's models, from the
-# program's own output. PROGRAM: power_rtf_remesh; MODELS: the folder of CGAL's meshes; FOLDER: for
+# The pictures of the README and the manual, from the program's own output: cells and mesh of some of
+# CGAL's models, and the cells of a thin disc with and without NVISPC. PROGRAM: power_rtf_remesh; MODELS: the folder of CGAL's meshes; FOLDER: for
 # the pictures. The defaults are what ./remesh and ./run_tests have made, and this folder.
 # PYTHON: an interpreter with PyVista (see render.py).
 set -euo pipefail
@@ -16,18 +16,29 @@ target=${3:-$here}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+render() { "${PYTHON:-python3}" "$here/render.py" "$@" --edges --height 420 --edge-width 0.8; }
+
 # draw NAME SAMPLES [options of render.py]
 draw() {
   local name=$1 samples=$2
   shift 2
   "$program" "$models/$name.off" "$work/$name.off" --samples "$samples" \
     --cells "$work/$name.vtp" --quiet
-  "${PYTHON:-python3}" "$here/render.py" "$work/$name.vtp" "$target/${name}_cells.png" \
-    --edges --color-by sides --height 420 --edge-width 0.8 "$@"
-  "${PYTHON:-python3}" "$here/render.py" "$work/$name.off" "$target/${name}_mesh.png" \
-    --edges --height 420 --edge-width 0.8 "$@"
+  render "$work/$name.vtp" "$target/${name}_cells.png" --color-by sides "$@"
+  render "$work/$name.off" "$target/${name}_mesh.png" "$@"
 }
 
 draw elk 6000
 draw armadillo 6000 --azimuth 240
 draw bunny00 3000
+draw fandisk 3000 --azimuth 35 --elevation 30
+
+# The disc of the benchmarks, with the preset of the paper.
+PYTHONPATH=$root/benchmark/PowerRTF/Quality "${PYTHON:-python3}" -B -c \
+  'import models, pathlib, sys; models.write_off(pathlib.Path(sys.argv[1]), *models.disc())' \
+  "$work/disc.off"
+for angle in 60 180; do
+  "$program" "$work/disc.off" --no-mesh --samples 3000 --preset paper --density uniform \
+    --normal-angle "$angle" --iterations 20 --cells "$work/disc_$angle.vtp" --quiet
+  render "$work/disc_$angle.vtp" "$target/disc_$angle.png" --color-by sides --up z --elevation 40
+done

@@ -11,7 +11,6 @@
 #include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
 #include <CGAL/PowerRTF/engines/Facet_tree.h>
 #include <CGAL/PowerRTF/engines/Spatial_order.h>
-#include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/surface/Surface.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/vertex_facets.h>

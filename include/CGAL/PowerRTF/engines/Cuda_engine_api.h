@@ -22,7 +22,7 @@ namespace PowerRTF
 {
 
 /// No GPU can be used, its driver is too old, its memory does not suffice (the message says how
-/// much was needed), or it failed.
+/// much was needed), it failed, or an option asks for more than the device engine can.
 class Cuda_error : public std::runtime_error
 {
 public:

@@ -172,11 +172,19 @@ private:
     std::sort(order.begin(), order.end());
     std::vector<Vertex> chosen;
     for (const auto& [height, v] : order) {
-      if (is_near[v]) continue;
+      if (is_near[v] || !is_collapsible(v)) continue;
       chosen.push_back(v);
       for (const Halfedge h : halfedges_around_target(v, m.mesh)) is_near[m.mesh.source(h)] = true;
     }
     return chosen;
+  }
+
+  // Small components may have no vertex to spare.
+  bool is_collapsible(Vertex v) const
+  {
+    for (const Halfedge h : halfedges_around_target(v, m.mesh))
+      if (Euler::does_satisfy_link_condition(m.mesh.edge(h), m.mesh)) return true;
+    return false;
   }
 
   static constexpr int max_exchanges = 10;

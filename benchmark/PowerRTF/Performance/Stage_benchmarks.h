@@ -1,0 +1,144 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Benchmarks of the stages that a traits class runs: construction, weights, positions, and whole
+// runs. A file for each traits class registers them, see stages_cpu.cpp. Names read
+// stage/traits/threads/samples/density/n, e.g. construction/cpu/1/regular/uniform/1000.
+#ifndef POWER_RTF_BENCHMARK_STAGE_BENCHMARKS_H
+#define POWER_RTF_BENCHMARK_STAGE_BENCHMARKS_H
+
+#include "Peak_memory.h"
+#include "Workload.h"
+
+#include <CGAL/PowerRTF/Remeshing_visitor.h>
+#include <CGAL/PowerRTF_remesher.h>
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+/// What is registered: a function per stage, with how many iterations it takes (0: as many as fill
+/// the time).
+using Stage_function = void (*)(benchmark::State&, const Workload&);
+
+/// Registers a stage for a workload. `threads`: "1" (then CPU time counts) or "all" (then real time
+/// does).
+inline void register_stage(const std::string& stage, const std::string& traits,
+                           const std::string& threads, const Workload::Kind& kind,
+                           Stage_function function, int iterations = 0)
+{
+  const std::string name = stage + '/' + traits + '/' + threads + '/' + kind.name();
+  auto* b = benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+    function(state, Workload::get(kind));
+  });
+  b->Unit(benchmark::kMillisecond);
+  if (threads != "1") b->MeasureProcessCPUTime()->UseRealTime();
+  if (iterations > 0) b->Iterations(iterations);
+}
+
+/// Counters: samples per second, and bytes of memory per sample above what there was before.
+inline void count(benchmark::State& state, int n, const Peak_memory& memory)
+{
+  using benchmark::Counter;
+  state.counters["per_second"] = Counter(n, Counter::kIsIterationInvariantRate);
+  if (memory.known()) state.counters["bytes_per_sample"] = Counter(memory.bytes() / n);
+}
+
+/// The stages of one traits class.
+template <class Traits>
+struct Stage_benchmarks {
+  using Engine = typename Traits::Engine;
+
+  /// Algorithm 1, neighbour search included. The radii of the searches are known from the last
+  /// construction, as in all of a run but the first.
+  static void construction(benchmark::State& state, const Workload& w)
+  {
+    const Peak_memory memory;
+    Engine engine(w.surface, w.options);
+    engine.set_samples(w.samples);
+    engine.build_cells();
+    for (auto _ : state) engine.build_cells();
+    if (w.kind.regular && engine.cell_counts().ok != w.samples.size())
+      state.SkipWithError("some cells of regular samples are not certified");
+    count(state, w.kind.n, memory);
+  }
+
+  /// A pass of the paper's rule (Algorithm 2), with the construction that follows it.
+  static void weight_pass(benchmark::State& state, const Workload& w)
+  {
+    const Peak_memory memory;
+    CGAL::PowerRTF::Remeshing_options options = w.options;
+    options.capacity_tolerance = 0.04;
+    options.weight_method = CGAL::PowerRTF::Weight_method::multiplicative;
+    Engine engine(w.surface, options);
+    engine.set_samples(w.samples);
+    engine.build_cells();
+    for (auto _ : state) {
+      engine.update_weights();
+      engine.build_cells();
+    }
+    count(state, w.kind.n, memory);
+  }
+
+  /// A step of Newton's method on the weights, from weights 0: edges, linear system, constructions.
+  static void newton_step(benchmark::State& state, const Workload& w)
+  {
+    const Peak_memory memory;
+    Engine engine(w.surface, w.options);
+    for (auto _ : state) {
+      state.PauseTiming();
+      engine.set_samples(w.samples);
+      engine.build_cells();
+      state.ResumeTiming();
+      benchmark::DoNotOptimize(engine.newton_weights());
+    }
+    count(state, w.kind.n, memory);
+  }
+
+  /// A step of L-BFGS with its projection onto the surface and the samples' new attributes.
+  static void position_step(benchmark::State& state, const Workload& w)
+  {
+    const Peak_memory memory;
+    Engine engine(w.surface, w.options);
+    engine.set_samples(w.samples);
+    for (auto _ : state) {
+      state.PauseTiming();
+      engine.build_cells();
+      state.ResumeTiming();
+      engine.move_samples(CGAL::PowerRTF::Position_method::lbfgs);
+    }
+    count(state, w.kind.n, memory);
+  }
+
+  /// All of a run but reading and writing files: sampling, optimisation, extraction, improvement,
+  /// and the assessment of the result.
+  static void whole_run(benchmark::State& state, const Workload& w)
+  {
+    const Peak_memory memory;
+    std::size_t constructions = 0;
+    for (auto _ : state) {
+      CGAL::PowerRTF_remesher<Traits> remesher(w.surface, w.options);
+      CGAL::PowerRTF::Remeshing_default_visitor visitor;
+      remesher.optimize(visitor);
+      benchmark::DoNotOptimize(remesher.extract(visitor));
+      constructions = remesher.report().constructions;
+    }
+    count(state, w.kind.n, memory);
+    state.counters["constructions"] = benchmark::Counter(double(constructions));
+  }
+
+  /// Registers all of them; whole runs up to `largest_run` samples.
+  static void register_all(const std::string& threads, const Workload::Kind& kind, int largest_run)
+  {
+    const std::string traits = Traits::name();
+    register_stage("construction", traits, threads, kind, construction);
+    register_stage("weight_pass", traits, threads, kind, weight_pass);
+    register_stage("newton_step", traits, threads, kind, newton_step);
+    register_stage("position_step", traits, threads, kind, position_step);
+    // the kind of samples is where the stages start from; a run makes its own
+    if (kind.regular && kind.n <= largest_run)
+      register_stage("whole_run", traits, threads, kind, whole_run, 1);
+  }
+};
+
+#endif // POWER_RTF_BENCHMARK_STAGE_BENCHMARKS_H

@@ -1,0 +1,83 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Judges a remeshed surface, whoever made it: one line of JSON with the columns of the paper's
+// Tables 1 and 2, topology, and the two-sided distance to the input in % of the diagonal of its
+// bounding box. By the library's own functions (quality/), applied to the triangles as they are
+// in the file.
+//
+//   judge INPUT OUTPUT
+#include <CGAL/PowerRTF/quality/self_intersections.h>
+#include <CGAL/PowerRTF/quality/surface_distance.h>
+#include <CGAL/PowerRTF/quality/topology.h>
+#include <CGAL/PowerRTF/quality/triangle_quality.h>
+
+#include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <array>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace CGAL::PowerRTF;
+using Point = CGAL::Simple_cartesian<double>::Point_3;
+
+struct Soup {
+  std::vector<Vec3d> points;
+  std::vector<Triangle> triangles;
+};
+
+bool read(const std::string& file, Soup& soup)
+{
+  std::vector<Point> points;
+  std::vector<std::vector<std::size_t>> polygons;
+  if (!CGAL::IO::read_polygon_soup(file, points, polygons)) return false;
+  for (const Point& p : points) soup.points.push_back({p.x(), p.y(), p.z()});
+  for (const auto& polygon : polygons)
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+      soup.triangles.push_back({int(polygon[0]), int(polygon[k - 1]), int(polygon[k])});
+  return !soup.triangles.empty();
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if (argc != 3) {
+    std::cerr << "judge INPUT OUTPUT\n";
+    return EXIT_FAILURE;
+  }
+  Soup input, output;
+  if (!read(argv[1], input) || !read(argv[2], output)) {
+    std::cerr << "judge: one of the files cannot be read or has no facet\n";
+    return EXIT_FAILURE;
+  }
+  const Topology_statistics before = topology(input.triangles), after = topology(output.triangles);
+  const Quality_statistics q = triangle_quality(output.points, output.triangles);
+  const Distance_statistics d = surface_distance<CGAL::Sequential_tag>(
+      input.points, input.triangles, output.points, output.triangles);
+  std::cout.precision(9);
+  std::cout << "{\"vertices\": " << after.vertices << ", \"faces\": " << after.faces
+            << ", \"input_vertices\": " << before.vertices
+            << ", \"euler\": " << after.euler_characteristic
+            << ", \"input_euler\": " << before.euler_characteristic
+            << ", \"components\": " << after.components
+            << ", \"input_components\": " << before.components
+            << ", \"border_loops\": " << after.border_loops
+            << ", \"input_border_loops\": " << before.border_loops
+            << ", \"non_manifold_edges\": " << after.non_manifold_edges
+            << ", \"non_manifold_vertices\": " << after.non_manifold_vertices
+            << ", \"oriented\": " << (after.oriented ? "true" : "false")
+            << ", \"self_intersections\": " << self_intersections(output.points, output.triangles)
+            << ", \"q_min\": " << q.q_min << ", \"q_avg\": " << q.q_avg
+            << ", \"theta_min\": " << q.theta_min << ", \"theta_min_avg\": " << q.theta_min_avg
+            << ", \"below_30\": " << q.below_30 << ", \"above_90\": " << q.above_90
+            << ", \"distance_rms\": " << d.rms << ", \"distance_mean\": " << d.mean
+            << ", \"distance_max\": " << d.max << "}\n";
+  return EXIT_SUCCESS;
+}

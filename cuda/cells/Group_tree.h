@@ -1,0 +1,117 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The sites as warps see them: a packed tree of arity 32 over sites in Morton order, so that one
+// lane looks at one child. Every node carries the largest weight below it; a search that skips a
+// node has a proof that none of its sites can cut, as with the tree of arity 8 of the CPU.
+#ifndef CGAL_POWER_RTF_CUDA_GROUP_TREE_H
+#define CGAL_POWER_RTF_CUDA_GROUP_TREE_H
+
+#include "quick_math.h"
+
+#include <CGAL/PowerRTF/cells/Packed_tree.h>
+#include <CGAL/PowerRTF/cells/Sites_view.h>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace device {
+
+/// A `Site`, aligned for loads of 16 bytes.
+template <class Real>
+struct alignas(16) Packed_site {
+  Vec3<Real> point;
+  Real weight;
+};
+
+/// The unit normal of a site and its patch.
+template <class Real>
+struct alignas(16) Packed_normal {
+  Vec3<Real> normal;
+  int patch;
+};
+
+/// Box and largest weight of a node.
+template <class Real>
+struct alignas(16) Group_node {
+  Vec3<Real> lo;
+  Real max_weight;
+  Vec3<Real> hi;
+  Real padding;
+};
+
+/// How the nodes lie in one array; see `Packed_tree_layout`.
+struct Group_layout {
+  static constexpr int arity = 32;
+  static constexpr int max_levels = 7; // 32^7 > 2^31 sites
+
+  int items = 0, levels = 0;
+  int first[max_levels + 1] = {};
+
+  CGAL_POWER_RTF_HD explicit Group_layout(int number_of_items = 0) : items(number_of_items)
+  {
+    int below = items;
+    while (below > 1 || (levels == 0 && below > 0)) {
+      below = (below + arity - 1) / arity;
+      first[levels + 1] = first[levels] + below;
+      ++levels;
+    }
+  }
+  CGAL_POWER_RTF_HD int nodes() const { return first[levels]; }
+  CGAL_POWER_RTF_HD int nodes(int level) const { return first[level + 1] - first[level]; }
+  /// Children of a node of `level`: items, or nodes of the level below.
+  CGAL_POWER_RTF_HD int below(int level) const { return level == 0 ? items : nodes(level - 1); }
+};
+
+/// The nodes that wait in a warp's depth-first search: `at_once` are taken together as long as
+/// there are few, then one at a time.
+struct Search_stack {
+  static constexpr int at_once = 2, crowded = 128;
+  int nodes[crowded + at_once * Group_layout::arity +
+            (Group_layout::arity - 1) * Group_layout::max_levels];
+};
+
+/// Non-owning view of the sites in Morton order; `place` is the index there.
+template <class Real>
+struct Group_view {
+  const Packed_site<Real>* sites = nullptr;
+  const Packed_normal<Real>* normals = nullptr;
+  const Real* density_root = nullptr;
+  const int* caller = nullptr; ///< the site's index in the caller's arrays
+  const Group_node<Real>* nodes = nullptr;
+  Group_layout tree;
+  int cells = 0; ///< sites whose index in the caller's arrays is below this have a cell
+  bool has_features = false; ///< cells next to the other sites are cut at chords
+  Real cos_angle = -2, guard_factor = 3;
+};
+
+/// The sites that may cut one of a set of cells: those of radius at most `radius` and weight at
+/// least `min_weight` in a box.
+template <class Real>
+struct Group_query {
+  Vec3<Real> lo, hi;
+  Real radius, min_weight;
+
+  /// Relative rounding of coordinates' differences, squares and roots, with room to spare.
+  CGAL_POWER_RTF_HD static constexpr Real margin() { return 1 + 64 * internal::epsilon<Real>(); }
+
+  /// Whether a site in the box [`box_lo`, `box_hi`] of weight at most `weight` may cut. (See
+  /// `for_each_possible_neighbor()`; also all sites nearer than `radius` are reported.)
+  CGAL_POWER_RTF_HD bool reaches(const Vec3<Real>& box_lo, const Vec3<Real>& box_hi,
+                                 Real weight) const
+  {
+    const Real dx = greatest(box_lo.x - hi.x, lo.x - box_hi.x, Real(0));
+    const Real dy = greatest(box_lo.y - hi.y, lo.y - box_hi.y, Real(0));
+    const Real dz = greatest(box_lo.z - hi.z, lo.z - box_hi.z, Real(0));
+    const Real rounding =
+        4 * internal::epsilon<Real>() * (std::fabs(weight) + std::fabs(min_weight));
+    const Real square = radius * radius + (weight - min_weight) + rounding;
+    const Real reach = (radius + quick_sqrt(std::fmax(square, Real(0)))) * margin();
+    return dx * dx + dy * dy + dz * dz <= reach * reach;
+  }
+};
+
+} // namespace device
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CUDA_GROUP_TREE_H

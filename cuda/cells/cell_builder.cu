@@ -1,0 +1,295 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cell_builder.h"
+
+#include "group_cells.cuh"
+#include "second_pass.cuh"
+#include "sort_sites.cuh"
+#include "weight_passes.cuh"
+
+#include <algorithm>
+
+namespace CGAL {
+namespace PowerRTF {
+namespace device {
+
+namespace {
+// Calls of set_sites(): samples move by less than a spacing, so that their order serves for a
+// while.
+constexpr unsigned sort_every = 8;
+// Calls of set_weights(): the lists grow too short.
+constexpr unsigned list_every = 10;
+int blocks(int n, int threads) { return (n + threads - 1) / threads; }
+} // namespace
+
+template <class Real>
+Cell_builder<Real>::Cell_builder(Cuda_backend& backend, int max_sites, Real cos_angle,
+                                 Real guard_factor)
+    : m_backend(backend), m_cos_angle(cos_angle), m_guard_factor(guard_factor)
+{
+  const std::size_t before = backend.bytes();
+  m_order.allocate(backend, max_sites);
+  m_packed.allocate(backend, max_sites);
+  m_packed_normals.allocate(backend, max_sites);
+  m_density_root.allocate(backend, max_sites);
+  m_nodes.allocate(backend, Group_layout(max_sites).nodes());
+  m_radius.allocate(backend, max_sites);
+  m_guard.allocate(backend, max_sites);
+  m_rest.allocate(backend, max_sites);
+  m_rest_counts.allocate(backend, 2);
+  m_tickets.allocate(backend, 2);
+  m_keys.allocate(backend, max_sites);
+  const int groups = Group_layout(max_sites).nodes(0);
+  m_list_neighbors.allocate(backend, std::size_t(Kept_lists<Real>::capacity) * max_sites);
+  m_list_sizes.allocate(backend, max_sites);
+  m_list_radius.allocate(backend, max_sites);
+  m_list_outside.allocate(backend, max_sites);
+  m_list_weights.allocate(backend, max_sites);
+  m_group_radius.allocate(backend, groups);
+  m_groups.allocate(backend, std::size_t(Kept_lists<Real>::most_groups) * groups);
+  m_group_sizes.allocate(backend, groups);
+  m_growth.allocate(backend, groups);
+  m_all_growth.allocate(backend, 1);
+  backend.fill(m_rest_counts.data(), 0, 2);
+  backend.fill(m_tickets.data(), 0u, 2);
+  m_bytes = backend.bytes() - before;
+}
+
+template <class Real>
+Group_view<Real> Cell_builder<Real>::view() const
+{
+  Group_view<Real> v;
+  v.sites = m_packed.data();
+  v.normals = m_packed_normals.data();
+  v.density_root = m_density_root.data();
+  v.caller = m_order.data();
+  v.nodes = m_nodes.data();
+  v.tree = Group_layout(m_sites);
+  v.cells = m_cells;
+  v.has_features = m_has_features;
+  v.cos_angle = m_cos_angle;
+  v.guard_factor = m_guard_factor;
+  return v;
+}
+
+template <class Real>
+Kept_lists<Real> Cell_builder<Real>::lists()
+{
+  Kept_lists<Real> l;
+  l.neighbors = m_list_neighbors.data();
+  l.sizes = m_list_sizes.data();
+  l.radius = m_list_radius.data();
+  l.outside = m_list_outside.data();
+  l.weights = m_list_weights.data();
+  l.groups = m_groups.data();
+  l.group_sizes = m_group_sizes.data();
+  l.group_radius = m_group_radius.data();
+  l.growth = m_growth.data();
+  l.all_growth = m_all_growth.data();
+  l.stride = m_sites;
+  return l;
+}
+
+template <class Real>
+void Cell_builder<Real>::take(const Sites_arrays<Real>& arrays, bool positions)
+{
+  if (m_sites == 0) return;
+  if (!positions) m_backend.fill(m_all_growth.data(), Real(0), 1);
+  take_sites_kernel<<<blocks(m_sites, take_threads), take_threads, 0, m_backend.stream()>>>(
+      arrays, positions, m_order.data(), m_packed.data(), m_packed_normals.data(),
+      m_density_root.data(), m_nodes.data(), Group_layout(m_sites), lists(),
+      m_list_use == List_use::read, m_guard.data(), m_tickets.data());
+  check(cudaGetLastError(), "sorting the sites");
+}
+
+template <class Real>
+void Cell_builder<Real>::set_sites(const Sites_arrays<Real>& arrays)
+{
+  const bool others = arrays.sites_size != m_sites || arrays.cells != m_cells;
+  m_sites = arrays.sites_size;
+  m_cells = arrays.cells;
+  m_has_features = arrays.next != nullptr;
+  if (others) {
+    m_settings = 0;
+    m_backend.fill(m_radius.data(), Real(0), m_cells);
+  }
+  if (m_settings % sort_every == 0 && m_sites > 0) {
+    morton_keys_kernel<<<blocks(m_sites, 256), 256, 0, m_backend.stream()>>>(
+        m_sites, arrays.sites, m_keys.data());
+    check(cudaGetLastError(), "sorting the sites");
+    m_backend.sort_order(m_sites, m_keys.data(), m_order.data());
+    if (m_has_features) link_features(arrays);
+  }
+  ++m_settings;
+  m_list_use = List_use::none;
+  m_has_lists = false;
+  take(arrays, true);
+}
+
+template <class Real>
+void Cell_builder<Real>::link_features(const Sites_arrays<Real>& arrays)
+{
+  const std::size_t before = m_backend.bytes();
+  for (Buffer<int>* b : {&m_places, &m_next, &m_previous}) b->allocate(m_backend, m_order.size());
+  m_bytes += m_backend.bytes() - before;
+  const int grid = blocks(m_sites, 256);
+  const cudaStream_t stream = m_backend.stream();
+  invert_order_kernel<<<grid, 256, 0, stream>>>(m_sites, m_order.data(), m_places.data());
+  check(cudaGetLastError(), "sorting the sites");
+  const auto link = [&](const int* caller_links, int* links) {
+    link_places_kernel<<<grid, 256, 0, stream>>>(m_sites, m_order.data(), m_places.data(),
+                                                 caller_links, links);
+    check(cudaGetLastError(), "sorting the sites");
+  };
+  link(arrays.next, m_next.data());
+  link(arrays.previous, m_previous.data());
+}
+
+template <class Real>
+void Cell_builder<Real>::set_weights(const Sites_arrays<Real>& arrays)
+{
+  m_list_use = m_has_lists && ++m_list_age < list_every ? List_use::read : List_use::make;
+  take(arrays, false);
+}
+
+template <class Real>
+void Cell_builder<Real>::construct(Cell_targets<Real>& targets)
+{
+  if (m_cells == 0) return;
+  const unsigned turn = m_constructions++ % 2;
+  targets.radius = m_radius.data();
+  targets.guard = m_guard.data();
+  targets.rest = m_rest.data();
+  targets.rest_count = m_rest_counts.data() + turn;
+  const Group_view<Real> v = view();
+  const cudaStream_t stream = m_backend.stream();
+
+  // Few groups: blocks of one warp spread over the multiprocessors; few cells: several lanes each.
+  const int groups = blocks(m_sites, 32), processors = m_backend.multiprocessors();
+  const auto launch = [&](auto kernel, int lanes_per_cell) {
+    const int warps = groups * lanes_per_cell <= 4 * processors ? 1 : group_warps<Real>;
+    kernel<<<blocks(groups * lanes_per_cell, warps), 32 * warps, 0, stream>>>(v, targets, lists());
+  };
+  switch (m_list_use) {
+  case List_use::none:
+    if (groups <= 8 * processors) launch(group_cells_kernel<Real, List_use::none, 4>, 4);
+    else launch(group_cells_kernel<Real, List_use::none, 1>, 1);
+    break;
+  case List_use::make:
+    launch(group_cells_kernel<Real, List_use::make, 1>, 1);
+    m_has_lists = true;
+    m_list_age = 0;
+    break;
+  case List_use::read:
+    launch(group_cells_kernel<Real, List_use::read, 1>, 1);
+    break;
+  }
+  check(cudaGetLastError(), "constructing cells");
+  const int most_blocks = 4 * processors;
+  const int all = blocks(m_cells, second_warps<Real>);
+  const Feature_links links{m_next.data(), m_previous.data()};
+  second_pass_kernel<<<all < most_blocks ? all : most_blocks, 32 * second_warps<Real>, 0, stream>>>(
+      v, targets, links, m_rest_counts.data() + (1 - turn));
+  check(cudaGetLastError(), "constructing cells");
+}
+
+template <class Real>
+void Cell_builder<Real>::build(const Cell_outputs<Real>& out)
+{
+  Cell_targets<Real> targets;
+  targets.out = out;
+  construct(targets);
+}
+
+template <class Real>
+int Cell_builder<Real>::paper_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites,
+                                            const Real* density, const Real* first,
+                                            const Real* sixth,
+                                            const Multiplicative_weight_rule& rule, int passes,
+                                            const Cell_outputs<Real>& out)
+{
+  if (m_cells == 0) return 0;
+  constexpr int warps = group_warps<Real>;
+  const std::size_t before = m_backend.bytes();
+  m_area.allocate(m_backend, m_cells);
+  m_pass_state.allocate(m_backend, 1);
+  int resident = 0;
+  check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&resident, weight_passes_kernel<Real>,
+                                                      32 * warps, 0), "weight passes");
+  const int most = resident * m_backend.multiprocessors(), groups = blocks(m_sites, 32);
+  const int threads = 32 * (groups <= most ? 1 : warps);
+  // Few groups: there are more warps than these, for the cells of the second pass.
+  const int wanted = std::max(blocks(m_sites, threads), 2 * m_backend.multiprocessors());
+  const int grid = std::min(wanted, most);
+  m_partials.allocate(m_backend, 2 * most);
+  m_bytes += m_backend.bytes() - before;
+
+  Weight_pass_arguments<Real> a;
+  a.sites = m_packed.data();
+  a.nodes = m_nodes.data();
+  a.caller_sites = sites;
+  a.density = density;
+  a.first = first;
+  a.sixth = sixth;
+  a.rule = rule;
+  a.partials = m_partials.data();
+  a.state = m_pass_state.data();
+  int done = 0;
+  for (bool again = true; again;) {
+    // The masses to begin with, and the lists.
+    m_list_use = List_use::make;
+    take(arrays, false);
+    Cell_outputs<Real> areas;
+    areas.area = m_area.data();
+    build(areas);
+    Weight_pass_state state;
+    m_backend.fill(m_pass_state.data(), state, 1);
+    a.view = view();
+    a.lists = lists();
+    a.targets.radius = m_radius.data();
+    a.targets.guard = m_guard.data();
+    a.targets.rest = m_rest.data();
+    a.targets.out = areas;
+    a.links = {m_next.data(), m_previous.data()};
+    a.passes = passes - done < Weight_pass_state::most_passes ? passes - done
+                                                              : Weight_pass_state::most_passes;
+    void* parameters[] = {&a};
+    check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(weight_passes_kernel<Real>), grid,
+                                      threads, parameters, 0, m_backend.stream()),
+          "weight passes");
+    m_backend.download(&state, m_pass_state.data(), 1);
+    done += state.done;
+    again = !state.equal && done < passes && state.done > 0;
+  }
+  m_list_use = List_use::read;
+  take(arrays, false);
+  build(out);
+  return done;
+}
+
+template <class Real>
+void Cell_builder<Real>::polygons(int begin, int end, int* size, Real* x, Real* y, int* neighbor,
+                                  unsigned char* status)
+{
+  Cell_targets<Real> targets;
+  targets.out.status = status;
+  targets.polygons = {begin, end, size, x, y, neighbor};
+  construct(targets);
+}
+
+template <class Real>
+void Cell_builder<Real>::neighbor_distances(bool compatible, Real* first, Real* sixth)
+{
+  if (m_cells == 0) return;
+  neighbor_distances_kernel<<<blocks(m_sites, second_warps<Real>), 32 * second_warps<Real>, 0,
+                              m_backend.stream()>>>(
+      view(), compatible ? m_cos_angle : Real(-2), m_radius.data(), first, sixth);
+  check(cudaGetLastError(), "distances of sites");
+}
+
+template class Cell_builder<float>;
+template class Cell_builder<double>;
+
+} // namespace device
+} // namespace PowerRTF
+} // namespace CGAL

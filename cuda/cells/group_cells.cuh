@@ -1,0 +1,302 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Algorithm 1 for 32 cells at a time. From lists: every lane clips its own polygon by the sites of
+// its kept list. Otherwise: the warp gathers the sites that may cut any cell of its group, then
+// every lane clips. A cell is finished here only when it is proved to be complete and within the
+// guard radius; all others go to the second pass.
+#ifndef CGAL_POWER_RTF_CUDA_GROUP_CELLS_CUH
+#define CGAL_POWER_RTF_CUDA_GROUP_CELLS_CUH
+
+#include "Kept_lists.h"
+#include "cell_outputs.cuh"
+#include "warp_search.cuh"
+
+namespace CGAL {
+namespace PowerRTF {
+namespace device {
+
+/// Whether the cell lies within a few radii of that of lane `from`.
+template <class Real>
+__device__ inline bool is_near_lane(const Lane_cell<Real>& cell, int from)
+{
+  constexpr Real reach = 16;
+  const Vec3<Real> other{__shfl_sync(full_warp, cell.site.point.x, from),
+                         __shfl_sync(full_warp, cell.site.point.y, from),
+                         __shfl_sync(full_warp, cell.site.point.z, from)};
+  const Real radius = __shfl_sync(full_warp, cell.radius, from);
+  return squared_length(cell.site.point - other) <= reach * reach * radius * radius;
+}
+
+/// The query for the cells of the lanes with `wants`, at least one.
+template <class Real>
+__device__ inline Group_query<Real> query_of_lanes(const Lane_cell<Real>& cell, bool wants,
+                                                   Real radius)
+{
+  constexpr Real infinity = Real(1e30);
+  const Vec3<Real> p = cell.site.point;
+  Group_query<Real> query;
+  query.lo = {warp_min(wants ? p.x : infinity), warp_min(wants ? p.y : infinity),
+              warp_min(wants ? p.z : infinity)};
+  query.hi = {warp_max(wants ? p.x : -infinity), warp_max(wants ? p.y : -infinity),
+              warp_max(wants ? p.z : -infinity)};
+  query.radius = radius;
+  query.min_weight = warp_min(wants ? cell.site.weight : infinity);
+  return query;
+}
+
+/// Gathers the sites that may cut the cells of the lanes with `wants` and lists them for each; the
+/// lanes of a cell share the work and list in columns of their own.
+template <int LanesPerCell, class Real>
+__device__ inline void gather(const Group_view<Real>& view, Warp_memory<Real>& memory,
+                              Lane_cell<Real>& cell, bool wants, int lane)
+{
+  const Group_query<Real> query =
+      query_of_lanes(cell, wants, warp_max(wants ? cell.radius : Real(0)));
+  const unsigned below_lane = (1u << lane) - 1;
+  int gathered = 0;
+  const auto list = [&]() {
+    if (wants)
+      cell.list(memory, gathered, view.guard_factor, lane, lane % LanesPerCell, LanesPerCell);
+  };
+  const auto add = [&](bool reached, const Packed_site<Real>& site, int place) {
+    const unsigned lanes = __ballot_sync(full_warp, reached);
+    if (gathered + __popc(lanes) > Warp_memory<Real>::most_candidates) {
+      __syncwarp();
+      list();
+      gathered = 0;
+      __syncwarp();
+    }
+    if (reached) {
+      const int k = gathered + __popc(lanes & below_lane);
+      memory.candidates.sites[k] = site;
+      memory.candidates.places[k] = place;
+    }
+    gathered += __popc(lanes);
+  };
+  search_sites(view, memory.stack, query, lane, add);
+  list();
+  __syncwarp();
+}
+
+/// Brings the lists of a cell's lanes into the first one's column. That one's counts are then those
+/// of all.
+template <int LanesPerCell, class Real>
+__device__ inline void join_lists(Warp_memory<Real>& memory, Lane_cell<Real>& cell, int lane)
+{
+  const int number = lane % LanesPerCell, first = lane - number;
+  int before = 0, all = 0, near = 0;
+#pragma unroll
+  for (int k = 0; k < LanesPerCell; ++k) {
+    const int of_lane = __shfl_sync(full_warp, cell.listed, first + k);
+    if (k < number) before += of_lane;
+    all += of_lane;
+    near += __shfl_sync(full_warp, cell.near, first + k);
+  }
+  if (all <= Warp_memory<Real>::most_listed && number > 0)
+    for (int k = 0; k < cell.listed; ++k)
+      memory.listed[(before + k) * 32 + first] = memory.listed[k * 32 + lane];
+  cell.listed = all;
+  cell.near = near;
+  __syncwarp();
+}
+
+/// A guess of a cell's radius where none is known: the second distance to sites of the same group
+/// and to those before and after it on the curve.
+template <int LanesPerCell, class Real>
+__device__ inline Real guess_radius(const Group_view<Real>& view, const Lane_cell<Real>& cell,
+                                    bool exists, int lane)
+{
+  Real d[2] = {Real(1e30), Real(1e30)};
+  const auto offer = [&](const Vec3<Real>& p) {
+    const Real d2 = squared_length(p - cell.site.point);
+    d[1] = fmin(d[1], fmax(d[0], d2));
+    d[0] = fmin(d[0], d2);
+  };
+  for (int step = 1; step < 32; ++step) {
+    const int from = (lane + step) % 32;
+    const Vec3<Real> other{__shfl_sync(full_warp, cell.site.point.x, from),
+                           __shfl_sync(full_warp, cell.site.point.y, from),
+                           __shfl_sync(full_warp, cell.site.point.z, from)};
+    if (__shfl_sync(full_warp, int(exists), from) && from / LanesPerCell != lane / LanesPerCell)
+      offer(other);
+  }
+  const int begin = cell.place - lane / LanesPerCell, end = begin + 32 / LanesPerCell;
+  for (int k = 1; k <= 2; ++k) {
+    if (begin - k >= 0) offer(view.sites[begin - k].point);
+    if (end + k <= view.tree.items) offer(view.sites[end + k - 1].point);
+  }
+  for (int k = 1; k >= 0; --k)
+    if (d[k] > 0 && d[k] < Real(1e30)) return std::sqrt(d[k]);
+  return 1;
+}
+
+template <class Real>
+constexpr int group_warps = sizeof(Real) == 4 ? 4 : 2; // of a block: 48 KB of shared memory
+
+/// The most that a weight has grown in the groups near this one.
+template <class Real>
+__device__ inline Real near_growth(const Kept_lists<Real>& lists, int group, int lane)
+{
+  const int size = lists.group_sizes[group];
+  if (size < 0) return *lists.all_growth;
+  Real growth = 0;
+  if (lane < size)
+    growth = lists.growth[lists.groups[group * Kept_lists<Real>::most_groups + lane]];
+  return warp_max(growth);
+}
+
+/// Makes the cell from its list; returns whether that is proved. `near`: of the group.
+template <class Real>
+__device__ inline bool make_kept(const Group_view<Real>& view, const Kept_lists<Real>& lists,
+                                 const Lane_cell<Real>& cell, const Tangent_frame<Real>& frame,
+                                 Real near, Ring_polygon<Real, 32>& polygon)
+{
+  const int place = cell.place, sizes = lists.sizes[place];
+  if (sizes == Kept_lists<Real>::none) return false;
+  const Real list_radius = lists.radius[place];
+  return clip_kept(view, lists, cell, frame, list_radius, sizes, polygon) &&
+         list_suffices(std::sqrt(polygon.squared_radius()), list_radius, lists.outside[place],
+                       lists.group_radius[place / 32], cell.site.weight - lists.weights[place],
+                       near, *lists.all_growth);
+}
+
+/// Lists the groups that sites may come from which cut one of the cells of the lanes with `wants`.
+template <class Real>
+__device__ inline void keep_groups(const Group_view<Real>& view, const Kept_lists<Real>& lists,
+                                   Search_stack& stack, const Lane_cell<Real>& cell, bool wants,
+                                   int group, int lane)
+{
+  constexpr Real further = 2; // than the lists' radius
+  const Real radius = further * warp_max(wants ? cell.radius : Real(0));
+  int* const out = lists.groups + group * Kept_lists<Real>::most_groups;
+  int found = 0;
+  for (unsigned lanes; (lanes = __ballot_sync(full_warp, wants)) != 0;) {
+    const bool is_near = is_near_lane(cell, __ffs(int(lanes)) - 1);
+    const Group_query<Real> query = query_of_lanes(cell, wants && is_near, radius);
+    wants = wants && !is_near;
+    search_groups(view, stack, query, lane, [&](bool reached, int k) {
+      const unsigned reaching = __ballot_sync(full_warp, reached);
+      const int at = found + __popc(reaching & ((1u << lane) - 1));
+      if (reached && at < Kept_lists<Real>::most_groups) out[at] = k;
+      found += __popc(reaching);
+    });
+  }
+  if (lane == 0) {
+    lists.group_sizes[group] = found <= Kept_lists<Real>::most_groups ? found : -1;
+    lists.group_radius[group] = radius;
+  }
+}
+
+/// One warp per 32 / `LanesPerCell` sites that follow each other; several lanes per cell, where
+/// there are few cells, share the search and make lists for one of them.
+template <class Real, List_use Use, int LanesPerCell>
+__global__ void __launch_bounds__(32 * group_warps<Real>)
+group_cells_kernel(const __grid_constant__ Group_view<Real> view,
+                   const __grid_constant__ Cell_targets<Real> targets,
+                   const __grid_constant__ Kept_lists<Real> lists)
+{
+  // What changes between two constructions, or what a list should outlive; what a cell that was not
+  // complete, or for which too many sites were found, is given in the next round.
+  constexpr Real growth = Use == List_use::make ? Real(1.4) : Real(1.15);
+  constexpr Real further_growth = Real(1.6), shrinkage = Real(0.7);
+  constexpr int rounds = 4;
+  __shared__ Warp_memory<Real> memories[group_warps<Real>];
+  Warp_memory<Real>& memory = memories[threadIdx.x / 32];
+  const int lane = threadIdx.x % 32;
+  static_assert(LanesPerCell == 1 || Use == List_use::none, "lists are made group by group");
+  const int place = (blockIdx.x * blockDim.x + threadIdx.x) / LanesPerCell, group = place / 32;
+  if (place - lane / LanesPerCell >= view.tree.items) return;
+
+  const bool exists = place < view.tree.items;
+  Lane_cell<Real> cell;
+  cell.place = exists ? place : view.tree.items - 1;
+  cell.site = load(view.sites + cell.place);
+  const int id = view.caller[cell.place];
+  const bool has_cell = exists && id < view.cells && lane % LanesPerCell == 0;
+  const Packed_normal<Real> own = load(view.normals + cell.place);
+  const Tangent_frame<Real> frame(own.normal);
+
+  const Real last_radius = exists && id < view.cells ? targets.radius[id] : Real(-1);
+  cell.radius = last_radius * growth;
+  if (__any_sync(full_warp, last_radius == 0)) {
+    const Real guess = guess_radius<LanesPerCell>(view, cell, exists, lane);
+    if (last_radius == 0) cell.radius = guess;
+  }
+
+  bool open = has_cell && last_radius >= 0; // below 0: the last one needed the second pass
+  bool rest = has_cell && !open, kept = false;
+  Ring_polygon<Real, 32> polygon(memory.polygons, lane);
+  for (int round = Use == List_use::read ? -1 : 0; round < rounds && __any_sync(full_warp, open);
+       ++round) {
+    bool is_cell = false, hopeless = false;
+    const int* column = memory.listed + lane;
+    int stride = 32;
+    if (round < 0) {
+      const Real near = near_growth(lists, group, lane);
+      column = lists.neighbors + cell.place;
+      stride = lists.stride;
+      is_cell = open && make_kept(view, lists, cell, frame, near, polygon);
+    } else {
+      cell.clear();
+      // Along the curve there are jumps, of any length: the lanes near the first one go first.
+      bool waits = __shfl_sync(full_warp, open, lane - lane % LanesPerCell);
+      for (unsigned lanes; (lanes = __ballot_sync(full_warp, waits)) != 0;) {
+        const bool is_near = is_near_lane(cell, __ffs(int(lanes)) - 1);
+        gather<LanesPerCell>(view, memory, cell, waits && is_near, lane);
+        waits = waits && !is_near;
+      }
+      if (LanesPerCell > 1) join_lists<LanesPerCell>(memory, cell, lane);
+      // Within the guard radius: R <= guard_factor times the distance of the 6th neighbour.
+      if (open && clip_listed(view, cell, own, frame, column, polygon, hopeless)) {
+        is_cell = cell.near <= 6 && view.guard_factor >= 1;
+        hopeless = !is_cell;
+      }
+    }
+    if (is_cell) {
+      open = false;
+      const Listed_polygon<Real> listed(polygon, column, stride);
+      rest = view.has_features && touches_fixed(view, listed);
+      if (!rest) {
+        targets.radius[id] = std::sqrt(polygon.squared_radius());
+        write_cell(view, targets.out, cell.place, id, Cell_status::ok, listed, frame);
+        if (targets.polygons.size) write_polygon(view, targets.polygons, id, listed);
+        if (Use == List_use::make && cell.listed <= Kept_lists<Real>::capacity) {
+          keep_list(lists, cell, polygon, column);
+          kept = true;
+        }
+      }
+    } else if (open && round >= 0) {
+      if (hopeless || round + 1 == rounds) {
+        open = false;
+        rest = true;
+      } else {
+        const bool too_many = cell.listed > Warp_memory<Real>::most_listed;
+        cell.radius *= too_many ? shrinkage : further_growth;
+      }
+    }
+    if (LanesPerCell > 1)
+      cell.radius = __shfl_sync(full_warp, cell.radius, lane - lane % LanesPerCell);
+    __syncwarp();
+  }
+  if (Use == List_use::make) {
+    if (exists && !kept) lists.sizes[place] = Kept_lists<Real>::none;
+    keep_groups(view, lists, memory.stack, cell, kept, group, lane);
+  }
+
+  const unsigned lanes = __ballot_sync(full_warp, rest);
+  if (lanes == 0) return;
+  int begin = 0;
+  if (lane == 0) begin = atomicAdd(targets.rest_count, __popc(lanes));
+  begin = __shfl_sync(full_warp, begin, 0);
+  if (rest) {
+    targets.rest[begin + __popc(lanes & ((1u << lane) - 1))] = cell.place;
+    targets.radius[id] = std::fabs(cell.radius);
+  }
+}
+
+} // namespace device
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CUDA_GROUP_CELLS_CUH

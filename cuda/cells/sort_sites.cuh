@@ -1,0 +1,132 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Brings the caller's sites into Morton order and makes the tree of arity 32 over them.
+#ifndef CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
+#define CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
+
+#include "../engine/morton_code.h"
+#include "cell_arrays.h"
+#include "Kept_lists.h"
+#include "warp_search.cuh"
+
+namespace CGAL {
+namespace PowerRTF {
+namespace device {
+
+template <class Real>
+__global__ void morton_keys_kernel(int n, const Site<Real>* sites, std::uint64_t* keys)
+{
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < n) keys[i] = morton_code(sites[i].point);
+}
+
+/// `places[id]`: where the caller's site `id` lies.
+static __global__ void invert_order_kernel(int n, const int* order, int* places)
+{
+  const int place = blockIdx.x * blockDim.x + threadIdx.x;
+  if (place < n) places[order[place]] = place;
+}
+
+/// The boundaries' links between the caller's sites as links between places.
+static __global__ void link_places_kernel(int n, const int* order, const int* places,
+                                   const int* caller_links, int* links)
+{
+  const int place = blockIdx.x * blockDim.x + threadIdx.x;
+  if (place >= n) return;
+  const int to = caller_links[order[place]];
+  links[place] = to < 0 ? -1 : places[to];
+}
+
+/// The node above the lanes with `exists`, the same on all lanes.
+template <class Real>
+__device__ inline Group_node<Real> join_lanes(Group_node<Real> node, bool exists)
+{
+  constexpr Real infinity = Real(1e30);
+  if (!exists)
+    node = {{infinity, infinity, infinity}, -infinity, {-infinity, -infinity, -infinity}, 0};
+  node.lo = {warp_min(node.lo.x), warp_min(node.lo.y), warp_min(node.lo.z)};
+  node.hi = {warp_max(node.hi.x), warp_max(node.hi.y), warp_max(node.hi.z)};
+  node.max_weight = warp_max(node.max_weight);
+  return node;
+}
+
+constexpr int take_threads = 1024; // a block makes the nodes of levels 0 and 1 of its sites
+
+/// Copies the sites into Morton order (`positions`: everything, else their weights only), notes how
+/// their weights compare with those that the lists were made for, or are to be, and makes the
+/// tree's nodes; the block that ends last does the levels above 1.
+template <class Real>
+__global__ void __launch_bounds__(take_threads)
+take_sites_kernel(Sites_arrays<Real> arrays, bool positions, const int* order,
+                  Packed_site<Real>* sites, Packed_normal<Real>* normals, Real* density_root,
+                  Group_node<Real>* nodes, const __grid_constant__ Group_layout tree,
+                  const __grid_constant__ Kept_lists<Real> lists, bool compare, Real* guard,
+                  unsigned* ticket)
+{
+  const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
+  const int place = blockIdx.x * take_threads + threadIdx.x;
+  const bool exists = place < tree.items;
+  Group_node<Real> node;
+  Real growth = 0;
+  if (exists) {
+    const int id = order[place];
+    const Site<Real> site = arrays.sites[id];
+    sites[place] = {site.point, site.weight};
+    if (positions) {
+      guard[place] = 0;
+      normals[place] = {arrays.normals[id], arrays.patches ? arrays.patches[id] : 0};
+      density_root[place] = arrays.density_root ? arrays.density_root[id] : Real(1);
+    }
+    node = {site.point, site.weight, site.point, 0};
+    if (compare) growth = fmax(site.weight - lists.weights[place], Real(0));
+    else lists.weights[place] = site.weight;
+  }
+  growth = warp_max(growth);
+  if (lane == 0 && exists) {
+    lists.growth[place / 32] = growth;
+    if (growth > 0) atomic_raise(lists.all_growth, growth);
+  }
+  node = join_lanes(node, exists);
+  __shared__ Group_node<Real> of_warps[32];
+  if (lane == 0) {
+    of_warps[warp] = node;
+    if (place < tree.items) nodes[place / 32] = node;
+  }
+  if (tree.levels == 1) return;
+  __syncthreads();
+  if (warp == 0) {
+    node = join_lanes(of_warps[lane], true); // warps without sites are empty boxes
+    if (lane == 0) nodes[tree.first[1] + blockIdx.x] = node;
+  }
+  if (tree.levels == 2) return;
+
+  __shared__ bool is_last;
+  __threadfence();
+  __syncthreads();
+  if (threadIdx.x == 0) is_last = atomicAdd(ticket, 1u) == gridDim.x - 1;
+  __syncthreads();
+  if (!is_last) return;
+  __threadfence();
+  for (int level = 2; level < tree.levels; ++level) {
+    for (int k = warp; k < tree.nodes(level); k += 32) {
+      const int child = k * Group_layout::arity + lane;
+      const bool is_child = child < tree.nodes(level - 1);
+      if (is_child) {
+        const volatile Group_node<Real>& c = nodes[tree.first[level - 1] + child];
+        node = {{c.lo.x, c.lo.y, c.lo.z}, c.max_weight, {c.hi.x, c.hi.y, c.hi.z}, 0};
+      }
+      node = join_lanes(node, is_child);
+      if (lane == 0) nodes[tree.first[level] + k] = node;
+    }
+    __threadfence_block();
+    __syncthreads();
+  }
+  if (threadIdx.x == 0) *ticket = 0;
+}
+
+} // namespace device
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CUDA_SORT_SITES_CUH

@@ -1,0 +1,124 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The device engine's operations as plain loops: the logic and the layouts of the GPU, run where
+// there is none.
+#ifndef CGAL_POWER_RTF_CUDA_HOST_BACKEND_H
+#define CGAL_POWER_RTF_CUDA_HOST_BACKEND_H
+
+#include "Single_lane.h"
+#include "Totals.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace device
+{
+
+/// One thread that is all of them.
+struct Host_team {
+  CGAL_POWER_RTF_HD int first() const { return 0; }
+  CGAL_POWER_RTF_HD int stride() const { return 1; }
+  template <int N>
+  CGAL_POWER_RTF_HD void sum(double (&)[N])
+  {
+  }
+};
+
+class Host_backend
+{
+public:
+  template <class T>
+  class Buffer
+  {
+  public:
+    void allocate(Host_backend&, std::size_t n) { m_items.resize(n); }
+    T* data() { return m_items.data(); }
+    const T* data() const { return m_items.data(); }
+    std::size_t size() const { return m_items.size(); }
+
+  private:
+    std::vector<T> m_items;
+  };
+
+  /// Calls `f(i)` for i in [0, n), in any order.
+  template <class F>
+  void for_each(int n, F f)
+  {
+    for (int i = 0; i < n; ++i) f(i);
+  }
+
+  /// Adds `f(i, totals)` up over [0, n) in a fixed order and calls `finish(totals)` once.
+  template <int Sums, int Maxima, class F, class Finish>
+  void reduce(int n, F f, Finish finish)
+  {
+    Totals<Sums, Maxima> totals;
+    totals.clear();
+    for (int i = 0; i < n; ++i) f(i, totals);
+    finish(totals);
+  }
+
+  /// Calls `f(i, lanes)` for i in [0, n), in any order; the lanes work on i together.
+  template <class F>
+  void for_each_by_lanes(int n, F f)
+  {
+    for (int i = 0; i < n; ++i) f(i, Single_lane());
+  }
+
+  template <class F>
+  void for_each_by_warps(int n, F f)
+  {
+    for_each_by_lanes(n, f);
+  }
+
+  /// Runs `f(team)` once for all: its threads share the work on n items and add numbers up.
+  template <class F>
+  void run_team(int, F f)
+  {
+    Host_team team;
+    f(team);
+  }
+
+  /// The order of ascending keys; equal keys keep theirs. `keys` are lost.
+  void sort_order(int n, std::uint64_t* keys, int* order)
+  {
+    std::iota(order, order + n, 0);
+    std::stable_sort(order, order + n, [&](int a, int b) { return keys[a] < keys[b]; });
+  }
+
+  template <class T>
+  void upload(T* to, const T* from, std::size_t n)
+  {
+    std::copy(from, from + n, to);
+  }
+  template <class T>
+  void download(T* to, const T* from, std::size_t n)
+  {
+    std::copy(from, from + n, to);
+  }
+  template <class T>
+  void fill(T* to, T value, std::size_t n)
+  {
+    std::fill(to, to + n, value);
+  }
+
+  void start_clock() {}
+  void stop_clock() {}
+  double seconds() const { return 0; }
+  std::size_t bytes() const { return 0; }
+  std::string name() const { return "host"; }
+};
+
+} // namespace device
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CUDA_HOST_BACKEND_H

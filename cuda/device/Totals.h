@@ -1,0 +1,51 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_CUDA_TOTALS_H
+#define CGAL_POWER_RTF_CUDA_TOTALS_H
+
+#include <CGAL/PowerRTF/cells/vector.h>
+
+/// Before a loop whose arrays must stay in registers.
+#ifdef __CUDA_ARCH__
+#define CGAL_POWER_RTF_UNROLL _Pragma("unroll")
+#else
+#define CGAL_POWER_RTF_UNROLL
+#endif
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace device
+{
+
+/// What a reduction gathers, in double precision.
+template <int Sums, int Maxima>
+struct Totals {
+  static constexpr int size = Sums + Maxima;
+  double values[size]; ///< the sums, then the maxima
+
+  CGAL_POWER_RTF_HD void clear()
+  {
+    for (int k = 0; k < size; ++k) values[k] = k < Sums ? 0 : -1e300;
+  }
+  CGAL_POWER_RTF_HD void add(int k, double x) { values[k] += x; }
+  /// Maximum number k.
+  CGAL_POWER_RTF_HD void raise(int k, double x)
+  {
+    if (x > values[Sums + k]) values[Sums + k] = x;
+  }
+  CGAL_POWER_RTF_HD double sum(int k) const { return values[k]; }
+  CGAL_POWER_RTF_HD double maximum(int k) const { return values[Sums + k]; }
+
+  CGAL_POWER_RTF_HD static double joined(int k, double a, double b)
+  {
+    return k < Sums ? a + b : a > b ? a : b;
+  }
+};
+
+} // namespace device
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CUDA_TOTALS_H

@@ -1,0 +1,245 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The surface as the device sees it: facets and vertices in the order of packed trees, which the
+// host builds once.
+#ifndef CGAL_POWER_RTF_CUDA_SURFACE_VIEW_H
+#define CGAL_POWER_RTF_CUDA_SURFACE_VIEW_H
+
+#include "../device/Totals.h"
+
+#include <CGAL/PowerRTF/cells/nearest_facet.h>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+namespace device
+{
+
+/// 48 bytes in single precision: three loads.
+template <class Real>
+struct alignas(16) Facet_corners {
+  Vec3<Real> a, b, c, normal;
+};
+
+template <class Real>
+struct alignas(16) Vertex_attributes {
+  Vec3<Real> normal;
+  Real density;
+};
+
+/// Non-owning. A facet and a vertex are named by their places in the trees.
+template <class Real>
+struct Surface_view {
+  const Facet_corners<Real>* facets = nullptr;
+  const int* facet_vertices = nullptr; ///< three per facet
+  const int* patches = nullptr;        ///< per facet; null: all are of one
+  const Child_boxes* facet_nodes = nullptr;
+  Packed_tree_layout facet_tree;
+
+  const Vertex_attributes<Real>* attributes = nullptr; ///< per vertex
+  // For the paper's preset alone:
+  const Vec3<Real>* vertices = nullptr;
+  const Child_boxes* vertex_nodes = nullptr;
+  Packed_tree_layout vertex_tree;
+  const int* first_facet = nullptr; ///< of a vertex in `vertex_facets`
+  const int* vertex_facets = nullptr;
+};
+
+// The functions below that take lanes do the work in one thread, whatever the lanes; for some kinds
+// of lanes there are versions that share it.
+
+/// Calls `visit(item)` for the items of a tree whose boxes are no farther from `query` than
+/// `bound()`, near ones first; the bound may shrink meanwhile.
+template <class Real, class Bound, class Visit>
+CGAL_POWER_RTF_HD inline void visit_near(const Packed_tree_layout& tree, const Child_boxes* nodes,
+                                         const Vec3<Real>& query, Bound bound, Visit visit)
+{
+  if (tree.items == 0) return;
+  const float q[3] = {float(query.x), float(query.y), float(query.z)};
+  struct Pending {
+    int level, node;
+    float squared_distance;
+  };
+  Pending stack[Packed_tree_layout::stack_size];
+  int size = 0;
+  stack[size++] = {tree.levels - 1, 0, 0};
+  while (size > 0) {
+    const Pending top = stack[--size];
+    if (top.squared_distance > bound()) continue;
+    const int begin = tree.children_begin(top.node), end = tree.children_end(top.level, top.node);
+    float d[Child_boxes::size];
+    nodes[tree.first[top.level] + top.node].squared_distances(q, d);
+    const int bottom = size;
+    CGAL_POWER_RTF_UNROLL
+    for (int k = 0; k < Child_boxes::size; ++k) {
+      if (begin + k >= end || d[k] > bound()) continue;
+      if (top.level == 0) {
+        visit(begin + k);
+        continue;
+      }
+      int place = size++; // the nearest child ends on top of the stack
+      for (; place > bottom && d[k] > stack[place - 1].squared_distance; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = {top.level - 1, begin + k, d[k]};
+    }
+  }
+}
+
+/// An upper bound of a squared distance in single precision, for comparisons with boxes.
+template <class Real>
+CGAL_POWER_RTF_HD inline float bound_of(Real squared_distance)
+{
+  return float(squared_distance) * (1 + 1e-6f) + 1e-37f;
+}
+
+/// `nearest_facet()` for a surface in tree order: the nearest point on the facets of the patch of
+/// `hint`, a facet that is probably near, whose normals make less than Theta with `normal`. `facet`
+/// is -1 where none agrees.
+template <class Real, class Lanes>
+CGAL_POWER_RTF_HD inline Surface_point<Real>
+project_to_nearest_facet(const Surface_view<Real>& view, const Vec3<Real>& p,
+                         const Vec3<Real>& normal, Real cos_angle, int hint, Lanes)
+{
+  Surface_point<Real> best;
+  float bound = 3e38f;
+  const int patch = view.patches ? view.patches[hint] : 0;
+  const auto test = [&](int place) {
+    if (view.patches && view.patches[place] != patch) return;
+    const Facet_corners<Real> f = view.facets[place];
+    if (cos_angle > -1 && !(dot(f.normal, normal) > cos_angle)) return;
+    const Vec3<Real> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
+    const Real d = squared_length(q - p);
+    if (best.facet < 0 || d < best.squared_distance ||
+        (d == best.squared_distance && place < best.facet)) {
+      best = {q, place, d};
+      bound = bound_of(d);
+    }
+  };
+  test(hint);
+  visit_near(
+      view.facet_tree, view.facet_nodes, p, [&]() { return bound; },
+      [&](int place) {
+        if (place != hint) test(place);
+      });
+  return best;
+}
+
+/// Most vertices that one search finds.
+constexpr int most_near_vertices = 32;
+
+/// Writes the `k` vertices nearest to `p`, at most 32, by increasing distance, equal distances by
+/// place. Returns their number.
+template <class Real>
+CGAL_POWER_RTF_HD inline int nearest_vertices(const Surface_view<Real>& view, const Vec3<Real>& p,
+                                              int k, int* found)
+{
+  Real distances[most_near_vertices] = {};
+  int count = 0;
+  k = k < view.vertex_tree.items ? k : view.vertex_tree.items;
+  k = k < most_near_vertices ? k : most_near_vertices;
+  visit_near(
+      view.vertex_tree, view.vertex_nodes, p,
+      [&]() { return count < k ? 3e38f : bound_of(distances[k - 1]); },
+      [&](int v) {
+        const Real d = squared_length(view.vertices[v] - p);
+        const auto before = [&](int place) {
+          return d < distances[place] || (d == distances[place] && v < found[place]);
+        };
+        if (count == k && !before(k - 1)) return;
+        int place = count < k ? count++ : k - 1;
+        for (; place > 0 && before(place - 1); --place) {
+          distances[place] = distances[place - 1];
+          found[place] = found[place - 1];
+        }
+        distances[place] = d;
+        found[place] = v;
+      });
+  return count;
+}
+
+/// The paper's projection: onto the facets at the `k` nearest vertices (Section 4.2.2).
+template <class Real, class Lanes>
+CGAL_POWER_RTF_HD inline Surface_point<Real>
+project_near_vertices(const Surface_view<Real>& view, const Vec3<Real>& p, const Vec3<Real>& normal,
+                      Real cos_angle, int k, int hint, Lanes)
+{
+  const int patch = view.patches ? view.patches[hint] : 0;
+  int near[most_near_vertices];
+  const int count = nearest_vertices(view, p, k, near);
+  Surface_point<Real> best;
+  for (int l = 0; l < count; ++l)
+    for (int at = view.first_facet[near[l]]; at < view.first_facet[near[l] + 1]; ++at) {
+      const int place = view.vertex_facets[at];
+      if (view.patches && view.patches[place] != patch) continue;
+      const Facet_corners<Real> f = view.facets[place];
+      if (!(dot(f.normal, normal) > cos_angle)) continue;
+      const Vec3<Real> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
+      const Real d = squared_length(q - p);
+      if (best.facet < 0 || d < best.squared_distance) best = {q, place, d};
+    }
+  return best;
+}
+
+/// Normal and density interpolated over the facet of a sample.
+template <class Real>
+CGAL_POWER_RTF_HD inline Vertex_attributes<Real> attributes_of_facet(const Surface_view<Real>& view,
+                                                                     const Vec3<Real>& p, int facet)
+{
+  const Facet_corners<Real> f = view.facets[facet];
+  Real beta, gamma;
+  barycentric_coordinates(p, f.a, f.b, f.c, beta, gamma);
+  const Real alpha = 1 - beta - gamma;
+  const Vertex_attributes<Real> a = view.attributes[view.facet_vertices[3 * facet]];
+  const Vertex_attributes<Real> b = view.attributes[view.facet_vertices[3 * facet + 1]];
+  const Vertex_attributes<Real> c = view.attributes[view.facet_vertices[3 * facet + 2]];
+  const Vec3<Real> mean = alpha * a.normal + beta * b.normal + gamma * c.normal;
+  return {squared_length(mean) > Real(1e-6) ? normalized(mean) : f.normal,
+          alpha * a.density + beta * b.density + gamma * c.density};
+}
+
+/// The paper's means over the k_n and k_d nearest vertices of the patch of `facet` whose normals
+/// agree with the mean normal of the three nearest (Section 4.3); over the facet when there is
+/// none.
+template <class Real, class Lanes>
+CGAL_POWER_RTF_HD inline Vertex_attributes<Real>
+attributes_near_vertices(const Surface_view<Real>& view, const Vec3<Real>& p, int facet,
+                         int normal_neighbors, int density_neighbors, Real cos_angle, Lanes)
+{
+  int near[most_near_vertices];
+  int k = normal_neighbors > density_neighbors ? normal_neighbors : density_neighbors;
+  if (k < 3) k = 3;
+  int count = nearest_vertices(view, p, k, near);
+  if (view.patches) {
+    const int all = count, patch = view.patches[facet];
+    count = 0;
+    for (int l = 0; l < all; ++l)
+      if (view.patches[view.vertex_facets[view.first_facet[near[l]]]] == patch)
+        near[count++] = near[l];
+    if (count == 0) return attributes_of_facet(view, p, facet);
+  }
+  Vec3<Real> basic{0, 0, 0}, sum{0, 0, 0};
+  for (int l = 0; l < count && l < 3; ++l) basic += view.attributes[near[l]].normal;
+  basic = normalized(basic);
+  Real densities = 0;
+  int compatible = 0;
+  for (int l = 0; l < count; ++l) {
+    const Vertex_attributes<Real> v = view.attributes[near[l]];
+    if (!(dot(basic, v.normal) > cos_angle)) continue;
+    if (l < normal_neighbors) sum += v.normal;
+    if (l < density_neighbors) {
+      densities += v.density;
+      ++compatible;
+    }
+  }
+  const Vertex_attributes<Real> nearest = view.attributes[near[0]];
+  return {squared_length(sum) > 0 ? normalized(sum) : nearest.normal,
+          compatible > 0 ? densities / compatible : nearest.density};
+}
+
+} // namespace device
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_CUDA_SURFACE_VIEW_H

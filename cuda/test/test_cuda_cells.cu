@@ -1,0 +1,360 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The tuned cells on a GPU against the shared construction in double precision on the host. Without
+// a GPU: skipped (return code 77).
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+#include "../cells/cell_builder.h"
+#include "host_cells.h"
+
+#include <cstdio>
+#include <memory>
+
+using namespace CGAL::PowerRTF;
+using namespace CGAL::PowerRTF::device;
+
+namespace {
+
+std::unique_ptr<Cuda_backend> backend;
+
+template <class Real>
+struct Case {
+  Host_sites<Real> host;
+  std::vector<int> patches;
+  double cos_angle = -0.766, guard_factor = 3;
+};
+
+/// Sites, their builder and its cells.
+template <class Real>
+class Device_case {
+public:
+  explicit Device_case(const Case<Real>& c)
+      : m_case(c), sites(*backend, c.host),
+        cells(*backend, sites.size(), Real(c.cos_angle), Real(c.guard_factor))
+  {
+    if (c.patches.empty()) return;
+    m_patches.allocate(*backend, c.patches.size());
+    backend->upload(m_patches.data(), c.patches.data(), c.patches.size());
+  }
+
+  Sites_arrays<Real> arrays() const
+  {
+    Sites_arrays<Real> a = sites.arrays();
+    if (m_patches.size() > 0) a.patches = m_patches.data();
+    return a;
+  }
+
+  /// The cells of the current state; moments from `build()`, the rest from `polygons()`.
+  std::vector<Plain_cell> download()
+  {
+    constexpr int capacity = Tangent_polygon<Real>::capacity;
+    const int n = sites.size();
+    cells.build(sites.outputs());
+    Cuda_backend::Buffer<int> size, neighbor;
+    Cuda_backend::Buffer<Real> x, y;
+    Cuda_backend::Buffer<unsigned char> status;
+    size.allocate(*backend, n);
+    status.allocate(*backend, n);
+    neighbor.allocate(*backend, std::size_t(n) * capacity);
+    x.allocate(*backend, std::size_t(n) * capacity);
+    y.allocate(*backend, std::size_t(n) * capacity);
+    backend->fill(neighbor.data(), 0, neighbor.size()); // most rows are not full
+    backend->fill(x.data(), Real(0), x.size());
+    backend->fill(y.data(), Real(0), y.size());
+    cells.polygons(0, n, size.data(), x.data(), y.data(), neighbor.data(), status.data());
+    const auto get = [](auto& buffer) {
+      std::vector<std::remove_pointer_t<decltype(buffer.data())>> v(buffer.size());
+      backend->download(v.data(), buffer.data(), v.size());
+      return v;
+    };
+    const auto sizes = get(size), neighbors = get(neighbor);
+    const auto xs = get(x), ys = get(y), areas = get(sites.area), masses = get(sites.mass);
+    const auto offsets = get(sites.offset);
+    const auto states = get(status), again = get(sites.status);
+    CHECK(states == again);
+    std::vector<Plain_cell> result(n);
+    for (int i = 0; i < n; ++i) {
+      Plain_cell& c = result[i];
+      c.status = static_cast<Cell_status>(states[i]);
+      c.area = areas[i];
+      c.mass = masses[i];
+      c.offset = {offsets[i].x, offsets[i].y, offsets[i].z};
+      const std::size_t first = std::size_t(i) * capacity;
+      for (int k = 0; k < sizes[i]; ++k) {
+        const int l = k + 1 < sizes[i] ? k + 1 : 0;
+        c.cycle.push_back(neighbors[first + k]);
+        c.lengths.push_back(
+            std::hypot(xs[first + l] - xs[first + k], ys[first + l] - ys[first + k]));
+      }
+    }
+    return result;
+  }
+
+  /// Compares the current cells with the host's.
+  Cell_comparison compare(const char* name)
+  {
+    const std::vector<Plain_cell> own = download();
+    Host_cells host(sites.download(), m_case.patches, m_case.cos_angle, m_case.guard_factor);
+    const Cell_comparison c = compare_cells(own, host.construct(), twins(host.sites));
+    std::printf("%-28s n %6d ok %6d | other status %d, other cycle %d (edge %.0e) | area p99 %.1e "
+                "most %.1e | centroid p99 %.1e most %.1e\n",
+                name, c.cells, c.ok, c.other_status, c.other_cycle, c.longest_edge, c.area_p99,
+                c.area_most, c.centroid_p99, c.centroid_most);
+    // Cells with more than 32 edges, or on the guard radius.
+    CHECK(c.other_status <= c.cells / 5000);
+    CHECK(c.longest_edge < 1e-4);
+    return c;
+  }
+
+private:
+  Case<Real> m_case;
+  Cuda_backend::Buffer<int> m_patches;
+
+public:
+  Device_sites<Real> sites;
+  Cell_builder<Real> cells;
+};
+
+template <class Real>
+Case<Real> torus_case(int n, double contrast = 1)
+{
+  Torus<Real> torus;
+  torus.contrast = contrast;
+  Case<Real> c;
+  c.host = random_torus_sites(torus, n, 1);
+  return c;
+}
+
+double spacing(int n) { return std::sqrt(1.7765 / n); } // area of the torus: 4 pi^2 ring tube
+
+template <class Real>
+void check_errors(const Cell_comparison& c)
+{
+  CHECK(c.area_p99 <= (sizeof(Real) == 4 ? 2e-6 : 1e-13));
+  CHECK(c.centroid_p99 <= (sizeof(Real) == 4 ? 1e-5 : 1e-13));
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("random, relaxed and moving sites", Real, float, double)
+{
+  for (const double contrast : {1.0, 30.0}) {
+    Torus<Real> torus;
+    torus.contrast = contrast;
+    Device_case<Real> d(torus_case<Real>(5000, contrast));
+    d.cells.set_sites(d.arrays());
+    check_errors<Real>(d.compare("random"));
+    for (int k = 0; k < 3; ++k) {
+      d.sites.relax(d.cells, torus, 12);
+      d.cells.set_sites(d.arrays());
+      check_errors<Real>(d.compare("relaxed"));
+    }
+  }
+}
+
+TEST_CASE("weights that change from construction to construction")
+{
+  const int n = 5000;
+  Torus<float> torus;
+  Device_case<float> d(torus_case<float>(n));
+  d.sites.relax(d.cells, torus, 30);
+  d.cells.set_sites(d.arrays());
+  Host_sites<float> s = d.sites.download();
+  std::mt19937 random(3);
+  const float h2 = float(spacing(n) * spacing(n));
+  for (int k = 0; k < 14; ++k) {
+    for (auto& q : s.sites) q.weight += h2 * 0.06f * (float(random() % 1000) / 1000 - 0.5f);
+    if (k == 5) s.sites[77].weight += 2 * h2;   // a cell that swallows its neighbours
+    if (k == 8) s.sites[99].weight -= 2 * h2;   // one that vanishes
+    if (k == 9) s.sites[1999].weight += 400 * h2; // one that covers the whole surface
+    if (k == 11) s.sites[1999].weight -= 400 * h2;
+    backend->upload(d.sites.sites.data(), s.sites.data(), n);
+    d.cells.set_weights(d.arrays());
+    const Cell_comparison c = d.compare("weights");
+    if (k < 9) check_errors<float>(c);
+  }
+}
+
+TEST_CASE("few sites")
+{
+  for (const int n : {1, 2, 3, 31, 32, 33, 65}) {
+    Device_case<float> d(torus_case<float>(n));
+    d.cells.set_sites(d.arrays());
+    d.compare("few");
+  }
+}
+
+TEST_CASE("adversarial sites")
+{
+  const int n = 4000;
+  Case<float> c = torus_case<float>(n);
+  auto& sites = c.host.sites;
+  const float h = float(spacing(n));
+  std::mt19937 random(3);
+  SUBCASE("large random weights, a small guard")
+  {
+    c.guard_factor = 1.5;
+    c.cos_angle = 0.5;
+    for (auto& q : sites) q.weight = h * h * 6 * (float(random() % 1000) / 1000 - 0.5f);
+  }
+  SUBCASE("huge smooth weights")
+  {
+    for (auto& q : sites) q.weight = h * h * 100 * (std::sin(7 * q.point.x) + q.point.y);
+  }
+  SUBCASE("two sheets, duplicates")
+  {
+    for (int i = 0; i < n; ++i) {
+      if (i % 2) {
+        sites[i].point = sites[i].point * 0.99f;
+        c.host.normals[i] = -c.host.normals[i];
+      }
+      if (i % 50 == 0) sites[i] = sites[(i + 20) % n];
+    }
+  }
+  SUBCASE("patches")
+  {
+    for (int i = 0; i < n; ++i) c.patches.push_back(sites[i].point.x > 0);
+  }
+  SUBCASE("cocircular")
+  {
+    for (int i = 0; i < n; ++i) {
+      sites[i].point = {(i % 64) / 128.0f, (i / 64) / 128.0f, 0};
+      c.host.normals[i] = {0, 0, 1};
+    }
+  }
+  SUBCASE("all at one point")
+  {
+    for (auto& q : sites) q.point = sites[0].point;
+  }
+  Device_case<float> d(c);
+  for (int k = 0; k < 2; ++k) { // the second time from the first one's radii
+    d.cells.set_sites(d.arrays());
+    d.compare("adversarial");
+  }
+}
+
+TEST_CASE("the same input gives the same output bit for bit")
+{
+  const Case<float> c = torus_case<float>(20000);
+  Torus<float> torus;
+  std::vector<float> areas[2];
+  std::vector<Vec3<float>> offsets[2];
+  for (int k = 0; k < 2; ++k) {
+    Device_case<float> d(c);
+    d.sites.relax(d.cells, torus, 20);
+    areas[k].resize(d.sites.size());
+    offsets[k].resize(d.sites.size());
+    backend->download(areas[k].data(), d.sites.area.data(), d.sites.size());
+    backend->download(offsets[k].data(), d.sites.offset.data(), d.sites.size());
+  }
+  CHECK(areas[0] == areas[1]);
+  CHECK(offsets[0] == offsets[1]);
+}
+
+TEST_CASE("the paper's passes with guarded and empty cells")
+{
+  const int n = 3000, passes = 12;
+  Case<float> c = torus_case<float>(n);
+  c.guard_factor = 1.2;
+  c.cos_angle = 0.5;
+  Device_case<float> d(c);
+  const auto arrays = d.arrays();
+  d.cells.set_sites(arrays);
+  d.compare("before the passes");
+  Cuda_backend::Buffer<float> first, sixth, density;
+  first.allocate(*backend, n);
+  sixth.allocate(*backend, n);
+  density.allocate(*backend, n);
+  backend->fill(density.data(), 1.0f, n);
+  d.cells.neighbor_distances(true, first.data(), sixth.data());
+  const Multiplicative_weight_rule rule{0.04, 1, false, 0};
+  CHECK(d.cells.paper_weight_passes(arrays, d.sites.sites.data(), density.data(), first.data(),
+                                    sixth.data(), rule, passes, d.sites.outputs()) == passes);
+  // All areas of the last pass are those of the cells.
+  std::vector<float> areas(n);
+  backend->download(areas.data(), d.sites.area.data(), n);
+  const std::vector<Plain_cell> cells = d.download();
+  double error = 0;
+  for (int i = 0; i < n; ++i)
+    error = std::max(error, std::fabs(areas[i] - cells[i].area) / (spacing(n) * spacing(n)));
+  CHECK(error < 1e-5);
+  d.compare("after the passes");
+  d.cells.set_sites(arrays); // without what is known of the last construction
+  d.compare("again");
+}
+
+TEST_CASE("the paper's passes are those of the host")
+{
+  const int n = 3000, passes = 40;
+  Torus<float> torus;
+  Device_case<float> d(torus_case<float>(n));
+  d.sites.relax(d.cells, torus, 20);
+  const auto arrays = d.arrays();
+  d.cells.set_sites(arrays);
+  d.cells.build(d.sites.outputs());
+  Cuda_backend::Buffer<float> first, sixth, density;
+  first.allocate(*backend, n);
+  sixth.allocate(*backend, n);
+  density.allocate(*backend, n);
+  backend->fill(density.data(), 1.0f, n);
+  d.cells.neighbor_distances(true, first.data(), sixth.data());
+  Host_cells host(d.sites.download(), {}, -0.766, 3);
+  const Sites_view<double> v = host.view();
+  std::vector<float> nearest(n);
+  backend->download(nearest.data(), first.data(), n);
+  double distance_error = 0;
+  for (int i = 0; i < n; ++i) {
+    const double exact = distance_to_neighbor(v, i, 1, -0.766);
+    distance_error = std::max(distance_error, std::fabs(nearest[i] - exact) / spacing(n));
+  }
+  CHECK(distance_error < 1e-5);
+
+  const Multiplicative_weight_rule rule{0.04, 1, false, 0};
+  const int done = d.cells.paper_weight_passes(arrays, d.sites.sites.data(), density.data(),
+                                               first.data(), sixth.data(), rule, passes,
+                                               d.sites.outputs());
+  std::vector<Plain_cell> cells;
+  int host_done = 0;
+  for (;; ++host_done) {
+    cells = host.construct();
+    Multiplicative_weight_rule r = rule;
+    for (const Plain_cell& c : cells) r.mean_mass += c.area / n;
+    int outside = 0;
+    for (const Plain_cell& c : cells) outside += std::fabs(c.area / r.mean_mass - 1) > 0.04;
+    if (outside == 0 || host_done == passes) break;
+    double mean = 0;
+    for (int i = 0; i < n; ++i) {
+      const int k = cells[i].area > 0 ? 1 : 6;
+      host.sites[i].weight += r(cells[i].area, distance_to_neighbor(v, i, k, -0.766));
+      mean += host.sites[i].weight / n;
+    }
+    for (Site<double>& s : host.sites) s.weight -= mean;
+  }
+  const Host_sites<float> after = d.sites.download();
+  double worst = 0, mean = 0;
+  for (int i = 0; i < n; ++i) {
+    worst = std::max(worst, std::fabs(after.sites[i].weight - host.sites[i].weight));
+    mean += after.sites[i].weight / n;
+  }
+  const double h2 = spacing(n) * spacing(n);
+  std::printf("paper's passes: %d (host %d), weights differ by %.1e h^2\n", done, host_done,
+              worst / h2);
+  CHECK(std::abs(done - host_done) <= 2);
+  CHECK(std::fabs(mean) < 1e-6 * h2);
+  d.compare("after the paper's passes");
+}
+
+int main(int argc, char** argv)
+{
+  try {
+    backend = std::make_unique<Cuda_backend>(0);
+  } catch (const Cuda_error& error) {
+    std::printf("skipped: %s\n", error.what());
+    return 77;
+  }
+  const int result = doctest::Context(argc, argv).run();
+  backend.reset();
+  return result;
+}
