@@ -211,7 +211,8 @@ def kind_of(reason):
 
 def table(columns, rows):
     """Rows of anything as Markdown."""
-    return markdown(columns, [[str(cell).replace("|", "\\|") for cell in row] for row in rows])
+    return markdown(columns, [[str(cell).replace("|", "\\|") for cell in row]
+                              for row in rows]).rstrip("\n")
 
 
 def summary(rows, arguments):
