@@ -387,12 +387,12 @@ TEST_CASE("assess: a surface against itself has no distance, and its own topolog
   const Surface surface = shapes::make_surface(shapes::torus(40, 20, 3, 1));
   Remeshing_report report;
   report.samples_asked = surface.points.size();
-  assess<CGAL::Sequential_tag>(surface, {surface.points, surface.triangles}, report);
+  assess<CGAL::Sequential_tag>(surface, {surface.points, surface.triangles, {}}, report);
   CHECK(report.distance.max < 1e-6);
   CHECK(report.topology.euler_characteristic == 0);
   CHECK(report.missed_guarantees().empty());
 
   const Soup open = without_last({surface.points, surface.triangles});
-  assess<CGAL::Sequential_tag>(surface, {open.points, open.triangles}, report);
+  assess<CGAL::Sequential_tag>(surface, {open.points, open.triangles, {}}, report);
   CHECK(report.missed_guarantees().size() == 2); // Euler characteristic, borders
 }
