@@ -150,20 +150,24 @@ private:
            2;
   }
 
-  // A point of the mesh, where the surface is now. `edges`: of its face.
+  // A point of the mesh, where the surface is now. `edges`: of its face. Corners on features belong
+  // to several patches: they do not say on which of them the face lies.
   void add_point(const Edges& edges, const Barycentric& barycentric, double weight)
   {
     const auto& mesh = m.working().mesh;
     Vec3d p{0, 0, 0}, n{0, 0, 0};
-    int nearest = 0;
+    int nearest = -1;
     for (int k = 0; k < 3; ++k) {
       const Vertex v = mesh.source(edges[k]);
       p += barycentric[k] * m.point(v);
+      if (m.is_on_feature(v)) continue;
       n += barycentric[k] * m.normal(v);
-      if (barycentric[k] > barycentric[nearest]) nearest = k;
+      if (nearest < 0 || barycentric[k] > barycentric[nearest]) nearest = k;
     }
-    n = normalized(n);
-    const auto place = m.guide().project(p, n, m.facet(mesh.source(edges[nearest])));
+    if (nearest < 0) return; // no corner can move
+    const Vertex guide = mesh.source(edges[nearest]);
+    n = squared_length(n) > 0 ? normalized(n) : m.normal(guide); // the middle of a feature edge
+    const auto place = m.guide().project(p, n, m.facet(guide));
     if (place.facet < 0) return;
     const double distance = length(place.point - p);
     add(edges, barycentric, distance > 0 ? (place.point - p) * (1 / distance) : n, distance,
