@@ -95,7 +95,7 @@ CGAL_POWER_RTF_HD inline bool clip_kept(const Group_view<Real>& view, const Kept
     const int j = lists.neighbors[std::size_t(k) * lists.stride + cell.place];
     const Packed_site<Real> other = load(view.sites + j);
     const Vec3<Real> offset = other.point - cell.site.point;
-    const Real power = squared_length(offset) + cell.site.weight - other.weight;
+    const Real power = squared_length(offset) + (cell.site.weight - other.weight);
     return Tangent_line<Real>{dot(offset, frame.u), dot(offset, frame.v), power / 2};
   };
 

@@ -80,7 +80,7 @@ struct Lane_cell {
     for (int k = begin; k < count; k += step) {
       const Packed_site<Real> other = memory.candidates.sites[k];
       const Vec3<Real> offset = other.point - site.point;
-      const Real d2 = squared_length(offset), power = d2 + site.weight - other.weight;
+      const Real d2 = squared_length(offset), power = d2 + (site.weight - other.weight);
       near += d2 <= near2;
       if (power * std::fabs(power) > four_r2 * d2) {
         outside2 = std::fmin(outside2, d2);
@@ -145,7 +145,7 @@ CGAL_POWER_RTF_HD inline bool clip_listed(const Group_view<Real>& view, Lane_cel
     if (view.cos_angle > -1 && !(dot(own.normal, normal.normal) > view.cos_angle)) continue;
     cell.compatible |= 1u << k;
     const Vec3<Real> offset = other.point - cell.site.point;
-    const Real power = squared_length(offset) + cell.site.weight - other.weight;
+    const Real power = squared_length(offset) + (cell.site.weight - other.weight);
     const Real a = dot(offset, frame.u), b = dot(offset, frame.v);
     if (a * a + b * b > 0) polygon.clip(a, b, power / 2, k);
     else if (!(power > 0)) polygon.size = 0; // a duplicate or a plane parallel to the tangent plane

@@ -250,7 +250,7 @@ private:
   __device__ bool add_any(bool offered, const Packed_site<Real>& other, int place, Real radius)
   {
     const Vec3<Real> offset = other.point - m_site.point;
-    const Real d2 = squared_length(offset), power = d2 + m_site.weight - other.weight;
+    const Real d2 = squared_length(offset), power = d2 + (m_site.weight - other.weight);
     const Real a = dot(offset, m_frame.u), b = dot(offset, m_frame.v), t2 = a * a + b * b;
     offered = offered && !(power > 0 && power * power > 4 * d2 * radius * radius);
     bool is_compatible = false;
@@ -303,7 +303,7 @@ private:
       const Packed_normal<Real> normal = load(m_view.normals + place);
       const Vec3<Real> offset = other.point - m_site.point;
       const Real d2 = squared_length(offset);
-      power = d2 + m_site.weight - other.weight;
+      power = d2 + (m_site.weight - other.weight);
       offered = normal.patch == m_own.patch;
       if (offered) m_nearest2 = fmin(m_nearest2, d2);
       offered = offered && !(power > 0 && power * power > 4 * d2 * radius * radius) &&

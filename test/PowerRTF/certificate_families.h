@@ -5,6 +5,8 @@
 #ifndef CGAL_POWER_RTF_TEST_CERTIFICATE_FAMILIES_H
 #define CGAL_POWER_RTF_TEST_CERTIFICATE_FAMILIES_H
 
+#include "random_input.h"
+
 #include <CGAL/PowerRTF/cells/cell_moments.h>
 #include <CGAL/PowerRTF/engines/Exact_site_tree.h>
 #include <CGAL/PowerRTF/engines/Spatial_order.h>
@@ -21,25 +23,9 @@ namespace certificates
 {
 
 using namespace CGAL::PowerRTF;
+using random_input::Random;
 
 constexpr double pi = 3.14159265358979323846;
-
-class Random
-{
-  std::mt19937_64 m_engine;
-
-public:
-  explicit Random(std::uint64_t seed) : m_engine(seed) {}
-  double real(double a, double b) { return std::uniform_real_distribution<double>(a, b)(m_engine); }
-  int integer(int a, int b) { return std::uniform_int_distribution<int>(a, b)(m_engine); }
-  Vec3d direction()
-  {
-    std::normal_distribution<double> d;
-    Vec3d v{0, 0, 0};
-    while (squared_length(v) == 0) v = {d(m_engine), d(m_engine), d(m_engine)};
-    return normalized(v);
-  }
-};
 
 struct Cloud {
   Samples samples;

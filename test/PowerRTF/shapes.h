@@ -37,6 +37,14 @@ inline void add_quad(Soup& soup, int a, int b, int c, int d)
   soup.triangles.push_back({a, c, d});
 }
 
+/// Each triangle from its smallest index on, in lexicographic order: equal for equal meshes.
+inline std::vector<Triangle> sorted(std::vector<Triangle> triangles)
+{
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
 // --- polyhedra -----------------------------------------------------------------------------------
 
 inline Soup tetrahedron()

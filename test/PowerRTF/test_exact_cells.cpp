@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "exact_brute_force.h"
+#include "random_input.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -18,29 +19,12 @@
 
 using namespace CGAL::PowerRTF;
 using namespace exact_test;
+using random_input::Random;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Cells = Exact_cells<Kernel>;
 
 namespace
 {
-
-class Random
-{
-  std::mt19937_64 m_engine;
-
-public:
-  explicit Random(std::uint64_t seed) : m_engine(seed) {}
-  double real(double a, double b) { return std::uniform_real_distribution<double>(a, b)(m_engine); }
-  int integer(int a, int b) { return std::uniform_int_distribution<int>(a, b)(m_engine); }
-  Vec3d direction()
-  {
-    std::normal_distribution<double> d;
-    Vec3d v{0, 0, 0};
-    while (squared_length(v) == 0) v = {d(m_engine), d(m_engine), d(m_engine)};
-    return normalized(v);
-  }
-  Vec3d in_box() { return {real(-1, 1), real(-1, 1), real(-1, 1)}; }
-};
 
 struct Family {
   std::string name;

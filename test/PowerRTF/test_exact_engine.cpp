@@ -34,14 +34,6 @@ Surface with_density(const shapes::Soup& soup, const Remeshing_options& options)
   return surface;
 }
 
-/// The triangles, each from its smallest vertex, in order.
-std::vector<Triangle> sorted(std::vector<Triangle> triangles)
-{
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
 void compare_traits(const shapes::Soup& soup, Remeshing_options options)
 {
   options.max_iterations = 30;
@@ -62,7 +54,7 @@ void compare_traits(const shapes::Soup& soup, Remeshing_options options)
   CHECK(fast.report().constructions == exact.report().constructions);
   const Extracted_mesh m = fast.extract(visitor), n = exact.extract(visitor);
   CHECK(m.triangles.size() > options.number_of_samples);
-  CHECK(sorted(m.triangles) == sorted(n.triangles));
+  CHECK(shapes::sorted(m.triangles) == shapes::sorted(n.triangles));
   CHECK(exact.report().quality.q_avg > 0.5);
   CHECK(exact.report().missed_guarantees().empty());
   const Cell_comparison c = check_cells<CGAL::Sequential_tag>(

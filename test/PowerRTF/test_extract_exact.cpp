@@ -40,13 +40,6 @@ Samples even_samples(const Surface& surface, std::size_t n)
   return remesher.samples();
 }
 
-std::vector<Triangle> sorted(std::vector<Triangle> triangles)
-{
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
 void check_manifold(const Extracted_mesh& mesh, long euler_characteristic)
 {
   const Topology_statistics t = topology(mesh.triangles);
@@ -70,7 +63,7 @@ TEST_CASE("dense sampling: the restricted Delaunay triangulation")
     CHECK(exact.points.size() == samples.size());
     check_manifold(exact, characteristic);
     const Extracted_mesh fast = extract_restricted_delaunay(surface, samples);
-    CHECK(sorted(exact.triangles) == sorted(fast.triangles));
+    CHECK(shapes::sorted(exact.triangles) == shapes::sorted(fast.triangles));
     const Extracted_mesh weighted = extract_exact(surface, samples, true);
     CHECK(topology(weighted.triangles).oriented);
     CHECK(topology(weighted.triangles).euler_characteristic == characteristic);
@@ -92,8 +85,8 @@ TEST_CASE("power: a lighter sample loses, the heaviest ones share the surface")
   const Surface surface = shapes::make_surface(shapes::icosphere(2));
   Samples samples = even_samples(surface, 60);
   samples.weights.assign(60, 0.);
-  CHECK(sorted(extract_exact(surface, samples, true).triangles) ==
-        sorted(extract_exact(surface, samples).triangles));
+  CHECK(shapes::sorted(extract_exact(surface, samples, true).triangles) ==
+        shapes::sorted(extract_exact(surface, samples).triangles));
   samples.weights[17] = -1;
   const Extracted_mesh mesh = extract_exact(surface, samples, true);
   check_manifold(mesh, 2);

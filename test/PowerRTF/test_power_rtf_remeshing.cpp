@@ -76,14 +76,6 @@ Soup soup_of(const Mesh& mesh)
   return soup_of(mesh, get(CGAL::vertex_point, mesh));
 }
 
-/// Each triangle from its smallest vertex on, in ascending order.
-std::vector<Triangle> sorted(std::vector<Triangle> triangles)
-{
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
 bool are_equal(const Soup& a, const Soup& b)
 {
   return a.points == b.points && a.triangles == b.triangles;
@@ -567,7 +559,7 @@ TEST_CASE("scaling the input changes no triangle")
         for (double factor : {1000., 0.001}) {
           CAPTURE(factor);
           const Soup scaled = remesh(shapes::scaled(soup, factor), 300, options).soup;
-          CHECK(sorted(scaled.triangles) == sorted(expected.triangles));
+          CHECK(shapes::sorted(scaled.triangles) == shapes::sorted(expected.triangles));
           CHECK(largest_distance(scaled, shapes::scaled(expected, factor)) <
                 rounding(improvement) * factor);
         }
@@ -587,7 +579,7 @@ TEST_CASE("moving the input by 1000 diagonals changes the result by rounding onl
       const Soup expected = remesh(soup, 300, options).soup;
       const Vec3d far = 1000 * diagonal(soup) * normalized(Vec3d{1, -2, 0.5});
       const Soup moved = remesh(shapes::translated(soup, far), 300, options).soup;
-      CHECK(sorted(moved.triangles) == sorted(expected.triangles));
+      CHECK(shapes::sorted(moved.triangles) == shapes::sorted(expected.triangles));
       CHECK(largest_distance(moved, shapes::translated(expected, far)) < rounding(improvement));
     }
 }

@@ -43,14 +43,14 @@ public:
     for (std::size_t f = 0; f < surface.triangles.size(); ++f)
       for (int i = 0; i < 3; ++i) {
         const int a = m_surface.triangles[f][i], b = m_surface.triangles[f][(i + 1) % 3];
-        const Edge original = sorted(surface.triangles[f][i], surface.triangles[f][(i + 1) % 3]);
+        const Edge original = sorted_edge(surface.triangles[f][i], surface.triangles[f][(i + 1) % 3]);
         const Edge copy = cut.originals[a] == original[0] ? Edge{a, b} : Edge{b, a};
         std::vector<Edge>& list = edge_copies[original];
         if (std::find(list.begin(), list.end(), copy) == list.end()) list.push_back(copy);
       }
     for (const Edge& e : surface.creases) {
       if (std::binary_search(surface.seams.begin(), surface.seams.end(), e)) continue;
-      for (const Edge& copy : edge_copies[e]) m_surface.creases.push_back(sorted(copy[0], copy[1]));
+      for (const Edge& copy : edge_copies[e]) m_surface.creases.push_back(sorted_edge(copy[0], copy[1]));
     }
     std::sort(m_surface.creases.begin(), m_surface.creases.end());
 
@@ -61,7 +61,7 @@ public:
       if (p.from == p.to)
         for (const int v : copies[p.from]) places.push_back({v, v, 0});
       else
-        for (const Edge& e : edge_copies[sorted(p.from, p.to)])
+        for (const Edge& e : edge_copies[sorted_edge(p.from, p.to)])
           places.push_back(p.from < p.to ? Edge_place{e[0], e[1], p.at} : Edge_place{e[1], e[0], p.at});
       m_features.places.push_back(places.front());
       for (std::size_t c = 1; c < places.size(); ++c) {
@@ -91,7 +91,7 @@ public:
     mesh.points.swap(points);
     for (Triangle& t : mesh.triangles)
       for (int& v : t) v = name[v];
-    for (Edge& e : mesh.feature_edges) e = sorted(name[e[0]], name[e[1]]);
+    for (Edge& e : mesh.feature_edges) e = sorted_edge(name[e[0]], name[e[1]]);
     std::sort(mesh.feature_edges.begin(), mesh.feature_edges.end());
     mesh.feature_edges.erase(std::unique(mesh.feature_edges.begin(), mesh.feature_edges.end()),
                              mesh.feature_edges.end());
@@ -99,7 +99,6 @@ public:
   }
 
 private:
-  static Edge sorted(int a, int b) { return {(std::min)(a, b), (std::max)(a, b)}; }
 
   void add_twin(int s)
   {

@@ -27,15 +27,11 @@ inline std::size_t lost_feature_edges(const Extracted_mesh& mesh)
   if (mesh.feature_edges.empty()) return 0;
   edges.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) {
-      const int a = t[i], b = t[(i + 1) % 3];
-      edges.push_back({(std::min)(a, b), (std::max)(a, b)});
-    }
+    for (int i = 0; i < 3; ++i) edges.push_back(sorted_edge(t[i], t[(i + 1) % 3]));
   std::sort(edges.begin(), edges.end());
   std::size_t lost = 0;
   for (const Edge& e : mesh.feature_edges)
-    lost += !std::binary_search(edges.begin(), edges.end(),
-                                Edge{(std::min)(e[0], e[1]), (std::max)(e[0], e[1])});
+    lost += !std::binary_search(edges.begin(), edges.end(), sorted_edge(e[0], e[1]));
   return lost;
 }
 

@@ -16,6 +16,9 @@ namespace PowerRTF {
 using Triangle = std::array<int, 3>;
 using Edge = std::array<int, 2>;
 
+/// The edge between `a` and `b`, smaller vertex first.
+inline Edge sorted_edge(int a, int b) { return a < b ? Edge{a, b} : Edge{b, a}; }
+
 /// Maps the input to the unit box and back: `inside = (outside - center) * scale`.
 /// `scale` is a power of two, so that the mapping rounds only in the translation.
 struct Normalization {

@@ -40,8 +40,6 @@ private:
   std::vector<std::vector<int>> m_edges;
 };
 
-inline Edge sorted_edge(int a, int b) { return {(std::min)(a, b), (std::max)(a, b)}; }
-
 inline std::vector<char> border_vertices(const Surface& surface, const Facet_adjacency& adjacency)
 {
   std::vector<char> on_border(surface.points.size(), 0);
@@ -138,13 +136,13 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
     if (o < h) continue; // border, or seen
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
     const bool is_seam =
-        std::binary_search(surface.seams.begin(), surface.seams.end(), internal::sorted_edge(a, b));
+        std::binary_search(surface.seams.begin(), surface.seams.end(), sorted_edge(a, b));
     const double cosine =
         dot(surface.facet_normals[h / 3], surface.facet_normals[o / 3]) * (is_seam ? -1 : 1);
     if (cosine > cos_soft) continue;
     const double l = length(surface.points[b] - surface.points[a]);
     (cosine <= cos_sharp ? sharp : soft) += l;
-    if (cosine <= cos_sharp) creases.push_back(internal::sorted_edge(a, b));
+    if (cosine <= cos_sharp) creases.push_back(sorted_edge(a, b));
   }
   const std::vector<char> on_border = internal::border_vertices(surface, adjacency);
   const internal::Edge_graph graph(creases, surface.points.size());

@@ -29,14 +29,12 @@ inline Cut_surface cut_along_creases(const Surface& surface)
 {
   const auto& triangles = surface.triangles;
   const Facet_adjacency adjacency = facet_adjacency(triangles, surface.points.size());
-  const int halfedges = static_cast<int>(adjacency.opposite.size());
   const auto opposite = [&](int h) {
     const int o = adjacency.opposite[h];
     if (o == Facet_adjacency::none) return o;
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    const Edge edge{(std::min)(a, b), (std::max)(a, b)};
     const bool is_crease =
-        std::binary_search(surface.creases.begin(), surface.creases.end(), edge);
+        std::binary_search(surface.creases.begin(), surface.creases.end(),
+                           sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h)));
     return is_crease ? Facet_adjacency::none : o;
   };
 
@@ -44,35 +42,20 @@ inline Cut_surface cut_along_creases(const Surface& surface)
   cut.surface = surface;
   cut.surface.creases.clear();
   for (std::size_t v = 0; v < surface.points.size(); ++v) cut.originals.push_back(static_cast<int>(v));
-  std::vector<char> taken(surface.points.size(), 0), visited(halfedges, 0);
-  for (int start = 0; start < halfedges; ++start) {
-    if (visited[start]) continue;
-    int copy = halfedge_source(triangles, start);
-    if (taken[copy]) {
-      cut.originals.push_back(copy);
-      cut.surface.points.push_back(surface.points[copy]);
-      cut.surface.vertex_density.push_back(surface.vertex_density[copy]);
-      cut.surface.input_vertices.push_back(surface.input_vertices[copy]);
-      copy = static_cast<int>(cut.surface.points.size()) - 1;
-    } else {
-      taken[copy] = 1;
+  std::vector<char> taken(surface.points.size(), 0);
+  for_each_fan(adjacency.opposite.size(), opposite, [&](const std::vector<int>& fan) {
+    const int v = halfedge_source(triangles, fan[0]);
+    if (!taken[v]) {
+      taken[v] = 1;
+      return;
     }
-    const auto visit = [&](int h) {
-      visited[h] = 1;
-      cut.surface.triangles[h / 3][h % 3] = copy;
-    };
-    int h = start; // counter-clockwise around the source, then clockwise if a border stopped it
-    do {
-      visit(h);
-      h = opposite(previous_halfedge(h));
-    } while (h != Facet_adjacency::none && h != start);
-    if (h == start) continue;
-    for (h = opposite(start); h != Facet_adjacency::none; h = opposite(h)) {
-      h = next_halfedge(h);
-      if (visited[h]) break;
-      visit(h);
-    }
-  }
+    for (const int h : fan)
+      cut.surface.triangles[h / 3][h % 3] = static_cast<int>(cut.surface.points.size());
+    cut.originals.push_back(v);
+    cut.surface.points.push_back(surface.points[v]);
+    cut.surface.vertex_density.push_back(surface.vertex_density[v]);
+    cut.surface.input_vertices.push_back(surface.input_vertices[v]);
+  });
   compute_geometry(cut.surface);
   cut.surface.facet_patches =
       facet_components(facet_adjacency(cut.surface.triangles, cut.surface.points.size())).first;

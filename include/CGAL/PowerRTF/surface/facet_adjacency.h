@@ -114,31 +114,48 @@ inline std::pair<std::vector<int>, int> facet_components(const Facet_adjacency& 
   return {std::move(component), components};
 }
 
+/// Calls `at_fan` for each fan of facets around a vertex, in the order of their first halfedges,
+/// with the fan's halfedges that leave the vertex (as a vector). Needs consistent orientations.
+/// \param opposite function halfedge -> the halfedge of the next facet, or `none`
+template <class Opposite, class At_fan>
+void for_each_fan(std::size_t halfedges, const Opposite& opposite, const At_fan& at_fan)
+{
+  std::vector<char> visited(halfedges, 0);
+  std::vector<int> fan;
+  for (int start = 0; start < static_cast<int>(halfedges); ++start) {
+    if (visited[start]) continue;
+    fan.clear();
+    const auto visit = [&](int h) {
+      visited[h] = 1;
+      fan.push_back(h);
+    };
+    int h = start; // counter-clockwise around the source, then clockwise if a border stopped it
+    do {
+      visit(h);
+      h = opposite(previous_halfedge(h));
+    } while (h != Facet_adjacency::none && h != start);
+    if (h != start)
+      for (h = opposite(start); h != Facet_adjacency::none; h = opposite(h)) {
+        h = next_halfedge(h);
+        visit(h);
+      }
+    at_fan(fan);
+  }
+}
+
 /// The number of vertices whose facets form more than one fan. Needs consistent orientations.
 inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& triangles,
                                                const Facet_adjacency& adjacency,
                                                std::size_t number_of_vertices)
 {
-  const int halfedges = static_cast<int>(adjacency.opposite.size());
-  std::vector<char> visited(halfedges, 0); // the corner at the halfedge's source
   std::vector<char> fans(number_of_vertices, 0);
   std::size_t count = 0;
-  for (int start = 0; start < halfedges; ++start) {
-    if (visited[start]) continue;
-    int h = start; // counter-clockwise around the source, then clockwise if a border stopped it
-    do {
-      visited[h] = 1;
-      h = adjacency.opposite[previous_halfedge(h)];
-    } while (h != Facet_adjacency::none && h != start);
-    for (h = adjacency.opposite[start]; h != Facet_adjacency::none; h = adjacency.opposite[h]) {
-      h = next_halfedge(h);
-      if (visited[h]) break;
-      visited[h] = 1;
-    }
-    char& n = fans[halfedge_source(triangles, start)];
+  const auto opposite = [&](int h) { return adjacency.opposite[h]; };
+  for_each_fan(adjacency.opposite.size(), opposite, [&](const std::vector<int>& fan) {
+    char& n = fans[halfedge_source(triangles, fan[0])];
     if (n == 1) ++count;
     n = static_cast<char>((std::min)(n + 1, 2));
-  }
+  });
   return count;
 }
 
@@ -195,8 +212,7 @@ inline std::vector<Edge> orient_facets(std::vector<Triangle>& triangles,
                                             adjacency.opposite[h] == Facet_adjacency::none ? 0 : 1);
       },
       [&](int h, int) {
-        const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-        seams.push_back({(std::min)(a, b), (std::max)(a, b)});
+        seams.push_back(sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h)));
         return true;
       },
       turned);

@@ -43,8 +43,7 @@ inline std::vector<Crowd> crowds(const Triangle_soup& soup, const Facet_adjacenc
   std::map<Edge, Crowd> by_edge;
   for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
     if (adjacency.opposite[h] != Facet_adjacency::none) continue;
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    by_edge[{(std::min)(a, b), (std::max)(a, b)}].push_back(h);
+    by_edge[sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h))].push_back(h);
   }
   std::vector<Crowd> result;
   for (auto& [edge, crowd] : by_edge) {
@@ -144,36 +143,21 @@ inline bool orient_crowds(std::vector<Triangle>& triangles, const Facet_adjacenc
 /// \returns the number of vertices that were copied
 inline std::size_t split_fans(Triangle_soup& soup, const Facet_adjacency& adjacency)
 {
-  const auto& opposite = adjacency.opposite;
-  std::vector<char> fans(soup.points.size(), 0), visited(opposite.size(), 0);
-  std::vector<int> corners(opposite.size());
+  std::vector<char> fans(soup.points.size(), 0);
   std::size_t copied = 0;
-  for (int start = 0; start < static_cast<int>(opposite.size()); ++start) {
-    if (visited[start]) continue;
-    int v = halfedge_source(soup.triangles, start);
-    if (fans[v] > 0) {
-      copied += fans[v] == 1;
-      fans[v] = 2;
-      soup.points.push_back(Vec3d(soup.points[v]));
-      soup.originals.push_back(int(soup.originals[v]));
-      v = static_cast<int>(soup.points.size()) - 1;
-    } else fans[v] = 1;
-    const auto visit = [&](int h) {
-      visited[h] = 1;
-      corners[h] = v;
-    };
-    int h = start; // counter-clockwise around the source, then clockwise if a border stopped it
-    do {
-      visit(h);
-      h = opposite[previous_halfedge(h)];
-    } while (h != Facet_adjacency::none && h != start);
-    if (h == start) continue;
-    for (h = opposite[start]; h != Facet_adjacency::none; h = opposite[h]) {
-      h = next_halfedge(h);
-      visit(h);
+  const auto opposite = [&](int h) { return adjacency.opposite[h]; };
+  for_each_fan(adjacency.opposite.size(), opposite, [&](const std::vector<int>& fan) {
+    const int v = halfedge_source(soup.triangles, fan[0]);
+    if (fans[v] == 0) {
+      fans[v] = 1;
+      return;
     }
-  }
-  for (std::size_t h = 0; h < corners.size(); ++h) soup.triangles[h / 3][h % 3] = corners[h];
+    copied += fans[v] == 1;
+    fans[v] = 2;
+    for (const int h : fan) soup.triangles[h / 3][h % 3] = static_cast<int>(soup.points.size());
+    soup.points.push_back(Vec3d(soup.points[v]));
+    soup.originals.push_back(int(soup.originals[v]));
+  });
   return copied;
 }
 
@@ -181,18 +165,17 @@ inline std::size_t split_fans(Triangle_soup& soup, const Facet_adjacency& adjace
 inline void halve_crowded_edges(Triangle_soup& soup, const std::vector<Crowd>& list)
 {
   std::map<Edge, int> middles;
-  const auto key = [](int a, int b) { return Edge{(std::min)(a, b), (std::max)(a, b)}; };
   for (const Crowd& crowd : list) {
     const int a = halfedge_source(soup.triangles, crowd[0]);
     const int b = halfedge_target(soup.triangles, crowd[0]);
-    if (!middles.insert({key(a, b), static_cast<int>(soup.points.size())}).second) continue;
+    if (!middles.insert({sorted_edge(a, b), static_cast<int>(soup.points.size())}).second) continue;
     soup.points.push_back(0.5 * (soup.points[a] + soup.points[b]));
     soup.originals.push_back(int(soup.originals[a]));
   }
   for (std::size_t f = 0; f < soup.triangles.size(); ++f) // also of those that are added
     for (int i = 0; i < 3; ++i) {
       Triangle& t = soup.triangles[f];
-      const auto m = middles.find(key(t[i], t[(i + 1) % 3]));
+      const auto m = middles.find(sorted_edge(t[i], t[(i + 1) % 3]));
       if (m == middles.end()) continue;
       Triangle half = t;
       half[i] = t[(i + 1) % 3] = m->second;
