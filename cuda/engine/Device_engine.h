@@ -72,6 +72,7 @@ public:
   void update_weights() override;
   bool optimize_weights(int passes) override;
   bool newton_weights() override;
+  void clear_weights() override;
   void move_samples(Position_method method) override;
   void restore_best() override;
   Device_summary summary() override;

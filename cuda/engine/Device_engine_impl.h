@@ -307,6 +307,15 @@ bool Device_engine<R, B, C>::newton_weights()
 }
 
 template <class R, class B, class C>
+void Device_engine<R, B, C>::clear_weights()
+{
+  Site<R>* const sites = m_sites.data();
+  m_backend.for_each(m_cells, [=] CGAL_POWER_RTF_HD(int i) { sites[i].weight = 0; });
+  m_cell_builder->set_weights(this->sites());
+  build_cells();
+}
+
+template <class R, class B, class C>
 void Device_engine<R, B, C>::copy_state(Site<R>* to_sites, int* to_facets, const Site<R>* sites,
                                         const int* facets)
 {

@@ -19,6 +19,7 @@
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
 #include <CGAL/PowerRTF/surface/Surface_patches.h>
 
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -70,6 +71,7 @@ public:
     for (int iteration = 0; iteration < iterations() && !m_report.cancelled; ++iteration) { // 5
       m_engine.build_cells();                                                             // 8, 9
       const bool relaxation = iteration < m_options.relaxation_iterations;
+      if (relaxation) m_unweighted_rms = m_engine.capacity().rms;
       const bool equal = !relaxation && optimize_weights();                          // 11 to 14
       finish_iteration(visitor, iteration);
       if (equal) break;
@@ -150,13 +152,18 @@ private:
   bool optimize_weights()
   {
     if (m_options.weight_method != Weight_method::multiplicative) return false;
-    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value) // the same, without a look between
-      return m_engine.optimize_weights(m_options.max_weight_iterations);
-    for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass) {
-      m_engine.update_weights();
-      m_engine.build_cells();
+    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value) { // the same, without a look between
+      if (m_engine.optimize_weights(m_options.max_weight_iterations)) return true;
+    } else {
+      for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass) {
+        m_engine.update_weights();
+        m_engine.build_cells();
+      }
+      if (inside_interval()) return true;
     }
-    return inside_interval();
+    // The rule need not converge where samples are too few: weights that do harm begin anew.
+    if (m_engine.capacity().rms > m_unweighted_rms) m_engine.clear_weights();
+    return false;
   }
 
   /// The weights once the samples are in place, by Newton's method.
@@ -208,6 +215,7 @@ private:
   Options m_options;
   PowerRTF::Surface_patches m_patches;
   Engine m_engine;
+  double m_unweighted_rms = std::numeric_limits<double>::infinity(); // of the capacities, without weights
   Report m_report;
 };
 

@@ -153,6 +153,8 @@ void compare(const Case& c, double tolerance)
     check("three passes of the paper's rule");
     move(Position_method::lloyd);
     check("another step");
+    both([](auto& engine) { engine.clear_weights(); });
+    check("no weights");
     return;
   }
   for (int k = 0; k < 9; ++k) move(Position_method::lbfgs); // the memory fills

@@ -563,6 +563,11 @@ TEST_CASE("both ways of weighting make the capacities equal")
         rule.build_cells();
       }
       CHECK(rule.capacity().inside_interval == 1);
+      const std::size_t constructions = rule.constructions();
+      rule.clear_weights();
+      CHECK(rule.samples().weights == std::vector<double>(300, 0));
+      CHECK(rule.capacity().rms > 0.02); // of cells without weights
+      CHECK(rule.constructions() == constructions + 1);
     }
 }
 

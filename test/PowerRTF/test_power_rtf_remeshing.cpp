@@ -710,6 +710,21 @@ TEST_CASE("the paper's preset ends with every cell inside the interval")
     }
 }
 
+TEST_CASE("the paper's preset: weights that diverge begin anew")
+{
+  Remeshing_options options = Remeshing_options::paper_preset();
+  options.max_iterations = 6;
+  options.weight_step = 8; // the rule diverges beyond 2
+  const Remeshing_report report = remesh(shapes::icosphere(4), 300, options).report;
+  check_guarantees(report);
+  const std::size_t without = 10 + 6 * (1 + 30) + 1; // constructions
+  CHECK(report.constructions > without);
+  for (std::size_t k = 10; k < report.iterations.size(); ++k) {
+    CHECK(report.iterations[k].cells.empty == 0);
+    CHECK(report.iterations[k].capacity.rms < 1.5 * report.iterations[9].capacity.rms);
+  }
+}
+
 TEST_CASE("modes: RTF without weights, CCCPD with exactly equal capacities")
 {
   Remeshing_options options = Remeshing_options::paper_preset();

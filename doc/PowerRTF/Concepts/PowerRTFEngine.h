@@ -39,6 +39,9 @@ public:
   /// made the masses more equal, and nothing has changed.
   bool newton_weights();
 
+  /// All weights become 0, and the cells are built again.
+  void clear_weights();
+
   /// Moves each sample towards the centre of mass of its cell and projects it onto the surface
   /// (Algorithm 3, lines 15 to 19). The cells are outdated after it.
   void move_samples(CGAL::PowerRTF::Position_method method);

@@ -130,6 +130,7 @@ public:
   /// Returns whether they are.
   bool optimize_weights(int passes) { return m_device->optimize_weights(passes); }
   bool newton_weights() { return m_device->newton_weights(); }
+  void clear_weights() { m_device->clear_weights(); }
   void move_samples(Position_method method) { m_device->move_samples(method); }
   void restore_best() { m_device->restore_best(); }
 

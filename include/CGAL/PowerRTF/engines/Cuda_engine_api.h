@@ -109,6 +109,7 @@ public:
   /// interval, at most `passes`. Returns whether they are.
   virtual bool optimize_weights(int passes) = 0;
   virtual bool newton_weights() = 0;
+  virtual void clear_weights() = 0;
   virtual void move_samples(Position_method method) = 0;
   virtual void restore_best() = 0;
   virtual Device_summary summary() = 0;

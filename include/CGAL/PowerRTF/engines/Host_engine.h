@@ -59,6 +59,9 @@ public:
   /// step made the masses more equal, nothing has changed.
   bool newton_weights();
 
+  /// All weights become 0, and the cells are built again.
+  void clear_weights();
+
   /// Moves the samples by one step and projects them (Algorithm 3, lines 15 to 19). The cells must
   /// be those of the current samples.
   void move_samples(Position_method method);
@@ -264,6 +267,14 @@ void Host_engine<Tree, Tag>::update_weights()
     m_tree.sites[i].weight += change(mass(i), distance);
   });
   center_weights();
+}
+
+template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::clear_weights()
+{
+  for_each_sample([&](int i) { m_tree.sites[i].weight = 0; });
+  m_tree.refit();
+  build_cells();
 }
 
 template <class Tree, class Tag>
