@@ -173,7 +173,8 @@ TEST_CASE("what would change its shape is refused")
 
 TEST_CASE("spheres with a defect are the sphere again")
 {
-  for (const auto& [name, soup] : shapes::dirty_spheres()) {
+  for (const auto& [title, soup] : shapes::dirty_spheres()) {
+    const std::string& name = title;
     CAPTURE(name);
     Repair_counts repairs;
     const Surface s = check(soup, {1, 2, 0}, repairs);

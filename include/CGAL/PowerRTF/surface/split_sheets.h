@@ -46,7 +46,9 @@ inline std::vector<Crowd> crowds(const Triangle_soup& soup, const Facet_adjacenc
     by_edge[sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h))].push_back(h);
   }
   std::vector<Crowd> result;
-  for (auto& [edge, crowd] : by_edge) {
+  for (auto& entry : by_edge) {
+    const Edge edge = entry.first;
+    Crowd& crowd = entry.second;
     if (crowd.size() < 3) continue;
     const Vec3d origin = soup.points[edge[0]], axis = normalized(soup.points[edge[1]] - origin);
     Vec3d u{0, 0, 0}, v{0, 0, 0};
