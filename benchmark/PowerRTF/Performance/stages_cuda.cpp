@@ -1,13 +1,24 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The stages on the GPU; said to be skipped where there is none. Larger n: cuda_cells.cu and
+// cuda_remeshing.cpp, by cuda/run_gpu_checks.sh.
 #include "Stage_benchmarks.h"
 #include "stages.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
 
+#include <iostream>
+
 void register_cuda_stages()
 {
+  try {
+    CGAL::PowerRTF::cuda_devices();
+  } catch (const CGAL::PowerRTF::Cuda_error& error) {
+    std::cerr << "skipped: the stages on a GPU (" << error.what() << ")\n";
+    return;
+  }
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   for (const Workload::Kind& kind : Workload::kinds(1000000))
     Stage_benchmarks<CGAL::PowerRTF_cuda_traits_3<Kernel>>::register_all("gpu", kind, 1000000);
