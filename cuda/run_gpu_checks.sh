@@ -70,7 +70,7 @@ bench() {
   [ -x "$programs/$name" ] || return
   while IFS= read -r line; do
     echo "$line"
-    case $line in *' ms '* | *check:*) table+=("  $line") ;; esac
+    case $line in *' ms '* | *' | '* | *check:*) table+=("  $line") ;; esac
   done < <("$programs/$name" "$@" 2>&1)
 }
 

@@ -39,28 +39,8 @@ struct alignas(16) Group_node {
   Real padding;
 };
 
-/// How the nodes lie in one array; see `Packed_tree_layout`.
-struct Group_layout {
-  static constexpr int arity = 32;
-  static constexpr int max_levels = 7; // 32^7 > 2^31 sites
-
-  int items = 0, levels = 0;
-  int first[max_levels + 1] = {};
-
-  CGAL_POWER_RTF_HD explicit Group_layout(int number_of_items = 0) : items(number_of_items)
-  {
-    int below = items;
-    while (below > 1 || (levels == 0 && below > 0)) {
-      below = (below + arity - 1) / arity;
-      first[levels + 1] = first[levels] + below;
-      ++levels;
-    }
-  }
-  CGAL_POWER_RTF_HD int nodes() const { return first[levels]; }
-  CGAL_POWER_RTF_HD int nodes(int level) const { return first[level + 1] - first[level]; }
-  /// Children of a node of `level`: items, or nodes of the level below.
-  CGAL_POWER_RTF_HD int below(int level) const { return level == 0 ? items : nodes(level - 1); }
-};
+/// How the nodes lie in one array.
+using Group_layout = Basic_tree_layout<32, 7>;
 
 /// The nodes that wait in a warp's depth-first search: `at_once` are taken together as long as
 /// there are few, then one at a time.

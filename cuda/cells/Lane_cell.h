@@ -60,13 +60,11 @@ struct Lane_cell {
   Packed_site<Real> site;
   Real radius;
   int listed = 0, near = 0; ///< sites listed; sites within radius / guard_factor, itself too
-  unsigned compatible = 0;    ///< bit k: the site listed as number k is
   Real outside2 = Real(1e30); ///< least squared distance of the gathered sites that are not listed
 
   CGAL_POWER_RTF_HD void clear()
   {
     listed = near = 0;
-    compatible = 0;
     outside2 = Real(1e30);
   }
 
@@ -74,11 +72,22 @@ struct Lane_cell {
   CGAL_POWER_RTF_HD void list(Warp_memory<Real>& memory, int count, Real guard_factor, int lane,
                               int begin = 0, int step = 1)
   {
+    int* const column = memory.listed + lane;
+    list(memory.candidates, count, guard_factor, begin, step, [&](int number, int k) {
+      if (number < Warp_memory<Real>::most_listed)
+        column[number * 32] = memory.candidates.places[k];
+    });
+  }
+
+  /// The same; `put(number, k)` lists the gathered site `k`.
+  template <class Candidates, class Put>
+  CGAL_POWER_RTF_HD void list(const Candidates& candidates, int count, Real guard_factor, int begin,
+                              int step, Put&& put)
+  {
     const Real four_r2 = 4 * radius * radius;
     const Real near2 = radius * radius / (guard_factor * guard_factor);
-    int* const column = memory.listed + lane;
     for (int k = begin; k < count; k += step) {
-      const Packed_site<Real> other = memory.candidates.sites[k];
+      const Packed_site<Real> other = candidates.sites[k];
       const Vec3<Real> offset = other.point - site.point;
       const Real d2 = squared_length(offset), power = d2 + (site.weight - other.weight);
       near += d2 <= near2;
@@ -86,10 +95,8 @@ struct Lane_cell {
         outside2 = std::fmin(outside2, d2);
         continue;
       }
-      const int j = memory.candidates.places[k];
-      if (j == place) continue;
-      if (listed < Warp_memory<Real>::most_listed) column[listed * 32] = j;
-      ++listed;
+      if (candidates.places[k] == place) continue;
+      put(listed++, k);
     }
   }
 };
@@ -143,7 +150,6 @@ CGAL_POWER_RTF_HD inline bool clip_listed(const Group_view<Real>& view, Lane_cel
     const Packed_normal<Real> normal = load(view.normals + j);
     if (normal.patch != own.patch) continue;
     if (view.cos_angle > -1 && !(dot(own.normal, normal.normal) > view.cos_angle)) continue;
-    cell.compatible |= 1u << k;
     const Vec3<Real> offset = other.point - cell.site.point;
     const Real power = squared_length(offset) + (cell.site.weight - other.weight);
     const Real a = dot(offset, frame.u), b = dot(offset, frame.v);

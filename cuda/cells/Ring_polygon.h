@@ -52,17 +52,28 @@ public:
     set(3, -half, -half, square_side + 3);
   }
 
-  /// Vertex by vertex, before `set_size()`.
-  CGAL_POWER_RTF_HD void set_vertex(int k, Real x, Real y, int edge)
+  /// Vertex by vertex: edge k is number k.
+  CGAL_POWER_RTF_HD void begin_chain()
   {
     m_head = 0;
-    set(k, x, y, edge);
-  }
-  CGAL_POWER_RTF_HD void set_size(int vertices)
-  {
-    size = vertices;
     overflow = false;
   }
+  CGAL_POWER_RTF_HD void set_chain_vertex(int k, Real x, Real y)
+  {
+    m_points[(k & (capacity - 1)) * Columns] = {x, y};
+    m_edges[(k & (capacity - 1)) * Columns] = static_cast<unsigned char>(k);
+  }
+  CGAL_POWER_RTF_HD void end_chain(int vertices) { size = vertices; }
+  /// Whether a x + b y <= c for all vertices of a chain that has just been made.
+  CGAL_POWER_RTF_HD bool is_chain_inside(Real a, Real b, Real c) const
+  {
+    Real most = side(a, b, c, m_points[0]);
+    for (int k = 1; k < size; ++k) most = std::fmax(most, side(a, b, c, m_points[k * Columns]));
+    return !(most > 0);
+  }
+
+  /// The empty polygon.
+  CGAL_POWER_RTF_HD void clear() { size = 0; }
 
   CGAL_POWER_RTF_HD Real x(int k) const { return m_points[place(k)].x; }
   CGAL_POWER_RTF_HD Real y(int k) const { return m_points[place(k)].y; }

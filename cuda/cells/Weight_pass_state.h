@@ -7,12 +7,14 @@ namespace CGAL {
 namespace PowerRTF {
 namespace device {
 
-/// What the passes leave behind, and their counters, one per pass.
+/// What the passes leave behind, and their counters; arrays: one entry per pass.
 struct Weight_pass_state {
   static constexpr int most_passes = 64;
   int done = 0;  ///< changes of the weights
   int equal = 0; ///< all masses are inside the interval
-  int outside[most_passes] = {}, rest[most_passes] = {};
+  int specials = 0; ///< cells without a list
+  int outside[most_passes] = {};
+  unsigned long long mass[most_passes] = {}; ///< see `Mass_sum`
 };
 
 } // namespace device

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_builder.h"
 
-#include "group_cells.cuh"
+#include "clip_lists.cuh"
+#include "large_weight_passes.cuh"
+#include "search_lists.cuh"
 #include "second_pass.cuh"
 #include "sort_sites.cuh"
 #include "weight_passes.cuh"
@@ -19,6 +21,9 @@ namespace {
 constexpr unsigned sort_every = 8;
 // Calls of set_weights(): the lists grow too short.
 constexpr unsigned list_every = 10;
+static_assert(list_every <= Large_pass_state::most_passes, "one look per making of the lists");
+// From here on the steps of the paper's passes are kernels of their own.
+constexpr int large_sites = 65536;
 int blocks(int n, int threads) { return (n + threads - 1) / threads; }
 } // namespace
 
@@ -50,6 +55,10 @@ Cell_builder<Real>::Cell_builder(Cuda_backend& backend, int max_sites, Real cos_
   m_group_sizes.allocate(backend, groups);
   m_growth.allocate(backend, groups);
   m_all_growth.allocate(backend, 1);
+  m_open_groups.allocate(backend, groups);
+  m_open_lanes.allocate(backend, groups);
+  m_open_counts.allocate(backend, 2);
+  backend.fill(m_open_counts.data(), 0, 2);
   backend.fill(m_rest_counts.data(), 0, 2);
   backend.fill(m_tickets.data(), 0u, 2);
   m_bytes = backend.bytes() - before;
@@ -119,10 +128,11 @@ void Cell_builder<Real>::set_sites(const Sites_arrays<Real>& arrays)
     check(cudaGetLastError(), "sorting the sites");
     m_backend.sort_order(m_sites, m_keys.data(), m_order.data());
     if (m_has_features) link_features(arrays);
+    m_are_lists_in_order = false;
   }
   ++m_settings;
   m_list_use = List_use::none;
-  m_has_lists = false;
+  m_has_lists = m_are_lists_current = false;
   take(arrays, true);
 }
 
@@ -149,13 +159,15 @@ template <class Real>
 void Cell_builder<Real>::set_weights(const Sites_arrays<Real>& arrays)
 {
   m_list_use = m_has_lists && ++m_list_age < list_every ? List_use::read : List_use::make;
+  m_are_lists_current = m_list_use == List_use::read;
   take(arrays, false);
 }
 
 template <class Real>
-void Cell_builder<Real>::construct(Cell_targets<Real>& targets)
+void Cell_builder<Real>::construct(Cell_targets<Real>& targets, bool keep_lists)
 {
   if (m_cells == 0) return;
+  if (!keep_lists && m_sites <= most_by_warps()) return construct_by_warps(targets);
   const unsigned turn = m_constructions++ % 2;
   targets.radius = m_radius.data();
   targets.guard = m_guard.data();
@@ -166,23 +178,36 @@ void Cell_builder<Real>::construct(Cell_targets<Real>& targets)
 
   // Few groups: blocks of one warp spread over the multiprocessors; few cells: several lanes each.
   const int groups = blocks(m_sites, 32), processors = m_backend.multiprocessors();
-  const auto launch = [&](auto kernel, int lanes_per_cell) {
-    const int warps = groups * lanes_per_cell <= 4 * processors ? 1 : group_warps<Real>;
-    kernel<<<blocks(groups * lanes_per_cell, warps), 32 * warps, 0, stream>>>(v, targets, lists());
-  };
-  switch (m_list_use) {
-  case List_use::none:
-    if (groups <= 8 * processors) launch(group_cells_kernel<Real, List_use::none, 4>, 4);
-    else launch(group_cells_kernel<Real, List_use::none, 1>, 1);
-    break;
-  case List_use::make:
-    launch(group_cells_kernel<Real, List_use::make, 1>, 1);
-    m_has_lists = true;
-    m_list_age = 0;
-    break;
-  case List_use::read:
-    launch(group_cells_kernel<Real, List_use::read, 1>, 1);
-    break;
+  if (m_list_use == List_use::none && groups <= 8 * processors) {
+    constexpr int lanes = 4;
+    const int warps = groups * lanes <= 4 * processors ? 1 : group_warps<Real>;
+    group_cells_kernel<Real, lanes>
+        <<<blocks(groups * lanes, warps), 32 * warps, 0, stream>>>(v, targets);
+  } else {
+    const int warps = groups <= 4 * processors ? 1 : group_warps<Real>;
+    const int grid = blocks(groups, warps), threads = 32 * warps;
+    const bool make = m_list_use == List_use::make, search = !m_are_lists_current;
+    const unsigned now = m_list_constructions++ % 2;
+    const Open_groups open{m_open_groups.data(), m_open_lanes.data(), m_open_counts.data() + now,
+                           m_open_counts.data() + (1 - now)};
+    if (search) {
+      // What a list should outlive: a step of the sites, or several changes of the weights.
+      const int search_grid = blocks(groups, search_warps<Real>);
+      search_lists_kernel<<<search_grid, 32 * search_warps<Real>, 0, stream>>>(
+          v, lists(), m_radius.data(), Real(make ? 1.4 : 1.15), m_are_lists_in_order, make);
+      check(cudaGetLastError(), "searching neighbours");
+      m_are_lists_current = m_are_lists_in_order = true;
+      m_has_lists = make;
+      m_list_age = 0;
+    }
+    const bool have_grown = m_list_use == List_use::read;
+    const bool moments = targets.out.mass || targets.out.offset;
+    const auto clip = have_grown ? moments ? clip_lists_kernel<Real, true, true>
+                                           : clip_lists_kernel<Real, true, false>
+                      : moments  ? clip_lists_kernel<Real, false, true>
+                                 : clip_lists_kernel<Real, false, false>;
+    clip<<<grid, threads, 0, stream>>>(v, targets, lists(), open);
+    open_groups_kernel<<<std::min(grid, 4 * processors), threads, 0, stream>>>(v, targets, open);
   }
   check(cudaGetLastError(), "constructing cells");
   const int most_blocks = 4 * processors;
@@ -190,6 +215,17 @@ void Cell_builder<Real>::construct(Cell_targets<Real>& targets)
   const Feature_links links{m_next.data(), m_previous.data()};
   second_pass_kernel<<<all < most_blocks ? all : most_blocks, 32 * second_warps<Real>, 0, stream>>>(
       v, targets, links, m_rest_counts.data() + (1 - turn));
+  check(cudaGetLastError(), "constructing cells");
+}
+
+template <class Real>
+void Cell_builder<Real>::construct_by_warps(Cell_targets<Real>& targets)
+{
+  targets.radius = m_radius.data();
+  targets.guard = m_guard.data();
+  const Feature_links links{m_next.data(), m_previous.data()};
+  warp_cells_kernel<<<blocks(m_sites, second_warps<Real>), 32 * second_warps<Real>, 0,
+                      m_backend.stream()>>>(view(), targets, links);
   check(cudaGetLastError(), "constructing cells");
 }
 
@@ -209,24 +245,31 @@ int Cell_builder<Real>::paper_weight_passes(const Sites_arrays<Real>& arrays, Si
                                             const Cell_outputs<Real>& out)
 {
   if (m_cells == 0) return 0;
-  constexpr int warps = group_warps<Real>;
+  if (m_sites > large_sites)
+    return large_weight_passes(arrays, sites, density, first, sixth, rule, passes, out);
+  constexpr int warps = pass_warps<Real>, threads = 32 * warps;
   const std::size_t before = m_backend.bytes();
   m_area.allocate(m_backend, m_cells);
   m_pass_state.allocate(m_backend, 1);
-  int resident = 0;
-  check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&resident, weight_passes_kernel<Real>,
-                                                      32 * warps, 0), "weight passes");
-  const int most = resident * m_backend.multiprocessors(), groups = blocks(m_sites, 32);
-  const int threads = 32 * (groups <= most ? 1 : warps);
-  // Few groups: there are more warps than these, for the cells of the second pass.
-  const int wanted = std::max(blocks(m_sites, threads), 2 * m_backend.multiprocessors());
-  const int grid = std::min(wanted, most);
-  m_partials.allocate(m_backend, 2 * most);
+  // A warp for each cell; or one for each group, and others for the cells without lists.
+  const int processors = m_backend.multiprocessors(), groups = blocks(m_sites, 32);
+  const auto resident = [&](auto kernel) {
+    int most = 0;
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&most, kernel, threads, 0),
+          "weight passes");
+    return most;
+  };
+  const bool by_lists =
+      m_cells > resident(weight_passes_kernel<Real, false>) * processors * warps;
+  const auto kernel =
+      by_lists ? weight_passes_kernel<Real, true> : weight_passes_kernel<Real, false>;
+  const int wanted = by_lists ? groups + groups / 8 + 32 : std::max(m_cells, groups);
+  const int grid = processors * std::min(blocks(wanted, warps * processors), resident(kernel));
+  m_partials.allocate(m_backend, grid);
   m_bytes += m_backend.bytes() - before;
 
   Weight_pass_arguments<Real> a;
   a.sites = m_packed.data();
-  a.nodes = m_nodes.data();
   a.caller_sites = sites;
   a.density = density;
   a.first = first;
@@ -236,12 +279,13 @@ int Cell_builder<Real>::paper_weight_passes(const Sites_arrays<Real>& arrays, Si
   a.state = m_pass_state.data();
   int done = 0;
   for (bool again = true; again;) {
-    // The masses to begin with, and the lists.
     m_list_use = List_use::make;
+    m_are_lists_current = false;
     take(arrays, false);
-    Cell_outputs<Real> areas;
-    areas.area = m_area.data();
-    build(areas);
+    a.targets = Cell_targets<Real>();
+    a.targets.out.area = m_area.data();
+    // The masses to begin with, and the lists.
+    if (by_lists) construct(a.targets, true);
     Weight_pass_state state;
     m_backend.fill(m_pass_state.data(), state, 1);
     a.view = view();
@@ -249,19 +293,86 @@ int Cell_builder<Real>::paper_weight_passes(const Sites_arrays<Real>& arrays, Si
     a.targets.radius = m_radius.data();
     a.targets.guard = m_guard.data();
     a.targets.rest = m_rest.data();
-    a.targets.out = areas;
     a.links = {m_next.data(), m_previous.data()};
     a.passes = passes - done < Weight_pass_state::most_passes ? passes - done
                                                               : Weight_pass_state::most_passes;
     void* parameters[] = {&a};
-    check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(weight_passes_kernel<Real>), grid,
-                                      threads, parameters, 0, m_backend.stream()),
+    check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(kernel), grid, threads, parameters, 0,
+                                      m_backend.stream()),
           "weight passes");
+    // Before a look at the state: nearly always these are the last weights.
+    m_list_use = List_use::read;
+    take(arrays, false);
+    build(out);
     m_backend.download(&state, m_pass_state.data(), 1);
     done += state.done;
     again = !state.equal && done < passes && state.done > 0;
   }
-  m_list_use = List_use::read;
+  return done;
+}
+
+template <class Real>
+int Cell_builder<Real>::large_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites,
+                                            const Real* density, const Real* first,
+                                            const Real* sixth,
+                                            const Multiplicative_weight_rule& rule, int passes,
+                                            const Cell_outputs<Real>& out)
+{
+  const int sum_blocks = 8 * m_backend.multiprocessors();
+  const std::size_t before = m_backend.bytes();
+  m_area.allocate(m_backend, m_cells);
+  m_partials.allocate(m_backend, sum_blocks);
+  m_large_state.allocate(m_backend, 1);
+  m_bytes += m_backend.bytes() - before;
+
+  const cudaStream_t stream = m_backend.stream();
+  Large_pass_state* const device_state = m_large_state.data();
+  const Pass_masses<Real> masses{density, m_area.data(), first, sixth, rule};
+  Cell_outputs<Real> areas;
+  areas.area = m_area.data();
+  const auto use_lists = [&](List_use use) {
+    m_list_use = use;
+    m_are_lists_current = use == List_use::read;
+  };
+  use_lists(List_use::make);
+  take(arrays, false);
+  build(areas);
+  int done = 0;
+  bool renew = false; // the lists
+  for (bool equal = false; !equal && done < passes;) {
+    Large_pass_state state;
+    m_backend.fill(device_state, state, 1);
+    const int batch = std::min<int>(list_every, passes - done);
+    for (int pass = 0; pass < batch; ++pass) {
+      mean_mass_kernel<<<sum_blocks, sum_threads, 0, stream>>>(
+          m_cells, density, m_area.data(), m_partials.data(), m_tickets.data() + 1, device_state);
+      use_lists(renew && pass == 0 ? List_use::make : List_use::read);
+      m_backend.fill(m_all_growth.data(), Real(0), 1);
+      const int change_grid = blocks(m_sites, change_threads * changes_per_thread);
+      change_weights_kernel<<<change_grid, change_threads, 0, stream>>>(
+          masses, m_cells, m_order.data(), m_packed.data(), m_nodes.data(), Group_layout(m_sites),
+          lists(), m_list_use == List_use::read, device_state, pass,
+          m_open_counts.data() + (m_list_constructions - 1) % 2);
+      raise_weights_kernel<<<1, 1024, 0, stream>>>(m_nodes.data(), Group_layout(m_sites));
+      check(cudaGetLastError(), "weight passes");
+      build(areas);
+    }
+    m_backend.download(&state, device_state, 1);
+    int changes = 0; // a pass that finds all masses inside changes nothing, nor do those after it
+    while (changes < batch && state.outside[changes]) ++changes;
+    equal = changes < batch;
+    renew = state.open > blocks(m_sites, 32) / 16;
+    done += changes;
+  }
+
+  const bool subtract = m_cells == m_sites; // else they are relative to those of the features
+  if (subtract)
+    mean_weight_kernel<<<sum_blocks, sum_threads, 0, stream>>>(
+        m_sites, m_packed.data(), m_partials.data(), m_tickets.data() + 1, device_state);
+  give_weights_kernel<<<blocks(m_sites, 256), 256, 0, stream>>>(
+      m_sites, m_cells, m_order.data(), m_packed.data(), device_state, subtract, sites);
+  check(cudaGetLastError(), "weight passes");
+  use_lists(List_use::read);
   take(arrays, false);
   build(out);
   return done;

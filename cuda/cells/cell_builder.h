@@ -8,6 +8,7 @@
 
 #include "../device/Cuda_backend.h"
 #include "Kept_lists.h"
+#include "Large_pass_state.h"
 #include "Weight_pass_state.h"
 #include "cell_arrays.h"
 
@@ -72,8 +73,15 @@ private:
   void take(const Sites_arrays<Real>& arrays, bool positions);
   Group_view<Real> view() const;
   Kept_lists<Real> lists();
-  void construct(Cell_targets<Real>& targets);
+  void construct(Cell_targets<Real>& targets, bool keep_lists = false);
+  void construct_by_warps(Cell_targets<Real>& targets);
+  /// Sites: so few that a warp for each takes less time than one for 32 of them.
+  int most_by_warps() const { return 128 * m_backend.multiprocessors(); }
   void link_features(const Sites_arrays<Real>& arrays);
+  int large_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
+                          const Real* first, const Real* sixth,
+                          const Multiplicative_weight_rule& rule, int passes,
+                          const Cell_outputs<Real>& out);
 
   Cuda_backend& m_backend;
   std::size_t m_bytes = 0;
@@ -82,9 +90,11 @@ private:
   bool m_has_features = false;
   unsigned m_settings = 0;     // calls of set_sites() for these sites
   List_use m_list_use = List_use::none;
-  bool m_has_lists = false;    // of the current positions
+  bool m_has_lists = false;    // of the current positions, for several weights
+  bool m_are_lists_in_order = false; // they name places of the current order
+  bool m_are_lists_current = false;  // no search is needed
   unsigned m_list_age = 0;     // calls of set_weights() since they were made
-  unsigned m_constructions = 0;
+  unsigned m_constructions = 0, m_list_constructions = 0;
 
   Buffer<int> m_order; // place -> the caller's index
   Buffer<Packed_site<Real>> m_packed;
@@ -101,9 +111,12 @@ private:
   Buffer<Real> m_list_radius, m_list_outside, m_group_radius;
   Buffer<int> m_groups, m_group_sizes;
   Buffer<Real> m_list_weights, m_growth, m_all_growth;
+  Buffer<int> m_open_groups, m_open_counts; // see `Open_groups`
+  Buffer<unsigned> m_open_lanes;
   Buffer<Real> m_area;         // paper_weight_passes() only, as what follows
   Buffer<double> m_partials;
   Buffer<Weight_pass_state> m_pass_state;
+  Buffer<Large_pass_state> m_large_state;
   Buffer<int> m_places, m_next, m_previous; // with features only
   Buffer<std::uint64_t> m_keys;
 };

@@ -84,6 +84,16 @@ __device__ inline Real cell_area(const Polygon& polygon)
   return twice / 2;
 }
 
+/// Writes the moments that are wanted.
+template <class Real>
+__device__ inline void write_moments(const Cell_outputs<Real>& out, int id,
+                                     const Cell_moments<Real>& m, const Tangent_frame<Real>& frame)
+{
+  if (out.area) out.area[id] = m.area;
+  if (out.mass) out.mass[id] = m.mass;
+  if (out.offset) out.offset[id] = frame.u * m.x + frame.v * m.y;
+}
+
 /// Writes what is wanted of the cell of the site at `place`, but for the polygon in full.
 template <class Real, class Polygon>
 __device__ inline void write_cell(const Group_view<Real>& view, const Cell_outputs<Real>& out,
@@ -93,11 +103,9 @@ __device__ inline void write_cell(const Group_view<Real>& view, const Cell_outpu
   if (out.area && !out.mass && !out.offset) {
     out.area[id] = cell_area(polygon);
   } else if (out.area || out.mass || out.offset) {
-    const auto m =
-        cell_moments(polygon, place, [&](int j) { return __ldg(view.density_root + j); });
-    if (out.area) out.area[id] = m.area;
-    if (out.mass) out.mass[id] = m.mass;
-    if (out.offset) out.offset[id] = frame.u * m.x + frame.v * m.y;
+    write_moments(
+        out, id, cell_moments(polygon, place, [&](int j) { return __ldg(view.density_root + j); }),
+        frame);
   }
   if (out.status) out.status[id] = static_cast<unsigned char>(status);
   if (out.edge_count) write_edges(view, out, place, id, polygon, frame);

@@ -1,10 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Algorithm 1 for 32 cells at a time. From lists: every lane clips its own polygon by the sites of
-// its kept list. Otherwise: the warp gathers the sites that may cut any cell of its group, then
-// every lane clips. A cell is finished here only when it is proved to be complete and within the
-// guard radius; all others go to the second pass.
+// Algorithm 1 for 32 cells at a time: the warp gathers the sites that may cut any cell of its
+// group, then every lane clips, in rounds of growing radii. A cell is finished here only when it is
+// proved to be complete and within the guard radius; all others go to the second pass.
 #ifndef CGAL_POWER_RTF_CUDA_GROUP_CELLS_CUH
 #define CGAL_POWER_RTF_CUDA_GROUP_CELLS_CUH
 
@@ -131,6 +130,21 @@ __device__ inline Real guess_radius(const Group_view<Real>& view, const Lane_cel
   return 1;
 }
 
+/// Writes a proved cell. Returns false when it must be cut at chords, by the second pass.
+template <class Real>
+__device__ inline bool write_listed(const Group_view<Real>& view, const Cell_targets<Real>& targets,
+                                    int place, int id, const Ring_polygon<Real, 32>& polygon,
+                                    const int* column, int stride,
+                                    const Tangent_frame<Real>& frame, Real radius)
+{
+  const Listed_polygon<Real> listed(polygon, column, stride);
+  if (view.has_features && touches_fixed(view, listed)) return false;
+  targets.radius[id] = radius;
+  write_cell(view, targets.out, place, id, Cell_status::ok, listed, frame);
+  if (targets.polygons.size) write_polygon(view, targets.polygons, id, listed);
+  return true;
+}
+
 template <class Real>
 constexpr int group_warps = sizeof(Real) == 4 ? 4 : 2; // of a block: 48 KB of shared memory
 
@@ -161,59 +175,23 @@ __device__ inline bool make_kept(const Group_view<Real>& view, const Kept_lists<
                        near, *lists.all_growth);
 }
 
-/// Lists the groups that sites may come from which cut one of the cells of the lanes with `wants`.
-template <class Real>
-__device__ inline void keep_groups(const Group_view<Real>& view, const Kept_lists<Real>& lists,
-                                   Search_stack& stack, const Lane_cell<Real>& cell, bool wants,
-                                   int group, int lane)
+/// Makes the cells of the lanes with `open`, whose sites follow each other; what is not proved goes
+/// to the second pass. The first search is for `growth` times the last radius. Several lanes per
+/// cell, where there are few cells, share the search and make lists for one of them.
+template <int LanesPerCell, class Real>
+__device__ inline void make_group(const Group_view<Real>& view, const Cell_targets<Real>& targets,
+                                  Warp_memory<Real>& memory, int place, bool open, Real growth,
+                                  int lane)
 {
-  constexpr Real further = 2; // than the lists' radius
-  const Real radius = further * warp_max(wants ? cell.radius : Real(0));
-  int* const out = lists.groups + group * Kept_lists<Real>::most_groups;
-  int found = 0;
-  for (unsigned lanes; (lanes = __ballot_sync(full_warp, wants)) != 0;) {
-    const bool is_near = is_near_lane(cell, __ffs(int(lanes)) - 1);
-    const Group_query<Real> query = query_of_lanes(cell, wants && is_near, radius);
-    wants = wants && !is_near;
-    search_groups(view, stack, query, lane, [&](bool reached, int k) {
-      const unsigned reaching = __ballot_sync(full_warp, reached);
-      const int at = found + __popc(reaching & ((1u << lane) - 1));
-      if (reached && at < Kept_lists<Real>::most_groups) out[at] = k;
-      found += __popc(reaching);
-    });
-  }
-  if (lane == 0) {
-    lists.group_sizes[group] = found <= Kept_lists<Real>::most_groups ? found : -1;
-    lists.group_radius[group] = radius;
-  }
-}
-
-/// One warp per 32 / `LanesPerCell` sites that follow each other; several lanes per cell, where
-/// there are few cells, share the search and make lists for one of them.
-template <class Real, List_use Use, int LanesPerCell>
-__global__ void __launch_bounds__(32 * group_warps<Real>)
-group_cells_kernel(const __grid_constant__ Group_view<Real> view,
-                   const __grid_constant__ Cell_targets<Real> targets,
-                   const __grid_constant__ Kept_lists<Real> lists)
-{
-  // What changes between two constructions, or what a list should outlive; what a cell that was not
-  // complete, or for which too many sites were found, is given in the next round.
-  constexpr Real growth = Use == List_use::make ? Real(1.4) : Real(1.15);
+  // What a cell that was not complete, or for which too many sites were found, gets next.
   constexpr Real further_growth = Real(1.6), shrinkage = Real(0.7);
   constexpr int rounds = 4;
-  __shared__ Warp_memory<Real> memories[group_warps<Real>];
-  Warp_memory<Real>& memory = memories[threadIdx.x / 32];
-  const int lane = threadIdx.x % 32;
-  static_assert(LanesPerCell == 1 || Use == List_use::none, "lists are made group by group");
-  const int place = (blockIdx.x * blockDim.x + threadIdx.x) / LanesPerCell, group = place / 32;
-  if (place - lane / LanesPerCell >= view.tree.items) return;
-
   const bool exists = place < view.tree.items;
   Lane_cell<Real> cell;
   cell.place = exists ? place : view.tree.items - 1;
   cell.site = load(view.sites + cell.place);
   const int id = view.caller[cell.place];
-  const bool has_cell = exists && id < view.cells && lane % LanesPerCell == 0;
+  const bool has_cell = exists && open && id < view.cells && lane % LanesPerCell == 0;
   const Packed_normal<Real> own = load(view.normals + cell.place);
   const Tangent_frame<Real> frame(own.normal);
 
@@ -224,49 +202,31 @@ group_cells_kernel(const __grid_constant__ Group_view<Real> view,
     if (last_radius == 0) cell.radius = guess;
   }
 
-  bool open = has_cell && last_radius >= 0; // below 0: the last one needed the second pass
-  bool rest = has_cell && !open, kept = false;
+  open = has_cell && last_radius >= 0; // below 0: the last one needed the second pass
+  bool rest = has_cell && !open;
   Ring_polygon<Real, 32> polygon(memory.polygons, lane);
-  for (int round = Use == List_use::read ? -1 : 0; round < rounds && __any_sync(full_warp, open);
-       ++round) {
+  const int* const column = memory.listed + lane;
+  for (int round = 0; round < rounds && __any_sync(full_warp, open); ++round) {
     bool is_cell = false, hopeless = false;
-    const int* column = memory.listed + lane;
-    int stride = 32;
-    if (round < 0) {
-      const Real near = near_growth(lists, group, lane);
-      column = lists.neighbors + cell.place;
-      stride = lists.stride;
-      is_cell = open && make_kept(view, lists, cell, frame, near, polygon);
-    } else {
-      cell.clear();
-      // Along the curve there are jumps, of any length: the lanes near the first one go first.
-      bool waits = __shfl_sync(full_warp, open, lane - lane % LanesPerCell);
-      for (unsigned lanes; (lanes = __ballot_sync(full_warp, waits)) != 0;) {
-        const bool is_near = is_near_lane(cell, __ffs(int(lanes)) - 1);
-        gather<LanesPerCell>(view, memory, cell, waits && is_near, lane);
-        waits = waits && !is_near;
-      }
-      if (LanesPerCell > 1) join_lists<LanesPerCell>(memory, cell, lane);
-      // Within the guard radius: R <= guard_factor times the distance of the 6th neighbour.
-      if (open && clip_listed(view, cell, own, frame, column, polygon, hopeless)) {
-        is_cell = cell.near <= 6 && view.guard_factor >= 1;
-        hopeless = !is_cell;
-      }
+    cell.clear();
+    // Along the curve there are jumps, of any length: the lanes near the first one go first.
+    bool waits = __shfl_sync(full_warp, open, lane - lane % LanesPerCell);
+    for (unsigned lanes; (lanes = __ballot_sync(full_warp, waits)) != 0;) {
+      const bool is_near = is_near_lane(cell, __ffs(int(lanes)) - 1);
+      gather<LanesPerCell>(view, memory, cell, waits && is_near, lane);
+      waits = waits && !is_near;
+    }
+    if (LanesPerCell > 1) join_lists<LanesPerCell>(memory, cell, lane);
+    // Within the guard radius: R <= guard_factor times the distance of the 6th neighbour.
+    if (open && clip_listed(view, cell, own, frame, column, polygon, hopeless)) {
+      is_cell = cell.near <= 6 && view.guard_factor >= 1;
+      hopeless = !is_cell;
     }
     if (is_cell) {
       open = false;
-      const Listed_polygon<Real> listed(polygon, column, stride);
-      rest = view.has_features && touches_fixed(view, listed);
-      if (!rest) {
-        targets.radius[id] = std::sqrt(polygon.squared_radius());
-        write_cell(view, targets.out, cell.place, id, Cell_status::ok, listed, frame);
-        if (targets.polygons.size) write_polygon(view, targets.polygons, id, listed);
-        if (Use == List_use::make && cell.listed <= Kept_lists<Real>::capacity) {
-          keep_list(lists, cell, polygon, column);
-          kept = true;
-        }
-      }
-    } else if (open && round >= 0) {
+      rest = !write_listed(view, targets, cell.place, id, polygon, column, 32, frame,
+                           std::sqrt(polygon.squared_radius()));
+    } else if (open) {
       if (hopeless || round + 1 == rounds) {
         open = false;
         rest = true;
@@ -279,10 +239,6 @@ group_cells_kernel(const __grid_constant__ Group_view<Real> view,
       cell.radius = __shfl_sync(full_warp, cell.radius, lane - lane % LanesPerCell);
     __syncwarp();
   }
-  if (Use == List_use::make) {
-    if (exists && !kept) lists.sizes[place] = Kept_lists<Real>::none;
-    keep_groups(view, lists, memory.stack, cell, kept, group, lane);
-  }
 
   const unsigned lanes = __ballot_sync(full_warp, rest);
   if (lanes == 0) return;
@@ -292,6 +248,45 @@ group_cells_kernel(const __grid_constant__ Group_view<Real> view,
   if (rest) {
     targets.rest[begin + __popc(lanes & ((1u << lane) - 1))] = cell.place;
     targets.radius[id] = std::fabs(cell.radius);
+  }
+}
+
+/// All cells; one warp per 32 / `LanesPerCell` sites.
+template <class Real, int LanesPerCell>
+__global__ void __launch_bounds__(32 * group_warps<Real>)
+group_cells_kernel(const __grid_constant__ Group_view<Real> view,
+                   const __grid_constant__ Cell_targets<Real> targets)
+{
+  __shared__ Warp_memory<Real> memories[group_warps<Real>];
+  const int lane = threadIdx.x % 32;
+  const int place = (blockIdx.x * blockDim.x + threadIdx.x) / LanesPerCell;
+  if (place - lane / LanesPerCell >= view.tree.items) return;
+  constexpr Real growth = Real(1.15); // what changes between two constructions
+  make_group<LanesPerCell>(view, targets, memories[threadIdx.x / 32], place, true, growth, lane);
+}
+
+/// Groups of 32 sites with cells that their lists do not give.
+struct Open_groups {
+  int* groups = nullptr;
+  unsigned* lanes = nullptr; ///< bit k: the cell of site k of the group
+  int *count = nullptr, *next_count = nullptr; ///< the latter: of the next construction
+};
+
+/// The cells that are open; one warp per group.
+template <class Real>
+__global__ void __launch_bounds__(32 * group_warps<Real>)
+open_groups_kernel(const __grid_constant__ Group_view<Real> view,
+                   const __grid_constant__ Cell_targets<Real> targets, Open_groups open)
+{
+  __shared__ Warp_memory<Real> memories[group_warps<Real>];
+  if (blockIdx.x == 0 && threadIdx.x == 0) *open.next_count = 0;
+  const int lane = threadIdx.x % 32, count = *open.count;
+  const int warps = gridDim.x * blockDim.x / 32;
+  constexpr Real growth = Real(1.6); // the lists' radii did not do
+  for (int k = (blockIdx.x * blockDim.x + threadIdx.x) / 32; k < count; k += warps) {
+    make_group<1>(view, targets, memories[threadIdx.x / 32], open.groups[k] * 32 + lane,
+                  open.lanes[k] >> lane & 1, growth, lane);
+    __syncwarp();
   }
 }
 

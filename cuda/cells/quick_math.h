@@ -7,6 +7,13 @@
 
 #include <CGAL/PowerRTF/cells/vector.h>
 
+/// In front of a loop whose arrays are to stay in registers.
+#ifdef __CUDA_ARCH__
+#define CGAL_POWER_RTF_UNROLL _Pragma("unroll")
+#else
+#define CGAL_POWER_RTF_UNROLL
+#endif
+
 namespace CGAL {
 namespace PowerRTF {
 namespace device {

@@ -67,39 +67,47 @@ take_sites_kernel(Sites_arrays<Real> arrays, bool positions, const int* order,
   const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
   const int place = blockIdx.x * take_threads + threadIdx.x;
   const bool exists = place < tree.items;
-  Group_node<Real> node;
-  Real growth = 0;
+  Packed_site<Real> site{};
   if (exists) {
     const int id = order[place];
-    const Site<Real> site = arrays.sites[id];
-    sites[place] = {site.point, site.weight};
+    const Site<Real> taken = arrays.sites[id];
+    site = {taken.point, taken.weight};
+    sites[place] = site;
     if (positions) {
       guard[place] = 0;
       normals[place] = {arrays.normals[id], arrays.patches ? arrays.patches[id] : 0};
       density_root[place] = arrays.density_root ? arrays.density_root[id] : Real(1);
     }
-    node = {site.point, site.weight, site.point, 0};
+  }
+
+  Group_node<Real> node{site.point, site.weight, site.point, 0};
+  Real growth = 0;
+  if (exists) {
     if (compare) growth = fmax(site.weight - lists.weights[place], Real(0));
     else lists.weights[place] = site.weight;
   }
   growth = warp_max(growth);
-  if (lane == 0 && exists) {
-    lists.growth[place / 32] = growth;
-    if (growth > 0) atomic_raise(lists.all_growth, growth);
-  }
   node = join_lanes(node, exists);
   __shared__ Group_node<Real> of_warps[32];
+  __shared__ Real growths[32];
   if (lane == 0) {
     of_warps[warp] = node;
-    if (place < tree.items) nodes[place / 32] = node;
+    growths[warp] = growth;
+    if (place < tree.items) {
+      nodes[place / 32] = node;
+      lists.growth[place / 32] = growth;
+    }
   }
-  if (tree.levels == 1) return;
   __syncthreads();
   if (warp == 0) {
-    node = join_lanes(of_warps[lane], true); // warps without sites are empty boxes
-    if (lane == 0) nodes[tree.first[1] + blockIdx.x] = node;
+    growth = warp_max(growths[lane]);
+    if (lane == 0 && growth > 0) atomic_raise(lists.all_growth, growth);
+    if (tree.levels > 1) {
+      node = join_lanes(of_warps[lane], true); // warps without sites are empty boxes
+      if (lane == 0) nodes[tree.first[1] + blockIdx.x] = node;
+    }
   }
-  if (tree.levels == 2) return;
+  if (tree.levels <= 2) return;
 
   __shared__ bool is_last;
   __threadfence();

@@ -105,20 +105,23 @@ template <class Real, class F>
 __device__ inline void search_groups(const Group_view<Real>& view, Search_stack& stack,
                                      const Group_query<Real>& query, int lane, F&& on_groups)
 {
-  if (view.tree.levels == 1) return on_groups(lane == 0, 0);
+  const bool is_one_group = view.tree.levels == 1;
   int size = 1;
   if (lane == 0) stack.nodes[0] = view.tree.nodes() - 1;
   __syncwarp();
   while (size > 0) {
     const int node = stack.nodes[--size];
-    int level = 1;
-    while (node >= view.tree.first[level + 1]) ++level;
-    const int k = (node - view.tree.first[level]) * Group_layout::arity + lane;
-    const int child = view.tree.first[level - 1] + k;
-    bool reached = k < view.tree.below(level);
-    if (reached) {
-      const Group_node<Real> box = load(view.nodes + child);
-      reached = query.reaches(box.lo, box.hi, box.max_weight);
+    int level = 1, k = lane, child = 0;
+    bool reached = lane == 0;
+    if (!is_one_group) {
+      while (node >= view.tree.first[level + 1]) ++level;
+      k = (node - view.tree.first[level]) * Group_layout::arity + lane;
+      child = view.tree.first[level - 1] + k;
+      reached = k < view.tree.below(level);
+      if (reached) {
+        const Group_node<Real> box = load(view.nodes + child);
+        reached = query.reaches(box.lo, box.hi, box.max_weight);
+      }
     }
     __syncwarp();
     if (level == 1) {

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Algorithm 2, lines 3 to 10: the passes of the paper's rule over the weights in one cooperative
-// kernel. Cells come from kept lists; those that these do not prove are made as in the second pass.
-// The barriers between the steps carry the mean mass and whether any mass is outside the interval.
+// kernel, for few sites. Special cells are made by warps of their own, which keep the sites that
+// may cut them in memory: all cells, where there are so many warps, else those without a kept list
+// (guarded, empty, at features); the others come from their lists at the same time, a lane each. A
+// pass has two barriers: before the mean mass, and before the new weights.
 #ifndef CGAL_POWER_RTF_CUDA_WEIGHT_PASSES_CUH
 #define CGAL_POWER_RTF_CUDA_WEIGHT_PASSES_CUH
 
@@ -21,21 +23,20 @@ namespace device {
 
 template <class Real>
 struct Weight_pass_arguments {
-  Group_view<Real> view;
+  Group_view<Real> view;       ///< the tree: for the weights that the lists were made for
   Kept_lists<Real> lists;
-  Cell_targets<Real> targets; ///< out.area: of the current weights
+  Cell_targets<Real> targets;  ///< out.area: of the current weights, if lists are; rest: scratch
   Feature_links links;
   Packed_site<Real>* sites = nullptr; ///< those of `view`, to be written
-  Group_node<Real>* nodes = nullptr;
   Site<Real>* caller_sites = nullptr;
   const Real *density = nullptr, *first = nullptr, *sixth = nullptr; ///< the caller's order
   Multiplicative_weight_rule rule{};
   int passes = 0;
-  double* partials = nullptr; ///< 2 per block
+  double* partials = nullptr; ///< one per block
   Weight_pass_state* state = nullptr;
 };
 
-/// Sum over the block's threads, valid on thread 0; in a fixed order.
+/// Sum over the block's threads, the same on all; in a fixed order.
 __device__ inline double block_sum(double x)
 {
   __shared__ double of_warps[32];
@@ -49,133 +50,280 @@ __device__ inline double block_sum(double x)
   return sum;
 }
 
-/// Sum of what all blocks have left, the same on all threads of all blocks.
-__device__ inline double grid_sum(const double* partials)
+/// Sum of x over all threads of the grid, the same on all; in a fixed order.
+__device__ inline double grid_sum(const cooperative_groups::grid_group& grid, double* partials,
+                                  double x)
 {
-  double x = 0;
-  for (int b = threadIdx.x; b < int(gridDim.x); b += blockDim.x) x += __ldcg(partials + b);
-  return block_sum(x);
+  x = block_sum(x);
+  if (threadIdx.x == 0) partials[blockIdx.x] = x;
+  grid.sync();
+  double sum = 0;
+  for (int b = threadIdx.x; b < int(gridDim.x); b += blockDim.x) sum += __ldcg(partials + b);
+  return block_sum(sum);
 }
+
+/// Sums in integers: the same in any order.
+class Mass_sum {
+public:
+  /// `unit`: about a cell's mass.
+  __device__ explicit Mass_sum(double unit) : m_scale(unit > 0 ? parts / unit : 0) {}
+  __device__ void clear() { m_sum = 0; }
+  __device__ void add(double mass) { m_sum += __double2ll_rn(fmin(mass * m_scale, 1e18)); }
+  /// Adds those of a block to the sum of all.
+  __device__ void leave(unsigned long long* total, int lane)
+  {
+    __shared__ long long of_warps[32];
+#pragma unroll
+    for (int step = 16; step > 0; step /= 2) m_sum += __shfl_xor_sync(full_warp, m_sum, step);
+    __syncthreads();
+    if (lane == 0) of_warps[threadIdx.x / 32] = m_sum;
+    __syncthreads();
+    if (threadIdx.x != 0) return;
+    for (int w = 1; w < int(blockDim.x) / 32; ++w) m_sum += of_warps[w];
+    if (m_sum != 0) atomicAdd(total, static_cast<unsigned long long>(m_sum));
+  }
+  __device__ double mass(unsigned long long total) const
+  { return m_scale > 0 ? double(total) / m_scale : 0; }
+
+private:
+  static constexpr double parts = 1 << 28;
+  double m_scale;
+  long long m_sum = 0;
+};
 
 template <class Real>
 union Pass_memory {
   Ring_memory<Real, 32> polygons;
-  Second_memory<Real> second;
+  Warp_cell_memory<Real> special;
   __device__ Pass_memory() {}
 };
 
-/// The largest weights of the nodes above level 0.
-template <class Real>
-__device__ inline void refit_weights(const Weight_pass_arguments<Real>& a,
-                                     const cooperative_groups::grid_group& grid, int warp,
-                                     int warps, int lane)
-{
-  const Group_layout& tree = a.view.tree;
-  for (int level = 1; level < tree.levels; ++level) {
-    for (int k = warp; k < tree.nodes(level); k += warps) {
-      const int child = k * Group_layout::arity + lane;
-      const bool exists = child < tree.nodes(level - 1);
-      const Real weight =
-          warp_max(exists ? a.nodes[tree.first[level - 1] + child].max_weight : Real(-1e30));
-      if (lane == 0) a.nodes[tree.first[level] + k].max_weight = weight;
-    }
-    grid.sync();
-  }
-}
+/// The rounds of the kernel below, as a warp sees them.
+template <class Real, bool ByLists>
+class Weight_passes {
+public:
+  __device__ Weight_passes(const Weight_pass_arguments<Real>& a, Pass_memory<Real>& memory)
+      : m(a), m_memory(memory), m_lane(threadIdx.x % 32),
+        m_warp(threadIdx.x / 32 * gridDim.x + blockIdx.x), m_warps(gridDim.x * blockDim.x / 32),
+        m_groups(a.view.tree.nodes(0))
+  {}
 
-// The cells that need the second pass are few: registers are for the others.
+  /// Notes the special cells.
+  __device__ void begin()
+  {
+    for (int group = m_warp; group < m_groups; group += m_warps) {
+      const Own_cell cell = cell_of(group);
+      const bool is_special =
+          cell.id >= 0 && (!ByLists || m.targets.radius[cell.id] < 0 ||
+                           m.lists.sizes[cell.place] == Kept_lists<Real>::none);
+      if (ByLists && is_special) m.lists.sizes[cell.place] = Kept_lists<Real>::none;
+      note(is_special, cell.place);
+    }
+  }
+
+  /// The mass of the warp's groups.
+  __device__ double mass() const
+  {
+    double sum = 0;
+    for (int group = m_warp; group < m_groups; group += m_warps) {
+      const Own_cell cell = cell_of(group);
+      if (cell.id >= 0) sum += double(cell.density) * __ldcg(m.targets.out.area + cell.id);
+    }
+    return sum;
+  }
+
+  /// The cells of the current weights that have a list. Those that it does not prove are special
+  /// from now on.
+  __device__ void make_listed(Mass_sum& mass)
+  {
+    for (int group = m_warp; group < m_groups; group += m_warps) {
+      const bool failed = !make_by_list(group, mass);
+      const int place = group * 32 + m_lane;
+      if (failed) m.lists.sizes[place] = Kept_lists<Real>::none;
+      note(failed, place);
+    }
+  }
+
+  /// The special cells [begin, end) of the current weights.
+  __device__ void make_special(int begin, int end, Mass_sum& mass)
+  {
+    int k = m_warp - m_groups % m_warps; // the warps without groups go first
+    if (k < 0) k += m_warps;
+    for (k += (begin - k + m_warps - 1) / m_warps * m_warps; k < end; k += m_warps)
+      if (k >= begin) make_special(__ldcg(m.targets.rest + k), mass);
+  }
+
+  /// The next weights. Returns whether a mass is outside the interval.
+  __device__ bool change_weights(const Multiplicative_weight_rule& rule)
+  {
+    bool is_outside = false;
+    Real most = 0;
+    for (int group = m_warp; group < m_groups; group += m_warps) {
+      const Own_cell own = cell_of(group);
+      Real growth = 0;
+      if (own.id >= 0) {
+        const double mass = double(own.density) * __ldcg(m.targets.out.area + own.id);
+        is_outside |= fabs(mass / rule.mean_mass - 1) > rule.tolerance;
+        const Real weight = m.sites[own.place].weight +
+                            Real(rule(mass, mass > 0 ? own.first : own.sixth));
+        m.sites[own.place].weight = weight;
+        growth = fmax(weight - own.list_weight, Real(0));
+      }
+      growth = warp_max(growth);
+      if (m_lane == 0) m.lists.growth[group] = growth;
+      most = fmax(most, growth);
+    }
+    if (m_lane == 0 && most > 0) atomic_raise(m.lists.all_growth, most);
+    return __any_sync(full_warp, is_outside);
+  }
+
+  /// Calls f(place, id) for the cells of this warp.
+  template <class F>
+  __device__ void for_each_cell(F&& f) const
+  {
+    for (int group = m_warp; group < m_groups; group += m_warps) {
+      const Own_cell own = cell_of(group);
+      if (own.id >= 0) f(own.place, own.id);
+    }
+  }
+
+private:
+  /// What does not change.
+  struct Own_cell {
+    int place, id; // id < 0: no cell
+    Real density, first, sixth, list_weight;
+  };
+
+  __device__ Own_cell cell_of(int group) const
+  {
+    Own_cell cell{group * 32 + m_lane, -1, 0, 0, 0, 0};
+    if (cell.place >= m.view.tree.items || m.view.caller[cell.place] >= m.view.cells) return cell;
+    cell.id = m.view.caller[cell.place];
+    cell.density = m.density[cell.id];
+    cell.first = m.first[cell.id];
+    cell.sixth = m.sixth[cell.id];
+    cell.list_weight = m.lists.weights[cell.place];
+    return cell;
+  }
+
+  /// The lane's cell of the group. Returns false when its list does not prove it.
+  __device__ bool make_by_list(int group, Mass_sum& mass)
+  {
+    m_kept.place = -1; // the memory is used for others
+    const Real near = near_growth(m.lists, group, m_lane);
+    const Own_cell own = cell_of(group);
+    bool is_made = true;
+    if (own.id >= 0 && m.lists.sizes[own.place] != Kept_lists<Real>::none) {
+      Lane_cell<Real> cell;
+      cell.place = own.place;
+      cell.site = load(m.view.sites + own.place);
+      const Tangent_frame<Real> frame(load(m.view.normals + own.place).normal);
+      Ring_polygon<Real, 32> polygon(m_memory.polygons, m_lane);
+      is_made = make_kept(m.view, m.lists, cell, frame, near, polygon);
+      if (is_made) {
+        const Real area = cell_area(Listed_polygon<Real>(polygon, nullptr, 0));
+        m.targets.out.area[own.id] = area;
+        mass.add(double(own.density) * area);
+      }
+    }
+    __syncwarp();
+    return is_made;
+  }
+
+  /// Appends the places of the lanes with `is_special`.
+  __device__ void note(bool is_special, int place)
+  {
+    const unsigned lanes = __ballot_sync(full_warp, is_special);
+    if (lanes == 0) return;
+    int begin = 0;
+    if (m_lane == 0) begin = atomicAdd(&m.state->specials, __popc(lanes));
+    begin = __shfl_sync(full_warp, begin, 0);
+    if (is_special) m.targets.rest[begin + __popc(lanes & ((1u << m_lane) - 1))] = place;
+  }
+
+  __device__ void make_special(int place, Mass_sum& mass)
+  {
+    const int id = m.view.caller[place];
+    Warp_cell_memory<Real>& memory = m_memory.special;
+    Warp_cell<Real> cell(m.view, memory, place, m_lane);
+    const Kept_weights<Real> weights(m.lists, place, cell.site().weight);
+    Real last = m.targets.radius[id];
+    if (last == 0) last = guess_of_radius(m.view, place, m_lane);
+    Real guard = m.targets.guard[place];
+    const Cell_status status = cell.construct(weights, last, guard,
+                                              guess_of_sixth(m.view, last), m_kept);
+    const Real radius = status == Cell_status::ok ? cell.radius() : -guard;
+    Real area = cell.polygon().area(m_lane);
+    if (m.view.has_features) {
+      Tangent_polygon<Real>& polygon = cell_in_memory(cell, memory, m_lane);
+      if (m_lane == 0) {
+        cut_at_features(m.view, m.links, cell.frame(), place, polygon);
+        area = cell_area(polygon);
+      }
+    }
+    if (m_lane == 0) {
+      m.targets.guard[place] = guard;
+      if (radius != 0) m.targets.radius[id] = radius;
+      m.targets.out.area[id] = area;
+      mass.add(double(m.density[id]) * area);
+    }
+    __syncwarp();
+  }
+
+  const Weight_pass_arguments<Real>& m;
+  Pass_memory<Real>& m_memory;
+  int m_lane, m_warp, m_warps, m_groups;
+  Kept_sites<Real> m_kept;
+};
+
 template <class Real>
-__global__ void __launch_bounds__(32 * group_warps<Real>, sizeof(Real) == 4 ? 5 : 4)
+constexpr int pass_warps = sizeof(Real) == 4 ? 8 : 4; // of a block: 48 KB of shared memory
+
+/// `ByLists`: of all cells but the special ones there are lists. Else all are special; more warps
+/// then find room.
+template <class Real, bool ByLists>
+__global__ void __launch_bounds__(32 * pass_warps<Real>, ByLists ? 2 : 3)
 weight_passes_kernel(const __grid_constant__ Weight_pass_arguments<Real> a)
 {
   const cooperative_groups::grid_group grid = cooperative_groups::this_grid();
-  __shared__ Pass_memory<Real> memories[group_warps<Real>];
-  Pass_memory<Real>& memory = memories[threadIdx.x / 32];
-  const Group_view<Real>& view = a.view;
+  __shared__ Pass_memory<Real> memories[pass_warps<Real>];
+  Weight_passes<Real, ByLists> cells(a, memories[threadIdx.x / 32]);
   const int lane = threadIdx.x % 32;
-  const int warp = (blockIdx.x * blockDim.x + threadIdx.x) / 32;
-  const int warps = gridDim.x * blockDim.x / 32, groups = view.tree.nodes(0);
-  Real* const area = a.targets.out.area;
-  double* const masses = a.partials;
-  double* const weights = a.partials + gridDim.x;
-  // Calls f(place, id) for the cells of this warp.
-  const auto for_each_cell = [&](auto&& f) {
-    for (int group = warp; group < groups; group += warps) {
-      const int place = group * 32 + lane;
-      if (place < view.tree.items && view.caller[place] < view.cells) f(place, view.caller[place]);
-    }
-  };
-  const auto leave_masses = [&]() {
-    double mass = 0;
-    for_each_cell([&](int, int id) { mass += double(a.density[id]) * area[id]; });
-    mass = block_sum(mass);
-    if (threadIdx.x == 0) masses[blockIdx.x] = mass;
-  };
 
-  int usually_left = view.cells; // cells that have no list
+  cells.begin();
+  grid.sync();
+  int specials = __ldcg(&a.state->specials);
+  const int usual = specials;
+  Mass_sum mass(0);
+  Multiplicative_weight_rule rule = a.rule;
   for (int pass = 0;; ++pass) {
-    int* const rest = a.state->rest + pass;
-    if (pass > 0) {
-      for (int group = warp; group < groups; group += warps) {
-        const Real near = near_growth(a.lists, group, lane);
-        const int place = group * 32 + lane;
-        if (place >= view.tree.items || view.caller[place] >= view.cells) continue;
-        Lane_cell<Real> cell;
-        cell.place = place;
-        cell.site = load(view.sites + place);
-        const Tangent_frame<Real> frame(load(view.normals + place).normal);
-        Ring_polygon<Real, 32> polygon(memory.polygons, lane);
-        if (make_kept(view, a.lists, cell, frame, near, polygon)) {
-          const Listed_polygon<Real> listed(polygon, nullptr, 0);
-          area[view.caller[place]] = cell_area(listed);
-        } else {
-          a.targets.rest[atomicAdd(rest, 1)] = place;
-        }
+    if (!ByLists || pass > 0) {
+      mass.clear();
+      if (ByLists) cells.make_listed(mass);
+#pragma unroll 1
+      for (int begin = 0;;) {
+        cells.make_special(begin, specials, mass);
+        mass.leave(&a.state->mass[pass], lane);
+        grid.sync();
+        const int now = ByLists ? __ldcg(&a.state->specials) : specials;
+        if (now == specials) break;
+        begin = specials; // those that the lists did not prove, shared by all warps
+        specials = now;
+        mass.clear();
       }
     }
-    leave_masses();
-    grid.sync();
-    const int left = pass > 0 ? __ldcg(rest) : 0;
-    if (pass == 1) usually_left = left;
-    if (left > 0) {
-      refit_weights(a, grid, warp, warps, lane);
-      for (int k = warp; k < left; k += warps)
-        second_pass_cell(view, a.targets, a.links, memory.second, __ldcg(a.targets.rest + k), lane);
-      grid.sync();
-      leave_masses();
-      grid.sync();
+    if (pass == 0) {
+      rule.mean_mass = grid_sum(grid, a.partials, cells.mass()) / a.view.cells;
+      mass = Mass_sum(rule.mean_mass);
+    } else {
+      rule.mean_mass = mass.mass(__ldcg(&a.state->mass[pass])) / a.view.cells;
     }
-
-    Multiplicative_weight_rule rule = a.rule;
-    rule.mean_mass = grid_sum(masses) / view.cells;
-    bool is_outside = false;
-    Real most = 0;
-    for (int group = warp; group < groups; group += warps) {
-      const int place = group * 32 + lane;
-      const bool exists = place < view.tree.items;
-      Real weight = exists ? a.sites[place].weight : Real(-1e30), growth = 0;
-      if (exists && view.caller[place] < view.cells) {
-        const int id = view.caller[place];
-        const double mass = double(a.density[id]) * area[id];
-        is_outside |= fabs(mass / rule.mean_mass - 1) > rule.tolerance;
-        weight += Real(rule(mass, mass > 0 ? a.first[id] : a.sixth[id]));
-        a.sites[place].weight = weight;
-        growth = fmax(weight - a.lists.weights[place], Real(0));
-      }
-      growth = warp_max(growth);
-      weight = warp_max(weight);
-      if (lane == 0) {
-        a.lists.growth[group] = growth;
-        a.nodes[group].max_weight = weight;
-      }
-      most = fmax(most, growth);
-    }
-    if (lane == 0 && most > 0) atomic_raise(a.lists.all_growth, most);
-    if (__any_sync(full_warp, is_outside) && lane == 0) a.state->outside[pass] = 1;
+    if (cells.change_weights(rule) && lane == 0) a.state->outside[pass] = 1;
     grid.sync();
     const bool equal = __ldcg(a.state->outside + pass) == 0;
     // Where many cells are not proved by their lists, new lists are better.
-    if (equal || pass + 1 == a.passes || left > usually_left + view.cells / 16) {
+    const bool is_slow = ByLists && specials > usual + a.view.cells / 8;
+    if (equal || pass + 1 == a.passes || is_slow) {
       if (grid.thread_rank() == 0) {
         a.state->done = pass + !equal;
         a.state->equal = equal;
@@ -185,15 +333,12 @@ weight_passes_kernel(const __grid_constant__ Weight_pass_arguments<Real> a)
   }
 
   double mean = 0;
-  if (view.cells == view.tree.items) { // else the weights are relative to those of the features
+  if (a.view.cells == a.view.tree.items) { // else the weights are relative to those of the features
     double sum = 0;
-    for_each_cell([&](int place, int) { sum += a.sites[place].weight; });
-    sum = block_sum(sum);
-    if (threadIdx.x == 0) weights[blockIdx.x] = sum;
-    grid.sync();
-    mean = grid_sum(weights) / view.cells;
+    cells.for_each_cell([&](int place, int) { sum += a.sites[place].weight; });
+    mean = grid_sum(grid, a.partials, sum) / a.view.cells;
   }
-  for_each_cell(
+  cells.for_each_cell(
       [&](int place, int id) { a.caller_sites[id].weight = Real(a.sites[place].weight - mean); });
 }
 

@@ -91,6 +91,7 @@ public:
   void upload_boundaries(const Device_samples& samples);
   void update_attributes();
   void set_sites();
+  void finish_cells();
   void center_weights();
   void weight_pass();
   void find_distances();
@@ -188,6 +189,7 @@ private:
   Buffer<Device_summary> m_summary_buffer;
   Device_summary m_summary; // of the current cells, when it is valid
   bool m_is_summary_started = false, m_is_summary_known = false;
+  bool m_are_cells_due = false; // until something needs them
   bool m_are_distances_known = false, m_are_components_known = false;
   std::size_t m_constructions = 0;
 };
@@ -197,5 +199,6 @@ private:
 } // namespace CGAL
 
 #include "Device_engine_impl.h"
+#include "Device_engine_samples.h"
 
 #endif // CGAL_POWER_RTF_CUDA_DEVICE_ENGINE_H

@@ -6,12 +6,10 @@
 #define CGAL_POWER_RTF_CUDA_DEVICE_ENGINE_IMPL_H
 
 #include "Device_engine.h"
-#include "morton_code.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace CGAL
@@ -20,98 +18,6 @@ namespace PowerRTF
 {
 namespace device
 {
-
-template <class R, class B, class C>
-void Device_engine<R, B, C>::set_samples(const Device_samples& samples)
-{
-  m_cells = samples.cells;
-  m_size = int(samples.size());
-  const std::size_t n = m_cells, m = m_size;
-  for (Buffer<R>* b : {&m_density, &m_density_root}) b->allocate(m_backend, m);
-  for (Buffer<R>* b : {&m_area, &m_mass, &m_nearest, &m_sixth, &m_weights_before})
-    b->allocate(m_backend, n);
-  m_sites.allocate(m_backend, m);
-  m_normals.allocate(m_backend, m);
-  m_facets.allocate(m_backend, m);
-  m_has_patches = !samples.patches.empty();
-  if (m_has_patches) m_patches.allocate(m_backend, m);
-  m_offset.allocate(m_backend, n);
-  m_step.allocate(m_backend, n);
-  m_status.allocate(m_backend, n);
-  if (m_options.position_method == Position_method::lbfgs) {
-    if (has_short_memory())
-      m_lbfgs.resize(m_cells, m_options.lbfgs_memory);
-    else
-      m_long_lbfgs.resize(m_cells, m_options.lbfgs_memory);
-    m_best.sites.allocate(m_backend, m);
-    m_best.facets.allocate(m_backend, m);
-  }
-  m_best.residual = std::numeric_limits<double>::infinity();
-  m_cell_builder.reset(new C(m_backend, m_size, m_cos_angle, R(m_options.guard_factor)));
-  m_constructions = 0;
-  sort(samples);
-  m_backend.start_clock();
-  update_attributes();
-}
-
-/// The samples with cells along a space-filling curve.
-template <class R, class B, class C>
-void Device_engine<R, B, C>::sort(const Device_samples& samples)
-{
-  const int n = m_cells, m = m_size;
-  const auto real_sites = [&]() {
-    std::vector<Site<R>> sites(m);
-    for (int i = 0; i < m; ++i) sites[i] = {to_real<R>(samples.points[i]), R(0)};
-    return sites;
-  };
-  std::vector<Site<R>> sites = real_sites();
-  m_backend.upload(m_sites.data(), sites.data(), m);
-  Buffer<std::uint64_t> keys;
-  Buffer<int> order;
-  keys.allocate(m_backend, n);
-  order.allocate(m_backend, n);
-  std::uint64_t* const key = keys.data();
-  const Site<R>* const at = m_sites.data();
-  m_backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { key[i] = morton_code(at[i].point); });
-  m_backend.sort_order(n, key, order.data());
-  m_order.resize(m);
-  std::iota(m_order.begin(), m_order.end(), 0);
-  m_backend.download(m_order.data(), order.data(), n);
-
-  std::vector<int> facets(m), patches;
-  std::vector<Vec3<R>> normals(m);
-  std::vector<R> density(m);
-  for (int i = 0; i < m; ++i) {
-    const int k = m_order[i];
-    sites[i] = {to_real<R>(samples.points[k]), R(0)};
-    facets[i] = samples.facets[k];
-    normals[i] = to_real<R>(samples.normals[k]);
-    density[i] = R(samples.density[k]);
-    if (m_has_patches) patches.push_back(samples.patches[k]);
-  }
-  m_backend.upload(m_sites.data(), sites.data(), m);
-  m_backend.upload(m_facets.data(), facets.data(), m);
-  m_backend.upload(m_normals.data(), normals.data(), m);
-  m_backend.upload(m_density.data(), density.data(), m);
-  if (m_has_patches) m_backend.upload(m_patches.data(), patches.data(), m);
-  if (m > n) upload_boundaries(samples);
-  const Attribute_rule<R> rule = attribute_rule();
-  m_backend.for_each(
-      m, [=] CGAL_POWER_RTF_HD(int i) { rule.density_root[i] = rule.root(rule.density[i]); });
-}
-
-/// The sites that only clip are not sorted, so that their numbers stay.
-template <class R, class B, class C>
-void Device_engine<R, B, C>::upload_boundaries(const Device_samples& samples)
-{
-  std::vector<int> previous(m_size, -1);
-  for (int i = 0; i < m_size; ++i)
-    if (samples.next[i] >= 0) previous[samples.next[i]] = i;
-  m_next.allocate(m_backend, m_size);
-  m_previous.allocate(m_backend, m_size);
-  m_backend.upload(m_next.data(), samples.next.data(), m_size);
-  m_backend.upload(m_previous.data(), previous.data(), m_size);
-}
 
 /// Normals and densities of the samples where they are; the cells' sites are those.
 template <class R, class B, class C>
@@ -137,8 +43,16 @@ template <class R, class B, class C>
 void Device_engine<R, B, C>::build_cells()
 {
   ++m_constructions;
-  m_cell_builder->build(outputs());
+  m_are_cells_due = true;
   m_is_summary_known = m_is_summary_started = false;
+}
+
+/// Makes the cells that `build_cells()` has promised.
+template <class R, class B, class C>
+void Device_engine<R, B, C>::finish_cells()
+{
+  if (m_are_cells_due) m_cell_builder->build(outputs());
+  m_are_cells_due = false;
 }
 
 template <class R, class B, class C>
@@ -146,6 +60,7 @@ void Device_engine<R, B, C>::start_summary()
 {
   if (m_is_summary_started) return;
   m_is_summary_started = true;
+  finish_cells();
   Device_summary* const s = m_summary_buffer.data();
   const R *const area = m_area.data(), *const mass = m_mass.data(), *const rho = m_density.data();
   const Vec3<R>* const offset = m_offset.data();
@@ -252,7 +167,8 @@ void Device_engine<R, B, C>::update_weights()
 template <class R, class B, class C>
 bool Device_engine<R, B, C>::optimize_weights(int passes)
 {
-  if constexpr (Makes_weight_passes<C>::value) { // all in one kernel
+  if constexpr (Makes_weight_passes<C>::value) { // all in one kernel, the first cells too
+    m_are_cells_due = false;
     find_distances();
     m_constructions += m_cell_builder->paper_weight_passes(
         sites(), m_sites.data(), m_density.data(), m_nearest.data(), m_sixth.data(), weight_rule(),
@@ -434,6 +350,7 @@ void Device_engine<R, B, C>::project()
 template <class R, class B, class C>
 void Device_engine<R, B, C>::move_samples(Position_method method)
 {
+  finish_cells();
   bool lbfgs = method == Position_method::lbfgs;
   constexpr double explosion = 16;
   if (lbfgs && remember_best() > explosion) { // back, and on from there by Lloyd's method
@@ -448,61 +365,6 @@ void Device_engine<R, B, C>::move_samples(Position_method method)
     find_lbfgs_steps(m_long_lbfgs);
   if (summary().counts[int(Cell_status::empty)] > 0) part_duplicates();
   project();
-}
-
-template <class R, class B, class C>
-Device_samples Device_engine<R, B, C>::samples()
-{
-  Device_samples s;
-  s.cells = m_cells;
-  s.order = m_order;
-  std::vector<Site<R>> sites(m_size);
-  std::vector<Vec3<R>> normals(m_size);
-  std::vector<R> density(m_size);
-  s.facets.resize(m_size);
-  m_backend.download(sites.data(), m_sites.data(), m_size);
-  m_backend.download(normals.data(), m_normals.data(), m_size);
-  m_backend.download(density.data(), m_density.data(), m_size);
-  m_backend.download(s.facets.data(), m_facets.data(), m_size);
-  if (m_has_patches) {
-    s.patches.resize(m_size);
-    m_backend.download(s.patches.data(), m_patches.data(), m_size);
-  }
-  for (int i = 0; i < m_size; ++i) {
-    s.points.push_back(to_double(sites[i].point));
-    s.weights.push_back(sites[i].weight);
-    s.normals.push_back(to_double(normals[i]));
-    s.density.push_back(density[i]);
-  }
-  return s;
-}
-
-template <class R, class B, class C>
-Device_polygons Device_engine<R, B, C>::polygons(int begin, int end)
-{
-  const std::size_t n = end - begin, most = n * Device_polygons::stride;
-  Buffer<R> x, y;
-  Buffer<int> size, neighbor;
-  Buffer<unsigned char> status;
-  for (Buffer<R>* b : {&x, &y}) b->allocate(m_backend, most);
-  size.allocate(m_backend, n);
-  neighbor.allocate(m_backend, most);
-  status.allocate(m_backend, n);
-  m_cell_builder->polygons(begin, end, size.data(), x.data(), y.data(), neighbor.data(),
-                           status.data());
-  Device_polygons p;
-  p.size.resize(n);
-  p.neighbor.resize(most);
-  p.status.resize(n);
-  m_backend.download(p.size.data(), size.data(), n);
-  m_backend.download(p.neighbor.data(), neighbor.data(), most);
-  m_backend.download(p.status.data(), status.data(), n);
-  std::vector<R> numbers(most);
-  m_backend.download(numbers.data(), x.data(), most);
-  p.x.assign(numbers.begin(), numbers.end());
-  m_backend.download(numbers.data(), y.data(), most);
-  p.y.assign(numbers.begin(), numbers.end());
-  return p;
 }
 
 } // namespace device

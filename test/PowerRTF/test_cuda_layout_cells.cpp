@@ -319,12 +319,23 @@ TEST_CASE("smooth weights much larger than the squared spacing cost no precision
     for (std::size_t i = 0; i < in.points.size(); ++i)
       in.weights[i] = amplitude * h2 * std::sin(3 * in.points[i].x + 2 * in.points[i].y);
     const Comparison c = in.compare<float>();
-    std::printf("amplitude %g finished %d area p99 %.2e max %.2e centroid p99 %.2e\n", amplitude, c.finished, c.area_p99, c.area_error, c.centroid_p99);
-    CHECK(c.finished >= 0.98 * c.cells);
+    CHECK(c.finished >= 0.1 * c.cells); // many lie far from their sites, near the guard radius
     CHECK(c.wrong_cycles == 0);
-    CHECK(c.area_p99 <= 2e-6);
-    CHECK(c.centroid_p99 <= 1e-5);
+    CHECK(c.area_p99 <= 5e-7);
+    CHECK(c.centroid_p99 <= 5e-7);
   }
+}
+
+/// Keeps the list of a finished cell, all sites of which are compatible, with its edges in front.
+void keep_list(const Kept_lists<double>& lists, const Lane_cell<double>& cell,
+               const Ring_polygon<double, 32>& polygon, const int* column)
+{
+  for (int k = 0; k < cell.listed; ++k)
+    lists.neighbors[std::size_t(k) * lists.stride + cell.place] = column[k * 32];
+  lists.sizes[cell.place] = static_cast<unsigned short>(cell.listed);
+  lists.radius[cell.place] = cell.radius;
+  lists.outside[cell.place] = std::min(cell.radius, std::sqrt(cell.outside2));
+  reorder_list(lists, cell.place, polygon);
 }
 
 TEST_CASE("a kept list gives the cell of later weights, or says that it does not")
@@ -339,6 +350,9 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
   }
   Host_groups<double> groups(sites, normals); // not in Morton order: slow, but as right
   groups.view.cos_angle = 0;
+  std::vector<double> density_root(n);
+  for (int i = 0; i < n; ++i) density_root[i] = 1 + in.points[i].x;
+  groups.view.density_root = density_root.data();
   std::vector<int> neighbors(std::size_t(n) * Kept_lists<double>::capacity);
   std::vector<unsigned short> sizes(n, Kept_lists<double>::none);
   std::vector<double> radius(n), outside(n);
@@ -388,8 +402,8 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
     }
     for (int level = 0; level < groups.view.tree.levels; ++level)
       for (int k = 0; k < groups.view.tree.nodes(level); ++k) groups.join_children(level, k);
-    int proved = 0, compared = 0;
-    double error = 0;
+    int proved = 0, compared = 0, chains = 0, reordered = 0, refused = 0;
+    double error = 0, chain_error = 0;
     for (int i = 0; i < n; ++i) {
       if (sizes[i] == Kept_lists<double>::none) continue;
       cell.place = i;
@@ -402,6 +416,26 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
       ++proved;
       const int* column = neighbors.data() + i;
       const double area = cell_moments(Listed_polygon<double>(polygon, column, n)).area;
+      const double list_radius2 = polygon.squared_radius();
+      const auto moments = cell_moments(Listed_polygon<double>(polygon, column, n), i,
+                                        [&](int j) { return density_root[j]; });
+      Chain_result<double> chain;
+      if (clip_chain<true>(groups.view, lists, cell, frame, sizes[i], polygon, chain)) {
+        ++chains;
+        const auto& m = chain.moments;
+        chain_error = std::max({chain_error, std::fabs(chain.radius2 / list_radius2 - 1),
+                                std::fabs(m.area / moments.area - 1),
+                                std::fabs(m.mass / moments.mass - 1),
+                                std::hypot(m.x - moments.x, m.y - moments.y) / spacing});
+      } else {
+        clip_entries(groups.view, lists, cell, frame, radius[i], sizes[i], polygon);
+        reorder_list(lists, i, polygon);
+        ++reordered;
+        if (clip_chain<true>(groups.view, lists, cell, frame, sizes[i], polygon, chain))
+          chain_error = std::max(chain_error, std::fabs(chain.moments.area / area - 1));
+        else
+          ++refused; // edges that are nearly parallel
+      }
       if (!construct(i, 1.1 * spacing) && !construct(i, 1.4 * spacing)) continue;
       ++compared;
       const double exact =
@@ -410,6 +444,11 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
     }
     CHECK(compared > 0.9 * proved);
     CHECK(error < 1e-12);
+    CHECK(chains + reordered == proved); // those have other edges than before
+    CHECK(reordered > 0);
+    CHECK(refused <= 0.01 * proved);
+    CHECK(chain_error < 1e-11);
+    if (size < 0.1) CHECK(chains > 0.5 * proved);
     if (size < 0.1) CHECK(proved > 0.95 * kept);
     if (size == 1.0) CHECK(proved < kept);
   }

@@ -58,18 +58,17 @@ CGAL_POWER_RTF_HD inline FT squared_distance(const Box3<FT>& b, const Vec3<FT>& 
   return dx * dx + dy * dy + dz * dz;
 }
 
-/// The shape of a packed tree over `items` items: how its nodes lie in one array.
-struct Packed_tree_layout {
-  static constexpr int arity = 8;
-  static constexpr int max_levels = 11; // 8^11 > 2^32 items
-  /// Nodes that wait in a depth-first traversal: at most 7 siblings per level, and the last 8.
-  static constexpr int stack_size = 7 * max_levels + 1;
+/// The shape of a packed tree over `items` items: how its nodes lie in one array. Node k of level 0
+/// covers the items from k * Arity on, node k of a level above as many nodes of the level below.
+template <int Arity, int Max_levels>
+struct Basic_tree_layout {
+  static constexpr int arity = Arity, max_levels = Max_levels; // arity^max_levels > 2^31 items
 
   int items = 0;
-  int levels = 0;                     ///< level `levels - 1` holds the root alone
-  int first[max_levels + 1] = {};     ///< first node of each level; first[levels]: number of nodes
+  int levels = 0;                 ///< level `levels - 1` holds the root alone
+  int first[max_levels + 1] = {}; ///< first node of each level; first[levels]: number of nodes
 
-  CGAL_POWER_RTF_HD explicit Packed_tree_layout(int number_of_items = 0) : items(number_of_items)
+  CGAL_POWER_RTF_HD explicit Basic_tree_layout(int number_of_items = 0) : items(number_of_items)
   {
     int below = items;
     while (below > 1 || (levels == 0 && below > 0)) {
@@ -81,14 +80,20 @@ struct Packed_tree_layout {
 
   CGAL_POWER_RTF_HD int nodes() const { return first[levels]; }
   CGAL_POWER_RTF_HD int nodes(int level) const { return first[level + 1] - first[level]; }
+  /// What the nodes of `level` cover: items (level 0), or the nodes of the level below.
+  CGAL_POWER_RTF_HD int below(int level) const { return level == 0 ? items : nodes(level - 1); }
 
-  /// Children of node `k` of `level`: items (level 0), or nodes of the level below.
+  /// Children of node `k` of `level`.
   CGAL_POWER_RTF_HD int children_begin(int k) const { return k * arity; }
   CGAL_POWER_RTF_HD int children_end(int level, int k) const
-  {
-    const int below = level == 0 ? items : nodes(level - 1);
-    return (k + 1) * arity < below ? (k + 1) * arity : below;
-  }
+  { return (k + 1) * arity < below(level) ? (k + 1) * arity : below(level); }
+};
+
+/// The tree of the CPU.
+struct Packed_tree_layout : Basic_tree_layout<8, 11> {
+  using Basic_tree_layout::Basic_tree_layout;
+  /// Nodes that wait in a depth-first traversal: at most 7 siblings per level, and the last 8.
+  static constexpr int stack_size = 7 * max_levels + 1;
 };
 
 /// Visits the tree's leaves depth first. `enter(node)` tells whether a node (its position in the
