@@ -6,6 +6,7 @@
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/self_intersections.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
@@ -84,6 +85,25 @@ TEST_CASE("samples that are all on one side: those that are missed come from the
     }
   const Extracted_mesh mesh = PRTF::extract_by_insertion(surface, half);
   check_all_promises(surface, mesh, half.size());
+}
+
+TEST_CASE("all samples lie on a border: another component gets some of them")
+{
+  const Surface surface = shapes::make_surface(
+      shapes::joined(shapes::plane_patch(10, 10),
+                     shapes::translated(shapes::icosphere(2), {5, 0, 0})));
+  const auto features = PRTF::sample_features(surface, PRTF::cut_along_creases(surface), 2000);
+  REQUIRE(features.size() > 20);
+  const Extracted_mesh mesh = PRTF::extract_by_insertion(surface, features.samples, features);
+  check_all_promises(surface, mesh, features.size());
+  CHECK(PRTF::topology(mesh.triangles).border_loops == 1);
+  CHECK(PRTF::internal::lost_feature_edges(mesh) == 0);
+  CHECK(mesh.feature_edges.size() < features.size());
+  std::size_t corners = 0;
+  for (std::size_t s = 0; s < features.size(); ++s)
+    if (features.places[s].from == features.places[s].to)
+      corners += mesh.points[s] == features.samples.points[s];
+  CHECK(corners >= 4);
 }
 
 TEST_CASE("fewer samples than the topology needs: vertices of the surface stay, nothing intersects")

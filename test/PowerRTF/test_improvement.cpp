@@ -108,6 +108,38 @@ TEST_CASE("triangle badness")
         doctest::Approx(triangle_badness(a, b, {0.2, 0.7, 0}).badness));
 }
 
+TEST_CASE("smoothing finds the best place in a star, and leaves it")
+{
+  const Surface surface = shapes::make_surface(shapes::plane_patch(10, 10));
+  const Facet_tree tree(surface.points, surface.triangles);
+  const internal::Surface_guide guide(surface, tree);
+  const Vec3d m = (1. / 3) * (surface.points[surface.triangles[50][0]] +
+                              surface.points[surface.triangles[50][1]] +
+                              surface.points[surface.triangles[50][2]]);
+  const double unit = 0.1 * std::sqrt(surface.area);
+  Extracted_mesh star;
+  for (const auto& [x, y] : {std::pair{0.3, 0.2}, std::pair{1., 0.1}, std::pair{0.4, 1.3},
+                             std::pair{-0.9, 0.7}, std::pair{-0.8, -0.6}, std::pair{0.5, -1.1}})
+    star.points.push_back(m + unit * Vec3d{x, y, 0});
+  for (int k = 0; k < 5; ++k) star.triangles.push_back({0, 1 + k, 1 + (k + 1) % 5});
+  const auto energy = [&](const Vec3d& p) {
+    double sum = 0;
+    for (const Triangle& t : star.triangles)
+      sum += internal::triangle_badness(p, star.points[t[1]], star.points[t[2]]).inverse_mean_ratio;
+    return sum;
+  };
+  internal::Star_mesh mesh(star, guide);
+  internal::Edge_flipper flipper(mesh.working(), 0);
+  internal::Star_smoother smoother(mesh, flipper);
+  for (int i = 0; i < 10; ++i) smoother.sweep();
+  const Vec3d p = mesh.point(internal::Star_mesh::Vertex(0));
+  CHECK(energy(p) < energy(star.points[0]));
+  for (int k = 0; k < 12; ++k) {
+    const double angle = k * std::acos(-1.) / 6;
+    CHECK(energy(p) < energy(p + 1e-3 * unit * Vec3d{std::cos(angle), std::sin(angle), 0}));
+  }
+}
+
 TEST_CASE("closed surfaces: better triangles, nearer to the surface, the same topology")
 {
   const std::vector<std::pair<std::string, shapes::Soup>> inputs{

@@ -73,7 +73,7 @@ TEST_CASE("several components of very different sizes")
                                                                   0.003 * double(1 << i)),
                                                    {3. + 2 * i, 0, 0}));
   check_met("a sphere and eight tori", many, 500);
-  check_met("the same with few samples", many, 150);
+  check_met("the same with few samples", many, 120);
 }
 
 TEST_CASE("plates with holes, thick and thin")

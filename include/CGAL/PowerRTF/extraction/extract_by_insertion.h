@@ -52,8 +52,13 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
 /// A mesh on the samples that is homeomorphic to `surface`: an oriented 2-manifold with the same
 /// components, borders and Euler characteristic, whatever the samples are. Where sampling is dense
 /// its triangles are those of the restricted Delaunay triangulation. The result does not depend on
-/// the samples' order. A component with fewer samples than its topology needs (4 for a sphere)
-/// keeps vertices of the surface.
+/// the samples' order.
+///
+/// The points are the samples, in their order. Where they are too sparse for the surface (a thin
+/// part, close sheets, a small handle, a component without samples) vertices of the surface have to
+/// stay, so that nothing is lost and nothing intersects: each takes the number of a sample that the
+/// mesh can do without elsewhere, so that there are still as many points. Only if there are too few
+/// samples for that altogether, points come after them.
 ///
 /// `features`: the last samples; edges between those that are next to each other on a curve stay.
 /// Without it borders recede to the samples.

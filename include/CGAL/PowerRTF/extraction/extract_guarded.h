@@ -3,8 +3,9 @@
 //
 // Extraction by insertion where the samples are too sparse for the surface: a thin part, close
 // sheets, a small handle. No collapse and no flip may add a self-intersection there; the vertices
-// of the surface that have to stay for that become samples, in exchange for samples at flat places,
-// so that their number stays. (An addition to the paper.)
+// of the surface that have to stay for that become samples, in exchange for samples at flat places
+// (of creases and borders if there are no others), so that their number stays. (An addition to the
+// paper.)
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 
@@ -67,7 +68,7 @@ public:
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
   Guarded_extraction(const Surface& surface, const Samples& samples,
                      const Feature_samples& features, const std::vector<Ball>& balls, double reach)
-      : m_movable(samples.size() - features.size()),
+      : m_may_go(may_go(samples, features)),
         m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
         m_flipper(m, 0.1, &m_guard)
   {
@@ -86,10 +87,27 @@ public:
   }
 
   const Working_mesh& mesh() const { return m; }
-  /// Whether more care would not help: the surface intersects itself, or there are too few samples.
-  bool is_hopeless() const { return m_input_intersects || m_rest.size() > m_movable; }
+  /// Whether more care would not help: the surface intersects itself, the mesh does not, or there
+  /// are too few samples.
+  bool is_hopeless() const
+  {
+    return m_input_intersects || m_rest.size() > m_may_go.size() ||
+           !Polygon_mesh_processing::does_self_intersect(m.mesh);
+  }
 
 private:
+  enum class Place { inside, on_feature };
+
+  // By sample: all but those at corners.
+  static std::vector<char> may_go(const Samples& samples, const Feature_samples& features)
+  {
+    std::vector<char> result(samples.size(), true);
+    const std::size_t first = samples.size() - features.size();
+    for (std::size_t k = 0; k < features.size(); ++k)
+      result[first + k] = features.places[k].from != features.places[k].to;
+    return result;
+  }
+
   std::vector<Intersection_guard::Sight> sight(const std::vector<Ball>& balls, double reach) const
   {
     std::vector<Vec3d> centers;
@@ -120,19 +138,20 @@ private:
   // removed; those of them that cannot be removed are exchanged again.
   void exchange()
   {
-    std::vector<char> may_go(m_movable, true);
-    for (int round = 0; round < max_exchanges; ++round) {
+    std::size_t fewest = m_may_go.size() + 1;
+    for (int round = 0, vain = 0; round < max_exchanges && vain < max_vain; ++round) {
       m_rest.clear();
       for (const Vertex v : m.mesh.vertices())
         if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
-      std::vector<Vertex> removable;
-      for (int rings = 2; rings >= 0 && removable.empty(); --rings)
-        removable = removable_samples(rings, may_go);
+      if (m_rest.size() > m_may_go.size()) return;
+      vain = m_rest.size() < fewest ? 0 : vain + 1;
+      fewest = std::min(fewest, m_rest.size());
+      const std::vector<Vertex> removable = removable_samples();
       const std::size_t count = std::min(m_rest.size(), removable.size());
-      if (count == 0 || m_rest.size() > m_movable) return;
+      if (count == 0) return;
       for (std::size_t k = 0; k < count; ++k) {
         const int s = m.samples[removable[k]];
-        may_go[s] = false;
+        m_may_go[s] = false;
         m.samples[m_rest[k]] = s;
         m.samples[removable[k]] = -1;
         m_guard.watch_around(removable[k]);
@@ -141,9 +160,23 @@ private:
     }
   }
 
+  // Those on creases and borders only if there are no others: they show the shape.
+  std::vector<Vertex> removable_samples()
+  {
+    for (const bool at_once : {true, false})
+      for (const Place place : {Place::inside, Place::on_feature})
+        for (int rings = 2; rings >= 0; --rings) {
+          std::vector<Vertex> found = removable_samples(place, rings, at_once);
+          if (!found.empty()) return found;
+        }
+    return {};
+  }
+
   // Samples that are so many edges away from the vertices that are to stay, no two of them
-  // neighbours, those first over whose neighbours the mesh is least high.
-  std::vector<Vertex> removable_samples(int rings, const std::vector<char>& may_go) const
+  // neighbours, those first over whose neighbours the mesh is least high; no more than needed.
+  // `at_once`: only those that can be collapsed as the mesh is now. A small component may have
+  // none: it would only give back what it takes.
+  std::vector<Vertex> removable_samples(Place place, int rings, bool at_once)
   {
     std::vector<char> is_near(m.samples.size(), false);
     for (const Vertex v : m_rest) is_near[v] = true;
@@ -157,12 +190,12 @@ private:
     std::vector<std::pair<double, Vertex>> order;
     for (const Vertex v : m.mesh.vertices()) {
       const int s = m.samples[v];
-      if (s < 0 || s >= int(m_movable) || !may_go[s] || is_near[v] || m.mesh.is_isolated(v) ||
-          m.mesh.is_border(v) || m.is_on_feature(v))
+      if (s < 0 || !m_may_go[s] || is_near[v] || m.mesh.is_isolated(v) || !is_at(place, v))
         continue;
       Vec3d normal{0, 0, 0};
       for (const Halfedge h : halfedges_around_target(v, m.mesh))
-        normal += m.area_vector(v, m.mesh.target(m.mesh.next(h)), m.mesh.source(h));
+        if (!m.mesh.is_border(h))
+          normal += m.area_vector(v, m.mesh.target(m.mesh.next(h)), m.mesh.source(h));
       normal = normalized(normal);
       double height = 0;
       for (const Halfedge h : halfedges_around_target(v, m.mesh))
@@ -172,24 +205,35 @@ private:
     std::sort(order.begin(), order.end());
     std::vector<Vertex> chosen;
     for (const auto& [height, v] : order) {
-      if (is_near[v] || !is_collapsible(v)) continue;
+      if (chosen.size() == m_rest.size()) break;
+      if (is_near[v] || !is_collapsible(v, at_once)) continue;
       chosen.push_back(v);
       for (const Halfedge h : halfedges_around_target(v, m.mesh)) is_near[m.mesh.source(h)] = true;
     }
     return chosen;
   }
 
-  // Small components may have no vertex to spare.
-  bool is_collapsible(Vertex v) const
+  bool is_at(Place place, Vertex v) const
   {
-    for (const Halfedge h : halfedges_around_target(v, m.mesh))
-      if (Euler::does_satisfy_link_condition(m.mesh.edge(h), m.mesh)) return true;
+    if (place == Place::inside) return !m.is_on_feature(v) && !m.mesh.is_border(v);
+    const std::vector<Vertex>& curve = m.feature_neighbours(v);
+    return curve.size() == 2 && !m.is_feature(curve[0], curve[1]);
+  }
+
+  bool is_collapsible(Vertex v, bool at_once)
+  {
+    if (at_once) m_guard.watch_around(v);
+    for (const Halfedge h : halfedges_around_source(v, m.mesh))
+      if ((!m.is_on_feature(v) || m.is_feature(m.mesh.edge(h))) &&
+          Euler::does_satisfy_link_condition(m.mesh.edge(h), m.mesh) &&
+          !(at_once && m_guard.forbids_collapse(h)))
+        return true;
     return false;
   }
 
-  static constexpr int max_exchanges = 10;
+  static constexpr int max_exchanges = 300, max_vain = 20;
 
-  std::size_t m_movable; // the first so many samples; the others are features
+  std::vector<char> m_may_go; // by sample: may be exchanged, and has not been
   std::vector<Vertex> m_rest; // could not be removed, though they were no samples
   bool m_input_intersects = false;
   Working_mesh m;

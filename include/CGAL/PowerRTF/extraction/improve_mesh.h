@@ -41,18 +41,21 @@ public:
   {
   }
 
-  /// The improved mesh. What is broken by an improvement is locked, and the improvement made anew.
+  /// The improved mesh. If an improvement has broken something, it is made anew: at first with less
+  /// smoothing, which may already do, then with what was broken locked.
   Extracted_mesh run()
   {
     Extracted_mesh mesh = m_raw;
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
       Star_mesh stars = m_raw_stars;
       stars.lock(m_locked);
-      improve(stars);
-      if (!lock_broken(stars)) {
+      improve(stars, attempt == 1 ? smoothing_steps - 1 : smoothing_steps);
+      const std::vector<Face> broken = find_broken(stars);
+      if (broken.empty()) {
         stars.write(mesh);
         return mesh;
       }
+      if (attempt > 0) lock(stars, broken, attempt - 1);
     }
     return mesh;
   }
@@ -63,18 +66,19 @@ private:
   using Face = Mesh::Face_index;
 
   static constexpr double worsening = 0.2; // of the maximal distance, in units of sqrt(area / n)
-  static constexpr int max_attempts = 5;
-  static constexpr int smoothing_steps = 4;
+  static constexpr int max_attempts = 7;
+  static constexpr int smoothing_steps = 3;
   static constexpr int mending_rounds = 8;
   static constexpr int sliding_rounds = 4;
   static constexpr double far = 0.7;   // share of the maximal distance from which tips are covered
+  static constexpr double very_far = 0.45; // in units of sqrt(area / n): vertices move once more
   static constexpr double rough = 0.3; // badness that the mending after it can heal
 
-  void improve(Star_mesh& stars)
+  void improve(Star_mesh& stars, int steps)
   {
     Edge_flipper flipper(stars.working(), 0);
     Star_smoother smoother(stars, flipper);
-    for (int i = 0; i < smoothing_steps; ++i) {
+    for (int i = 0; i < steps; ++i) {
       smoother.flip();
       smoother.sweep();
     }
@@ -93,7 +97,13 @@ private:
     mend();
     if (Star_mender(stars, flipper).release_pinned() > 0) mend();
     watch.update();
-    Vertex_relocator(stars, flipper, watch).run(far);
+    Vertex_relocator relocator(stars, flipper, watch);
+    const double too_far = very_far * std::sqrt(m_surface.area / double(stars.size()));
+    if (relocator.run(far) && watch.max_distance() > too_far) relocator.run(far);
+    if (Star_mender(stars, flipper).is_needed()) {
+      mend();
+      watch.update();
+    }
     Tip_coverer(stars, watch, Triangle_badness::tolerable).run(far);
     m_too_far.clear();
     for (int i = 0; i < watch.size(); ++i)
@@ -101,9 +111,9 @@ private:
         m_too_far.push_back(stars.working().mesh.face(watch[i].face));
   }
 
-  // Locks the vertices around the faces that intersect others or are too far from the surface.
-  // False if there are none but those between locked vertices, as the raw mesh has them.
-  bool lock_broken(const Star_mesh& stars)
+  // The faces that intersect others or are too far from the surface, but for those between locked
+  // vertices: they are as in the raw mesh.
+  std::vector<Face> find_broken(const Star_mesh& stars) const
   {
     const Mesh& mesh = stars.working().mesh;
     std::vector<Face> broken;
@@ -118,12 +128,21 @@ private:
     Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
     for (const auto& [f, g] : pairs)
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
+    return broken;
+  }
+
+  // Locks the vertices of the faces and those so many edges around them.
+  void lock(const Star_mesh& stars, const std::vector<Face>& broken, int rings)
+  {
+    const Mesh& mesh = stars.working().mesh;
+    std::vector<Vertex> locked;
     for (const Face f : broken)
-      for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
-        for (const auto h : halfedges_around_target(v, mesh))
-          for (const auto g : halfedges_around_target(mesh.opposite(h), mesh))
-            m_locked[mesh.source(g)] = true;
-    return !broken.empty();
+      for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) locked.push_back(v);
+    for (int ring = 0; ring < rings; ++ring)
+      for (std::size_t i = 0, size = locked.size(); i < size; ++i)
+        for (const auto h : halfedges_around_target(locked[i], mesh))
+          locked.push_back(mesh.source(h));
+    for (const Vertex v : locked) m_locked[v] = true;
   }
 
   const Surface& m_surface;

@@ -43,14 +43,16 @@ public:
     for (std::size_t f = 0; f < surface.triangles.size(); ++f)
       for (int i = 0; i < 3; ++i) {
         const int a = m_surface.triangles[f][i], b = m_surface.triangles[f][(i + 1) % 3];
-        const Edge original = sorted_edge(surface.triangles[f][i], surface.triangles[f][(i + 1) % 3]);
+        const Edge original =
+            sorted_edge(surface.triangles[f][i], surface.triangles[f][(i + 1) % 3]);
         const Edge copy = cut.originals[a] == original[0] ? Edge{a, b} : Edge{b, a};
         std::vector<Edge>& list = edge_copies[original];
         if (std::find(list.begin(), list.end(), copy) == list.end()) list.push_back(copy);
       }
     for (const Edge& e : surface.creases) {
       if (std::binary_search(surface.seams.begin(), surface.seams.end(), e)) continue;
-      for (const Edge& copy : edge_copies[e]) m_surface.creases.push_back(sorted_edge(copy[0], copy[1]));
+      for (const Edge& copy : edge_copies[e])
+        m_surface.creases.push_back(sorted_edge(copy[0], copy[1]));
     }
     std::sort(m_surface.creases.begin(), m_surface.creases.end());
 

@@ -81,8 +81,10 @@ public:
     find_far();
   }
 
-  /// The largest distance of what is nearest to the star of `v`, with `v` at `p`.
-  double farthest_around(Vertex v, const Vec3d& p) const
+  /// The largest distance of what is nearest to the star of `v`, with `v` at `p`; or any that is no
+  /// less than `limit`.
+  double farthest_around(Vertex v, const Vec3d& p,
+                         double limit = std::numeric_limits<double>::infinity()) const
   {
     const Faces faces = patch(v);
     double farthest = 0;
@@ -92,6 +94,7 @@ public:
           Watched w = m_points[i];
           find(w, faces, v, p);
           farthest = std::max(farthest, w.distance);
+          if (farthest >= limit) return farthest;
         }
     return farthest;
   }

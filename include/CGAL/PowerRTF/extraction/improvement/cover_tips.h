@@ -79,7 +79,8 @@ private:
         if (place.facet < 0 || !keeps_shape(star, p, place.point) ||
             m.agreement(star, place.point, place.normal) < agreement)
           continue;
-        const double ratio = m_watch.farthest_around(v, place.point) / before;
+        const double ratio =
+            m_watch.farthest_around(v, place.point, best.distance * before) / before;
         if (ratio < best.distance) best = {ratio, v, place};
       }
     }

@@ -42,6 +42,14 @@ public:
     for (const Vertex v : mesh.working().mesh.vertices()) m_anchors.push_back(mesh.point(v));
   }
 
+  /// Whether a triangle is worse than tolerable.
+  bool is_needed() const
+  {
+    const auto faces = m.working().mesh.faces();
+    return std::any_of(faces.begin(), faces.end(), [this](Face f)
+                       { return badness(f) > Triangle_badness::tolerable; });
+  }
+
   /// Releases the pinned vertices of the triangles that are still bad. \returns their number.
   std::size_t release_pinned()
   {
@@ -126,7 +134,8 @@ private:
   static constexpr double first_step = 0.2; // in edges of the star
   static constexpr int halvings = 3;
   static constexpr int max_steps = 8;
-  static constexpr double least_shape = 0.6; // of triangles that a flip may make
+  // Of triangles that a flip may make.
+  static constexpr double least_shape = 0.6, least_shape_if_healing = 0.35;
 
   using Vertices = boost::container::small_vector<Vertex, 16>;
 
@@ -166,12 +175,25 @@ private:
     return sum;
   }
 
+  // The worst triangles first: their sum soon tells that a place is no better.
+  static void sort_by_energy(Star& star, const Vec3d& p)
+  {
+    boost::container::small_vector<std::pair<double, Star::Corner>, 12> corners;
+    for (const Star::Corner& c : star.corners)
+      corners.emplace_back(-triangle_badness(p, c.a, c.b).energy(), c);
+    std::stable_sort(corners.begin(), corners.end(),
+                     [](const auto& x, const auto& y) { return x.first < y.first; });
+    std::transform(corners.begin(), corners.end(), star.corners.begin(),
+                   [](const auto& x) { return x.second; });
+  }
+
   // Looks for a place of less energy in eight directions, with shorter and shorter steps.
   bool search(Vertex v)
   {
     if (!m.is_movable(v)) return false;
-    const Star star = m.star(v);
+    Star star = m.star(v);
     const Vec3d p = m.point(v), n = m.normal(v);
+    sort_by_energy(star, p);
     const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
                 w = cross(n, u);
     double size = 0;
@@ -243,7 +265,11 @@ private:
     const auto shape = [&](int i, int j, int k) {
       return m.working().shape(corners[i], corners[j], corners[k]);
     };
-    if (std::min(shape(0, 3, 2), shape(1, 2, 3)) < least_shape) return false; // hopeless
+    // In a plane the angles around a vertex of valence 4 or 9 cannot all be good.
+    const bool heals = std::min(valence(2), valence(3)) <= 4 ||
+                       std::max(valence(0), valence(1)) >= 9;
+    if (std::min(shape(0, 3, 2), shape(1, 2, 3)) < (heals ? least_shape_if_healing : least_shape))
+      return false; // hopeless
     std::array<Surface_guide::Place, 4> before;
     for (int k = 0; k < 4; ++k) before[k] = m.place(corners[k]);
     const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);

@@ -14,6 +14,8 @@
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>
 #include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
 
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -53,14 +55,14 @@ public:
     bool changed = false;
     for (const Tip& tip : tips) {
       const Star_mesh now = m;
-      if (tip.is_edge && flip(tip)) {
+      if (tip.is_edge && flip(tip) && !intersects_near(tip.point)) {
         changed = true;
         continue;
       }
       m = now;
       bool removed = false;
       while (next < spare.size() && !(removed = remove(spare[next++]))) m = now;
-      if (removed && insert(tip)) {
+      if (removed && insert(tip) && !intersects_near(tip.point)) {
         changed = true;
         continue;
       }
@@ -87,7 +89,7 @@ private:
   };
 
   static constexpr int max_tips = 4, max_tries = 3; // whatever the size of the mesh
-  static constexpr double large = 0.4;              // distance, in units of sqrt(area / n)
+  static constexpr double large = 0.3;              // distance, in units of sqrt(area / n)
   static constexpr double apart = 3;                // of places that change, in the same unit
   static constexpr double steep = 0.5; // sine of the angle of an edge and the surface at its ends
   static constexpr double flat = 0.9;  // agreement of stars that can be spared
@@ -282,6 +284,18 @@ private:
   bool is_good_around(Vertex v)
   {
     return Star_mender(m, m_flipper).run_around(v, rounds) <= Triangle_badness::tolerable;
+  }
+
+  // Far places are often thin: what is on their other side must not be met.
+  bool intersects_near(const Vec3d& p) const
+  {
+    const auto& mesh = m.working().mesh;
+    const double radius = 4 * m_spacing;
+    std::vector<Working_mesh::Mesh::Face_index> faces;
+    for (const auto f : mesh.faces())
+      if (squared_length(m.point(mesh.target(mesh.halfedge(f))) - p) < radius * radius)
+        faces.push_back(f);
+    return Polygon_mesh_processing::does_self_intersect(faces, mesh);
   }
 
   Star_mesh& m;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Vertices on creases and borders stay on their curves, but they may slide along them where that
-// makes their bad triangles better: between curves that run close together no other vertex can.
+// makes their bad triangles better: between curves that run close together no other vertex can. At
+// a corner where two curves make a sharp angle, the next vertices on both slide together: away from
+// the corner bent curves open, and one alone would spoil the triangle between them.
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SLIDE_FEATURES_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SLIDE_FEATURES_H
 
@@ -11,7 +13,9 @@
 #include <CGAL/PowerRTF/surface/facet_adjacency.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -45,6 +49,7 @@ public:
     if (m_curves.empty()) return;
     for (int round = 0; round < rounds; ++round)
       for (const Vertex v : m.working().mesh.vertices()) slide(v);
+    for (const auto f : m.working().mesh.faces()) slide_pair(f);
   }
 
 private:
@@ -52,10 +57,52 @@ private:
 
   static constexpr double first_step = 0.2; // in edges of the curve
   static constexpr int halvings = 4, max_steps = 10;
+  static constexpr double pair_step = 0.05;
+  static constexpr int pair_steps = 10;
   static constexpr double clearly = 1 - 1e-9;
   static constexpr double closest = 0.4;     // to a neighbour, in edges of the curve
   static constexpr double cos_turn = 0.7071; // sharper turns are corners
   static constexpr double cos_fold = 0.9;    // that triangles may turn
+
+  /// The curve around a vertex.
+  struct Path {
+    Vec3d p, pa, pb; // the vertex, and its neighbours on the curve
+    double scale;    // their mean distance
+    std::vector<Segment> near;
+
+    /// The place at `s` times the scale from the vertex; s > 0: towards b.
+    Vec3d at(double s) const
+    {
+      const Vec3d q = s > 0 ? p + (pb - p) * (s * scale / length(pb - p))
+                            : p + (pa - p) * (-s * scale / length(pa - p));
+      Vec3d best = p;
+      double least = std::numeric_limits<double>::infinity();
+      for (const Segment& segment : near) {
+        const Vec3d r = nearest_point(segment, q);
+        if (squared_length(r - q) < least) {
+          least = squared_length(r - q);
+          best = r;
+        }
+      }
+      return best;
+    }
+
+    bool is_spaced(const Vec3d& q) const
+    {
+      return length(q - pa) >= closest * scale && length(q - pb) >= closest * scale &&
+             dot(normalized(q - pa), normalized(pb - q)) > cos_turn;
+    }
+  };
+
+  Path path(Vertex v, Vertex a, Vertex b) const
+  {
+    Path result{m.point(v), m.point(a), m.point(b), 0, {}};
+    result.scale = (length(result.pa - result.p) + length(result.pb - result.p)) / 2;
+    for (const Segment& s : m_curves)
+      if (squared_length(nearest_point(s, result.p) - result.p) < result.scale * result.scale)
+        result.near.push_back(s);
+    return result;
+  }
 
   static Vec3d nearest_point(const Segment& s, const Vec3d& p)
   {
@@ -92,32 +139,14 @@ private:
     Vertex a, b;
     if (!m.is_on_feature(v) || m.is_locked(v) || !neighbours(v, a, b)) return;
     const Star star = m.star(v);
-    const Vec3d p = m.point(v), pa = m.point(a), pb = m.point(b);
+    const Vec3d p = m.point(v);
     double bad = 0;
     for (const Star::Corner& c : star.corners) bad += triangle_badness(p, c.a, c.b).badness;
     if (!(bad > 0)) return;
 
-    const double scale = (length(pa - p) + length(pb - p)) / 2;
-    std::vector<Segment> near;
-    for (const Segment& s : m_curves)
-      if (squared_length(nearest_point(s, p) - p) < scale * scale) near.push_back(s);
-    const auto on_curve = [&](double s) { // s > 0: towards b
-      const Vec3d q = s > 0 ? p + (pb - p) * (s * scale / length(pb - p))
-                            : p + (pa - p) * (-s * scale / length(pa - p));
-      Vec3d best = p;
-      double least = std::numeric_limits<double>::infinity();
-      for (const Segment& segment : near) {
-        const Vec3d r = nearest_point(segment, q);
-        if (squared_length(r - q) < least) {
-          least = squared_length(r - q);
-          best = r;
-        }
-      }
-      return best;
-    };
+    const Path curve = path(v, a, b);
     const auto is_allowed = [&](const Vec3d& q) {
-      if (length(q - pa) < closest * scale || length(q - pb) < closest * scale) return false;
-      if (!(dot(normalized(q - pa), normalized(pb - q)) > cos_turn)) return false;
+      if (!curve.is_spaced(q)) return false;
       for (const Star::Corner& c : star.corners) {
         const Vec3d now = cross(c.a - p, c.b - p), then = cross(c.a - q, c.b - q);
         if (!(dot(now, then) >= cos_fold * length(now) * length(then))) return false;
@@ -129,7 +158,7 @@ private:
     for (int i = 0, halved = 0; i < max_steps && halved < halvings; ++i) {
       bool found = false;
       for (const double s : {at - step, at + step}) {
-        const Vec3d q = on_curve(s);
+        const Vec3d q = curve.at(s);
         const double e = energy(star, q);
         if (!(e < clearly * least) || !is_allowed(q)) continue;
         least = e;
@@ -142,10 +171,82 @@ private:
       step /= 2;
       ++halved;
     }
-    if (best == p) return;
-    auto place = m.guide().nearest(best);
-    place.point = best;
+    if (!(best == p)) move(v, best);
+  }
+
+  void move(Vertex v, const Vec3d& p)
+  {
+    auto place = m.guide().nearest(p);
+    place.point = p;
     m.move(v, place);
+  }
+
+  /// The next vertices on both curves at the corner of a bad triangle.
+  void slide_pair(Working_mesh::Mesh::Face_index f)
+  {
+    const auto& mesh = m.working().mesh;
+    Halfedge h = mesh.halfedge(f);
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      const Halfedge to_corner = h, from_corner = mesh.next(h);
+      const std::array<Vertex, 2> ends{mesh.source(to_corner), mesh.target(from_corner)};
+      const Vertex corner = mesh.target(to_corner);
+      if (!m.is_feature(mesh.edge(to_corner)) || !m.is_feature(mesh.edge(from_corner))) continue;
+      if (!(triangle_badness(m.point(ends[0]), m.point(corner), m.point(ends[1])).badness >
+            Triangle_badness::tolerable))
+        continue;
+      std::vector<Path> paths; // a is the corner
+      for (const Vertex v : ends) {
+        Vertex a, b;
+        if (m.is_locked(v) || !neighbours(v, a, b)) break;
+        paths.push_back(a == corner ? path(v, a, b) : path(v, b, a));
+      }
+      if (paths.size() == 2) slide_pair(ends, paths);
+    }
+  }
+
+  void slide_pair(const std::array<Vertex, 2>& ends, const std::vector<Path>& paths)
+  {
+    const std::array<Surface_guide::Place, 2> before{m.place(ends[0]), m.place(ends[1])};
+    const std::array<Star, 2> stars{m.star(ends[0]), m.star(ends[1])};
+    const auto worst = [&] {
+      double most = 0;
+      for (const Vertex v : ends)
+        for (const Star::Corner& c : m.star(v).corners)
+          most = std::max(most, triangle_badness(m.point(v), c.a, c.b).energy());
+      return most;
+    };
+    const auto is_folded = [&] {
+      for (int k = 0; k < 2; ++k) {
+        const Star now = m.star(ends[k]);
+        const Vec3d p = before[k].point, q = m.point(ends[k]);
+        for (std::size_t c = 0; c < now.corners.size(); ++c) {
+          const Star::Corner &s = stars[k].corners[c], &t = now.corners[c];
+          const Vec3d old = cross(s.a - p, s.b - p), fresh = cross(t.a - q, t.b - q);
+          if (!(dot(old, fresh) >= cos_fold * length(old) * length(fresh))) return true;
+        }
+      }
+      return false;
+    };
+    std::array<Vec3d, 2> best{before[0].point, before[1].point};
+    double least = worst();
+    for (int i = -pair_steps; i <= pair_steps; ++i) {
+      const Vec3d p = paths[0].at(i * pair_step);
+      if (!paths[0].is_spaced(p)) continue;
+      for (int j = -pair_steps; j <= pair_steps; ++j) {
+        const Vec3d q = paths[1].at(j * pair_step);
+        if (!paths[1].is_spaced(q)) continue;
+        m.set_point(ends[0], p);
+        m.set_point(ends[1], q);
+        const double e = worst();
+        if (!(e < clearly * least) || is_folded()) continue;
+        least = e;
+        best = {p, q};
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (best[k] == before[k].point) m.move(ends[k], before[k]);
+      else move(ends[k], best[k]);
+    }
   }
 
   Star_mesh& m;

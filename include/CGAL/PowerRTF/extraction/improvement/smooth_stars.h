@@ -109,7 +109,7 @@ private:
                    l = ee + ff + squared_length(f - e);
       if (!(a > 0)) return;
       if (shortest < 0 || ee < shortest) shortest = ee;
-      const Vec3d dl = -2 * (e + f), da = cross(area, e - f) * (1 / a);
+      const Vec3d dl = -2 * (e + f), da = cross(e - f, area) * (1 / a);
       const double lu = dot(dl, u), lw = dot(dl, w), au = dot(da, u), aw = dot(da, w), i = 1 / a,
                    i2 = i * i, i3 = 2 * l * i2 * i;
       gu += lu * i - l * au * i2;
@@ -127,7 +127,9 @@ private:
 
     const double now = energy(star, p);
     for (int halving = 0; halving < 3; ++halving, su /= 2, sw /= 2) {
-      const auto place = m.project(v, p + su * u + sw * w);
+      const Vec3d q = p + su * u + sw * w;
+      if (!(energy(star, q) < now)) continue;
+      const auto place = m.project(v, q);
       if (place.facet < 0 || !(energy(star, place.point) < now)) continue;
       if (m.agreement(star, place.point, place.normal) < least) continue;
       m.move(v, place);

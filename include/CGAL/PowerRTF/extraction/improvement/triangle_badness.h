@@ -34,20 +34,23 @@ struct Triangle_badness {
 inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
   constexpr double quality = 0.77, smallest = 41.5, largest = 86, degrees = 57.29577951308232;
+  constexpr double surely_good = 1.09; // the least of those with an angle of 41.5 degrees: 1.0901
   constexpr double cos_smallest = 0.7489557207890021, cos_largest = 0.0697564737441253;
   Triangle_badness result;
   const Vec3d ab = b - a, ac = c - a;
   const double twice_area = length(cross(ab, ac));
   double s[3] = {squared_length(ab), squared_length(ac), squared_length(c - b)};
+  const double sum = s[0] + s[1] + s[2];
   if (!(twice_area > 0)) {
     result.badness = result.inverse_mean_ratio = std::numeric_limits<double>::infinity();
     return result;
   }
+  result.inverse_mean_ratio = sum / (2 * 1.7320508075688772 * twice_area);
+  if (result.inverse_mean_ratio < surely_good) return result;
   if (s[0] > s[1]) std::swap(s[0], s[1]);
   if (s[1] > s[2]) std::swap(s[1], s[2]);
   if (s[0] > s[1]) std::swap(s[0], s[1]);
   const double l0 = std::sqrt(s[0]), l1 = std::sqrt(s[1]), l2 = std::sqrt(s[2]);
-  result.inverse_mean_ratio = (s[0] + s[1] + s[2]) / (2 * 1.7320508075688772 * twice_area);
   // the divisions only for what is bad
   const double q_above = 2 * 1.7320508075688772 * twice_area, q_below = (l0 + l1 + l2) * l2,
                min_above = s[1] + s[2] - s[0], min_below = 2 * l1 * l2,
