@@ -19,7 +19,6 @@
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
 #include <CGAL/PowerRTF/surface/Surface_patches.h>
 
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -71,7 +70,6 @@ public:
     for (int iteration = 0; iteration < iterations() && !m_report.cancelled; ++iteration) { // 5
       m_engine.build_cells();                                                             // 8, 9
       const bool relaxation = iteration < m_options.relaxation_iterations;
-      if (relaxation) m_unweighted_rms = m_engine.capacity().rms;
       const bool equal = !relaxation && optimize_weights();                          // 11 to 14
       finish_iteration(visitor, iteration);
       if (equal) break;
@@ -161,9 +159,16 @@ private:
       }
       if (inside_interval()) return true;
     }
-    // The rule need not converge where samples are too few: weights that do harm begin anew.
-    if (m_engine.capacity().rms > m_unweighted_rms) m_engine.clear_weights();
+    if (do_weights_harm()) m_engine.clear_weights(); // they begin anew
     return false;
+  }
+
+  /// Whether the capacities are less equal than they were at the end of the relaxation, without
+  /// weights: the rule need not converge where samples are too few.
+  bool do_weights_harm() const
+  {
+    const int relaxed = m_options.relaxation_iterations;
+    return relaxed > 0 && m_engine.capacity().rms > m_report.iterations[relaxed - 1].capacity.rms;
   }
 
   /// The weights once the samples are in place, by Newton's method.
@@ -215,7 +220,6 @@ private:
   Options m_options;
   PowerRTF::Surface_patches m_patches;
   Engine m_engine;
-  double m_unweighted_rms = std::numeric_limits<double>::infinity(); // of the capacities, without weights
   Report m_report;
 };
 

@@ -246,7 +246,7 @@ TEST_CASE("fewer samples than the topology needs: vertices of the surface stay")
   const Extracted_mesh small = extract_by_insertion(torus, Samples());
   check_topology(torus, Samples(), small);
   CHECK(small.points.size() >= 7);
-  CHECK(small.points.size() <= 10);
+  CHECK(small.points.size() <= 10); // a mesh on 7, the fewest, is found, but it intersects itself
   CHECK(self_intersections(small.points, small.triangles) == 0);
 }
 

@@ -101,7 +101,6 @@ public:
   }
 
 private:
-
   void add_twin(int s)
   {
     m_samples.points.push_back(m_samples.points[s]);

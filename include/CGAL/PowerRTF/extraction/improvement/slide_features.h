@@ -145,14 +145,8 @@ private:
     if (!(bad > 0)) return;
 
     const Path curve = path(v, a, b);
-    const auto is_allowed = [&](const Vec3d& q) {
-      if (!curve.is_spaced(q)) return false;
-      for (const Star::Corner& c : star.corners) {
-        const Vec3d now = cross(c.a - p, c.b - p), then = cross(c.a - q, c.b - q);
-        if (!(dot(now, then) >= cos_fold * length(now) * length(then))) return false;
-      }
-      return true;
-    };
+    const auto is_allowed = [&](const Vec3d& q)
+    { return curve.is_spaced(q) && !folds(star, p, star, q); };
     double least = energy(star, p), at = 0, step = first_step;
     Vec3d best = p;
     for (int i = 0, halved = 0; i < max_steps && halved < halvings; ++i) {
@@ -172,6 +166,18 @@ private:
       ++halved;
     }
     if (!(best == p)) move(v, best);
+  }
+
+  /// Whether a triangle around a vertex turns too far when the vertex goes from `p` to `q`, and its
+  /// neighbours from where `before` has them to where `after` has them.
+  static bool folds(const Star& before, const Vec3d& p, const Star& after, const Vec3d& q)
+  {
+    for (std::size_t k = 0; k < before.corners.size(); ++k) {
+      const Star::Corner &s = before.corners[k], &t = after.corners[k];
+      const Vec3d was = cross(s.a - p, s.b - p), is = cross(t.a - q, t.b - q);
+      if (!(dot(was, is) >= cos_fold * length(was) * length(is))) return true;
+    }
+    return false;
   }
 
   void move(Vertex v, const Vec3d& p)
@@ -216,16 +222,8 @@ private:
       return most;
     };
     const auto is_folded = [&] {
-      for (int k = 0; k < 2; ++k) {
-        const Star now = m.star(ends[k]);
-        const Vec3d p = before[k].point, q = m.point(ends[k]);
-        for (std::size_t c = 0; c < now.corners.size(); ++c) {
-          const Star::Corner &s = stars[k].corners[c], &t = now.corners[c];
-          const Vec3d old = cross(s.a - p, s.b - p), fresh = cross(t.a - q, t.b - q);
-          if (!(dot(old, fresh) >= cos_fold * length(old) * length(fresh))) return true;
-        }
-      }
-      return false;
+      return folds(stars[0], before[0].point, m.star(ends[0]), m.point(ends[0])) ||
+             folds(stars[1], before[1].point, m.star(ends[1]), m.point(ends[1]));
     };
     std::array<Vec3d, 2> best{before[0].point, before[1].point};
     double least = worst();
