@@ -524,6 +524,31 @@ TEST_CASE("Newton's direction in closed form")
   CHECK(std::abs(apart[2]) < 1e-9);
 }
 
+TEST_CASE("Newton's direction for more cells than are factored")
+{
+  // Unit squares around a torus whose areas are waves: an eigenvector of the system.
+  const int m = 320;
+  const double angle = 2 * 3.14159265358979 / m, eigenvalue = 1 - std::cos(angle);
+  std::vector<double> areas, density(m * m, 1);
+  std::vector<Capacity_edge> edges;
+  for (int i = 0; i < m * m; ++i) {
+    const int row = i / m, column = i % m;
+    areas.push_back(1 + 0.1 * std::cos(angle * column));
+    for (const int j : {(row + 1) % m * m + column, (row + m - 1) % m * m + column,
+                        row * m + (column + 1) % m, row * m + (column + m - 1) % m})
+      edges.push_back({i, j, 1});
+  }
+  const std::vector<double> direction = newton_weights_direction(areas, density, edges);
+  REQUIRE(direction.size() == areas.size());
+  double error = 0, norm = 0;
+  for (int i = 0; i < m * m; ++i) {
+    const double expected = (1 - areas[i]) / eigenvalue;
+    error += (direction[i] - expected) * (direction[i] - expected);
+    norm += expected * expected;
+  }
+  CHECK(error <= 1e-6 * norm);
+}
+
 TEST_CASE("both ways of weighting make the capacities equal")
 {
   for (double power : {0., 1.})

@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_OPTIMIZATION_NEWTON_WEIGHTS_H
 #define CGAL_POWER_RTF_OPTIMIZATION_NEWTON_WEIGHTS_H
 
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
@@ -23,10 +24,37 @@ struct Capacity_edge {
   double ratio; ///< e_ij / d_ij: length of the edge in cell i over the tangential distance
 };
 
+namespace internal {
+
+/// The solution of a definite system of which the lower triangle is given; empty when it cannot be
+/// solved. Exact up to 100 000 unknowns; a factor of more costs too much (n^1.5), and there the
+/// residual falls to a thousandth: the direction is damped, and what a step leaves the next takes.
+inline Eigen::VectorXd solve_definite(const Eigen::SparseMatrix<double>& matrix,
+                                      const Eigen::VectorXd& right_side)
+{
+  using Matrix = Eigen::SparseMatrix<double>;
+  constexpr Eigen::Index most_factored = 100000;
+  const auto solution = [&](auto&& solver) -> Eigen::VectorXd {
+    solver.compute(matrix);
+    if (solver.info() != Eigen::Success) return {};
+    Eigen::VectorXd x = solver.solve(right_side);
+    if (solver.info() != Eigen::Success || !x.allFinite()) return {};
+    return x;
+  };
+  if (matrix.rows() <= most_factored) return solution(Eigen::SimplicialLDLT<Matrix>());
+  using Preconditioner =
+      Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower, Preconditioner> gradients;
+  gradients.setTolerance(1e-3);
+  return solution(gradients);
+}
+
+} // namespace internal
+
 /// Solves L dw = target - area, L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4. On each connected component of
 /// the cells the target areas are c / rho_i with c such that the component's area is kept, and the
-/// mean of dw is 0 unless it has an edge with a fixed site. `edges` has one entry per side of each cell. Empty when the system cannot be
-/// solved.
+/// mean of dw is 0 unless it has an edge with a fixed site. `edges` has one entry per side of each
+/// cell. Empty when the system cannot be solved.
 inline std::vector<double> newton_weights_direction(const std::vector<double>& areas,
                                                     const std::vector<double>& density,
                                                     const std::vector<Capacity_edge>& edges)
@@ -73,10 +101,9 @@ inline std::vector<double> newton_weights_direction(const std::vector<double>& a
 
   Eigen::SparseMatrix<double> laplacian(n, n);
   laplacian.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(laplacian);
-  if (!(scale > 0) || solver.info() != Eigen::Success) return {};
-  const Eigen::VectorXd solution = solver.solve(residual);
-  if (solver.info() != Eigen::Success || !solution.allFinite()) return {};
+  if (!(scale > 0)) return {};
+  const Eigen::VectorXd solution = internal::solve_definite(laplacian, residual);
+  if (solution.size() == 0) return {};
 
   for (int i = 0; i < n; ++i) mean[root(i)] += solution[i];
   std::vector<double> direction(n);
