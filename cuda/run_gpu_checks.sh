@@ -70,7 +70,7 @@ bench() {
   [ -x "$programs/$name" ] || return
   while IFS= read -r line; do
     echo "$line"
-    case $line in *' ms '* | *' | '* | *check:*) table+=("  $line") ;; esac
+    case $line in *' ms '* | *' | '* | *check:* | *mesh:*) table+=("  $line") ;; esac
   done < <("$programs/$name" "$@" 2>&1)
 }
 
@@ -81,10 +81,15 @@ for model in kitten elk armadillo fertility; do
   [ -r "$models/$model.off" ] || continue
   table+=("$model")
   for density in uniform curvature; do
-    bench cuda_remeshing "$models/$model.off" --samples 3000,30000 --density $density --check --cpu
+    bench cuda_remeshing "$models/$model.off" --samples 3000 --density $density --check --cpu \
+      --meshes 3
+    bench cuda_remeshing "$models/$model.off" --samples 30000 --density $density --check --cpu
   done
   case $model in kitten | fertility) # on the others the paper's weights converge with no traits
-    bench cuda_remeshing "$models/$model.off" --samples 3000 --preset paper --check --cpu ;;
+    bench cuda_remeshing "$models/$model.off" --samples 3000 --preset paper --check --cpu
+    for seed in 1 2 3 4; do
+      bench cuda_remeshing "$models/$model.off" --samples 3000 --preset paper --seed $seed
+    done ;;
   esac
 done
 refined=$models/armadillo.off

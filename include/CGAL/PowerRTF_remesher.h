@@ -142,6 +142,7 @@ private:
     PowerRTF::internal::Stopwatch watch(m_report.seconds.sampling);
     const PowerRTF::Feature_samples& features = m_patches.features();
     m_engine.set_samples(PowerRTF::sample_surface(m_patches.surface(), m_options, features), features);
+    m_report.iterations.clear();
   }
 
   bool inside_interval() const { return m_engine.capacity().inside_interval == 1; }

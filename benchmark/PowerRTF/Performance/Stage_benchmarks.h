@@ -44,10 +44,32 @@ inline void count(benchmark::State& state, int n, const Peak_memory& memory)
   if (memory.known()) state.counters["bytes_per_sample"] = Counter(memory.bytes() / n);
 }
 
-/// The stages of one traits class.
-template <class Traits>
+struct Nothing_to_wait_for {
+  void operator()() const {}
+};
+
+/// The stages of one traits class. `Wait`: until what has been asked of the device is done.
+template <class Traits, class Wait = Nothing_to_wait_for>
 struct Stage_benchmarks {
   using Engine = typename Traits::Engine;
+  static constexpr bool on_device = CGAL::PowerRTF::internal::Runs_on_device<Engine>::value;
+
+  /// All cells. A device makes them when something is asked of them: the statistics that every run
+  /// asks for are part of it there.
+  static void build_cells(Engine& engine)
+  {
+    engine.build_cells();
+    if constexpr (on_device) engine.capacity();
+  }
+
+  /// The counters of a stage; the memory of a device is the device's.
+  static void count(benchmark::State& state, int n, const Engine& engine, const Peak_memory& memory)
+  {
+    ::count(state, n, memory);
+    if constexpr (on_device)
+      state.counters["bytes_per_sample"] =
+          benchmark::Counter(double(engine.device_report().bytes) / n);
+  }
 
   /// Algorithm 1, neighbour search included. The radii of the searches are known from the last
   /// construction, as in all of a run but the first.
@@ -56,11 +78,11 @@ struct Stage_benchmarks {
     const Peak_memory memory;
     Engine engine(w.surface, w.options);
     engine.set_samples(w.samples);
-    engine.build_cells();
-    for (auto _ : state) engine.build_cells();
+    build_cells(engine);
+    for (auto _ : state) build_cells(engine);
     if (w.kind.regular && engine.cell_counts().ok != w.samples.size())
       state.SkipWithError("some cells of regular samples are not certified");
-    count(state, w.kind.n, memory);
+    count(state, w.kind.n, engine, memory);
   }
 
   /// A pass of the paper's rule (Algorithm 2), with the construction that follows it.
@@ -72,12 +94,12 @@ struct Stage_benchmarks {
     options.weight_method = CGAL::PowerRTF::Weight_method::multiplicative;
     Engine engine(w.surface, options);
     engine.set_samples(w.samples);
-    engine.build_cells();
+    build_cells(engine);
     for (auto _ : state) {
       engine.update_weights();
-      engine.build_cells();
+      build_cells(engine);
     }
-    count(state, w.kind.n, memory);
+    count(state, w.kind.n, engine, memory);
   }
 
   /// A step of Newton's method on the weights, from weights 0: edges, linear system, constructions.
@@ -88,11 +110,11 @@ struct Stage_benchmarks {
     for (auto _ : state) {
       state.PauseTiming();
       engine.set_samples(w.samples);
-      engine.build_cells();
+      build_cells(engine);
       state.ResumeTiming();
       benchmark::DoNotOptimize(engine.newton_weights());
     }
-    count(state, w.kind.n, memory);
+    count(state, w.kind.n, engine, memory);
   }
 
   /// A step of L-BFGS with its projection onto the surface and the samples' new attributes.
@@ -103,11 +125,12 @@ struct Stage_benchmarks {
     engine.set_samples(w.samples);
     for (auto _ : state) {
       state.PauseTiming();
-      engine.build_cells();
+      build_cells(engine);
       state.ResumeTiming();
       engine.move_samples(CGAL::PowerRTF::Position_method::lbfgs);
+      Wait()();
     }
-    count(state, w.kind.n, memory);
+    count(state, w.kind.n, engine, memory);
   }
 
   /// All of a run but reading and writing files: sampling, optimisation, extraction, improvement,
@@ -123,7 +146,7 @@ struct Stage_benchmarks {
       benchmark::DoNotOptimize(remesher.extract(visitor));
       constructions = remesher.report().constructions;
     }
-    count(state, w.kind.n, memory);
+    ::count(state, w.kind.n, memory);
     state.counters["constructions"] = benchmark::Counter(double(constructions));
   }
 

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Whole optimisations on the GPU, extraction excluded: seconds on the device (median of the runs
-// after one to warm up), memory, the same work on this machine's CPU, and what the oracle says of
-// the last cells.
+// after one to warm up) and memory.
 //
 //   cuda_remeshing MODEL [--refine N] [--samples N,N,...] [--preset quality|paper]
-//                  [--density uniform|curvature] [--runs N] [--cpu] [--check] [--iterations N]
+//                  [--density uniform|curvature] [--seed N] [--runs N] [--iterations N]
+//                  [--cpu] [--check] [--meshes SEEDS]
 //
-// MODEL is an OFF file; `--refine`: N times by Loop's subdivision. From 200 000 samples on, the
-// first samples are stratified random ones instead of those of an elimination, which takes the host
-// long.
+// MODEL is an OFF file; `--refine`: N times by Loop's subdivision. `--cpu`: the same work on this
+// machine's CPU, too. `--check`: what the oracle says of the cells of the first iteration, the one
+// in the middle and the last. `--meshes`: the least and largest figures of the meshes that the GPU's
+// and the CPU's samples make, over so many seeds. From 200 000 samples on, the first samples are
+// stratified random ones instead of those of an elimination, which takes the host long.
 #include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
@@ -42,7 +44,8 @@ using Cpu = CGAL::PowerRTF_traits_3<Kernel>;
 struct Arguments {
   std::string model, preset = "quality", density = "uniform";
   std::vector<std::size_t> samples = {3000};
-  int refine = 0, runs = 5, iterations = -1;
+  int refine = 0, runs = 5, iterations = -1, meshes = 0;
+  unsigned seed = 0;
   bool cpu = false, check = false;
 };
 
@@ -61,6 +64,10 @@ Arguments parse(int argc, char** argv)
       a.runs = std::stoi(value());
     else if (word == "--iterations")
       a.iterations = std::stoi(value());
+    else if (word == "--meshes")
+      a.meshes = std::stoi(value());
+    else if (word == "--seed")
+      a.seed = unsigned(std::stoul(value()));
     else if (word == "--preset")
       a.preset = value();
     else if (word == "--density")
@@ -82,8 +89,70 @@ Arguments parse(int argc, char** argv)
   return a;
 }
 
-struct Silent_visitor : Remeshing_default_visitor {
+/// Compares the cells of some iterations with the exact ones.
+struct Checking_visitor : Remeshing_default_visitor {
+  CGAL::PowerRTF_remesher<Gpu>& gpu;
+  std::size_t middle;
+
+  Checking_visitor(CGAL::PowerRTF_remesher<Gpu>& gpu, std::size_t middle)
+      : gpu(gpu), middle(middle)
+  {
+  }
+  void on_iteration(const Iteration_report&, double)
+  {
+    const std::size_t done = gpu.report().outer_iterations;
+    if (done == 1) check("start");
+    if (done == middle) check("middle");
+  }
+  void check(const char* when)
+  {
+    const Remeshing_options& o = gpu.options();
+    const Cell_comparison c = check_cells<CGAL::Parallel_if_available_tag>(
+        gpu.sites(), gpu.cells(), compatibility_cosine(o.normal_angle),
+        std::numeric_limits<float>::epsilon(), o.guard_factor);
+    std::printf("  check: %-6s  wrong %zu  uncertified %zu + %zu  differing edges %zu  area p99 %.1e "
+                "max %.1e  centroid p99 %.1e max %.1e\n",
+                when, c.certified_wrong, c.uncertified_right, c.uncertified_wrong,
+                c.differing_edges, c.area.p99, c.area.max, c.centroid.p99, c.centroid.max);
+    std::fflush(stdout);
+  }
 };
+
+/// The least and largest figures of the meshes over `seeds` seeds.
+template <class Traits>
+void describe_meshes(const char* name, const Surface& surface, Remeshing_options o, int seeds)
+{
+  struct Range {
+    double least = std::numeric_limits<double>::infinity(), largest = -least;
+    void add(double x)
+    {
+      least = std::min(least, x);
+      largest = std::max(largest, x);
+    }
+  } q_min, q_avg, theta, mean, rms, max;
+  std::size_t met = 0;
+  Remeshing_default_visitor visitor;
+  for (int seed = 0; seed < seeds; ++seed) {
+    o.random_seed = unsigned(seed);
+    CGAL::PowerRTF_remesher<Traits> remesher(surface, o);
+    remesher.optimize(visitor);
+    remesher.extract(visitor);
+    const Remeshing_report& r = remesher.report();
+    q_min.add(r.quality.q_min);
+    q_avg.add(r.quality.q_avg);
+    theta.add(r.quality.theta_min);
+    mean.add(r.distance.mean);
+    rms.add(r.distance.rms);
+    max.add(r.distance.max);
+    met += r.missed_guarantees().empty();
+  }
+  std::printf("  mesh: %s  Q_min %.3f-%.3f  Q_avg %.4f-%.4f  theta_min %.1f-%.1f  distance: mean "
+              "%.4f-%.4f  RMS %.4f-%.4f  max %.3f-%.3f  all guarantees met: %zu of %d\n",
+              name, q_min.least, q_min.largest, q_avg.least, q_avg.largest, theta.least,
+              theta.largest, mean.least, mean.largest, rms.least, rms.largest, max.least,
+              max.largest, met, seeds);
+  std::fflush(stdout);
+}
 
 double median(std::vector<double> x)
 {
@@ -98,13 +167,14 @@ void measure(const Arguments& a, const Mesh& mesh, std::size_t n)
   o.number_of_samples = n;
   o.density = a.density == "uniform" ? Density::uniform : Density::curvature;
   o.feature_angle = 180;
+  o.random_seed = a.seed;
   if (a.iterations >= 0) o.max_iterations = a.iterations;
   if (n >= 200000) o.oversampling = 1;
   Repair_counts repairs;
   Surface surface = import_surface(mesh, CGAL::parameters::default_values(), repairs);
   set_density(surface, o);
 
-  Silent_visitor visitor;
+  Remeshing_default_visitor visitor;
   CGAL::PowerRTF_remesher<Gpu> gpu(surface, o);
   std::vector<double> seconds, walls;
   for (int run = 0; run <= a.runs; ++run) {
@@ -131,16 +201,16 @@ void measure(const Arguments& a, const Mesh& mesh, std::size_t n)
                 c.iterations.back().displacement, c.capacity.inside_interval, c.constructions);
   }
   std::printf("\n");
-  if (a.check) {
-    const Cell_comparison c = check_cells<CGAL::Parallel_if_available_tag>(
-        gpu.sites(), gpu.cells(), compatibility_cosine(o.normal_angle),
-        std::numeric_limits<float>::epsilon(), o.guard_factor);
-    std::printf("  check: wrong %zu  uncertified %zu + %zu  differing edges %zu  area p99 %.1e max "
-                "%.1e  centroid p99 %.1e max %.1e\n",
-                c.certified_wrong, c.uncertified_right, c.uncertified_wrong, c.differing_edges,
-                c.area.p99, c.area.max, c.centroid.p99, c.centroid.max);
-  }
   std::fflush(stdout);
+  if (a.check) {
+    Checking_visitor checks(gpu, (r.outer_iterations + 1) / 2);
+    gpu.optimize(checks);
+    checks.check("end");
+  }
+  if (a.meshes > 0) {
+    describe_meshes<Gpu>("gpu", surface, o, a.meshes);
+    describe_meshes<Cpu>("cpu", surface, o, a.meshes);
+  }
 }
 
 } // namespace

@@ -13,8 +13,12 @@ run. The larger one over the measured time is how near the step is to what it co
 """
 
 import csv
+import pathlib
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from common import made_by  # noqa: E402
 
 COUNTERS = {
     "time": "gpu__time_duration.sum",
@@ -73,8 +77,8 @@ def select(kernels, occurrence, wanted):
 def main():
     program = sys.argv[1]
     sizes = [int(n) for n in sys.argv[2:]] or [1000000, 10000000]
-    print("# The cells on a GPU\n\nMade by `cuda_rooflines.py`, which says what the columns mean; "
-          "the columns of the first table are\nexplained in cuda_cells.cu.\n\n```")
+    print(f"# The cells on a GPU\n\n{made_by(__file__, [])}\nIt says what the columns mean; those of "
+          "the first table are explained in cuda_cells.cu.\n\n```")
     print(subprocess.run([program, str(max(sizes))], check=True, capture_output=True,
                          text=True).stdout.rstrip())
     print("```\n\n| sites | step | ms | G cells/s | instructions per 32 cells | issue, ms | bytes "

@@ -74,7 +74,9 @@ def growth(points):
 
 
 def rate(per_second):
-    return f"{per_second / 1e6:.2f} M" if per_second >= 1e5 else f"{per_second / 1e3:.2f} k"
+    unit, name = next((unit, name) for least, unit, name in
+                      ((1e9, 1e9, "G"), (1e5, 1e6, "M"), (0, 1e3, "k")) if per_second >= least)
+    return f"{per_second / unit:.2f} {name}"
 
 
 def table(data):
@@ -180,7 +182,7 @@ def main():
     footer = made_by(__file__, [f"--{which}"] if which != "default" else [])
     footer += f" Other work at the start: a load of {load:.1f}."
     text = ("# PowerRTF: the speed of its stages\n\n" + footer + "\n\nSamples per second (k: "
-            "thousands, M: millions); by CPU time for one thread, by real time for all. `samples`: "
+            "10^3, M: 10^6, G: 10^9); by CPU time for one thread, by real time for all. `samples`: "
             "where the stage starts from. `growth`: the exponent a of time = c n^a. `bytes per "
             "sample`: memory at the largest n, surface and samples not counted. The surface has "
             "81920 facets, on which sampling, extraction and improvement depend, too: a small n "

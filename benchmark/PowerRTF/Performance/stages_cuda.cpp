@@ -9,7 +9,23 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
 
+#include <cuda_runtime_api.h>
+
 #include <iostream>
+#include <stdexcept>
+
+namespace
+{
+
+struct Wait_for_device {
+  void operator()() const
+  {
+    const cudaError_t error = cudaDeviceSynchronize();
+    if (error != cudaSuccess) throw std::runtime_error(cudaGetErrorString(error));
+  }
+};
+
+} // namespace
 
 void register_cuda_stages()
 {
@@ -21,5 +37,6 @@ void register_cuda_stages()
   }
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   for (const Workload::Kind& kind : Workload::kinds(1000000))
-    Stage_benchmarks<CGAL::PowerRTF_cuda_traits_3<Kernel>>::register_all("gpu", kind, 1000000);
+    Stage_benchmarks<CGAL::PowerRTF_cuda_traits_3<Kernel>, Wait_for_device>::register_all(
+        "gpu", kind, 1000000);
 }
