@@ -22,12 +22,13 @@ struct Warp_cell_memory {
     Search_stack stack;
     alignas(8) unsigned char result[sizeof(Tangent_polygon<Real>)];
   };
-  Real a[most_lines], b[most_lines], c[most_lines];
-  int order[most_lines];    ///< increases with the line's distance from the site
+  Real a[most_lines], b[most_lines], c[most_lines]; ///< a x + b y <= c
+  Real d2[most_lines];      ///< squared distances of the sites
   int neighbor[most_lines]; ///< the place, or -1 - place when it is not compatible
   int groups[most_groups];  ///< of sites, that are near
   int sizes[2];             ///< of the last polygons, by compatible lines and by all; 0: not known
   short edges[2][32];
+  int corner[2]; ///< the edges at the farthest vertex of a compatible polygon that is guarded
 
   /// The result as the shared functors read it.
   __device__ Tangent_polygon<Real>& polygon()
@@ -47,31 +48,43 @@ struct Kept_sites {
 template <class Real>
 struct Current_weights {
   static constexpr bool keeps = false;
-  // More than the last radius, and than that of the guard.
-  static constexpr Real plain_part = Real(1.15), guard_part = Real(1.02);
-  Real own_weight;
+  // More than the last radius, and than those of the guard and of its square.
+  static constexpr Real plain_part = Real(1.15), guard_part = Real(1.02), whole_part = Real(1.0001);
+  Real own_weight, own_now;
 
-  __device__ Real operator()(const Packed_site<Real>& site, int) const { return site.weight; }
+  __device__ explicit Current_weights(Real own) : own_weight(own), own_now(own) {}
+  __device__ Real listed(const Packed_site<Real>& site, int) const { return site.weight; }
+  __device__ Real current(const Packed_site<Real>& site, int) const { return site.weight; }
   __device__ Real reach_for(Real radius) const { return radius; }
 };
+
+/// What makes the lines within `radius` known when weights have grown by up to `growth`.
+template <class Real>
+__device__ inline Real reach_after_growth(Real radius, Real growth)
+{ return (radius + std::sqrt(radius * radius + 2 * growth)) / 2; }
 
 /// Sites are gathered, and kept, for the weights that `lists` were made for; so is the tree.
 template <class Real>
 struct Kept_weights {
   static constexpr bool keeps = true;
-  static constexpr Real plain_part = 2, guard_part = Real(1.25); // they serve for a while
+  // They serve for a while.
+  static constexpr Real plain_part = 2, guard_part = Real(1.15), whole_part = Real(1.1);
   const Kept_lists<Real>& lists;
-  Real own_weight, own_growth, all_growth;
+  const Packed_site<Real>* sites; ///< with the current weights
+  Real own_weight, own_now, own_growth, all_growth;
 
-  __device__ Kept_weights(const Kept_lists<Real>& l, int place, Real current)
-      : lists(l), own_weight(l.weights[place]), own_growth(current - own_weight),
+  __device__ Kept_weights(const Kept_lists<Real>& l, const Packed_site<Real>* s, int place)
+      : lists(l), sites(s), own_weight(l.weights[place]), own_now(s[place].weight),
+        own_growth(own_now - own_weight),
         all_growth(fmax(__ldcg(l.all_growth) - own_growth, Real(0)))
   {}
-  __device__ Real operator()(const Packed_site<Real>&, int place) const
-  { return lists.weights[place]; }
-  /// What makes the lines within `radius` known now.
-  __device__ Real reach_for(Real radius) const
-  { return (radius + std::sqrt(radius * radius + 2 * all_growth)) / 2; }
+  __device__ Real listed(const Packed_site<Real>&, int place) const { return lists.weights[place]; }
+  __device__ Real current(const Packed_site<Real>& site, int) const { return site.weight; }
+  using Record = Real;
+  __device__ Real record(int place) const { return sites[place].weight; }
+  __device__ Real current(Real record) const { return record; }
+  __device__ Real growth_of(int group) const { return __ldcg(lists.growth + group); }
+  __device__ Real reach_for(Real radius) const { return reach_after_growth(radius, all_growth); }
 };
 
 } // namespace device

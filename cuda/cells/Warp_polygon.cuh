@@ -32,7 +32,7 @@ struct Warp_polygon {
   }
 
   __device__ Real squared_radius(int lane) const
-  { return warp_max(lane < size ? x * x + y * y : Real(0)); }
+  { return warp_greatest(lane < size ? x * x + y * y : Real(0)); }
 
   __device__ bool touches_square(int lane) const
   { return __any_sync(full_warp, lane < size && edge < 0 && edge >= -4); }
@@ -41,10 +41,7 @@ struct Warp_polygon {
   {
     const int next = lane + 1 < size ? lane + 1 : 0;
     const Real nx = __shfl_sync(full_warp, x, next), ny = __shfl_sync(full_warp, y, next);
-    Real twice = lane < size ? x * ny - nx * y : Real(0);
-#pragma unroll
-    for (int step = 16; step > 0; step /= 2) twice += __shfl_xor_sync(full_warp, twice, step);
-    return twice / 2;
+    return warp_sum(lane < size ? x * ny - nx * y : Real(0)) / 2;
   }
 
   /// Keeps a x + b y <= c; see `Tangent_polygon::clip()`.

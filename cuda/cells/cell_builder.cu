@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_builder.h"
 
+#include "Cell_builder_passes.h"
 #include "clip_lists.cuh"
-#include "large_weight_passes.cuh"
 #include "search_lists.cuh"
 #include "second_pass.cuh"
 #include "sort_sites.cuh"
-#include "weight_passes.cuh"
 
 #include <algorithm>
 
@@ -19,12 +18,6 @@ namespace {
 // Calls of set_sites(): samples move by less than a spacing, so that their order serves for a
 // while.
 constexpr unsigned sort_every = 8;
-// Calls of set_weights(): the lists grow too short.
-constexpr unsigned list_every = 10;
-static_assert(list_every <= Large_pass_state::most_passes, "one look per making of the lists");
-// From here on the steps of the paper's passes are kernels of their own.
-constexpr int large_sites = 65536;
-int blocks(int n, int threads) { return (n + threads - 1) / threads; }
 } // namespace
 
 template <class Real>
@@ -132,6 +125,8 @@ void Cell_builder<Real>::set_sites(const Sites_arrays<Real>& arrays)
   }
   ++m_settings;
   m_list_use = List_use::none;
+  m_arrays = arrays;
+  m_are_weights_old = false;
   m_has_lists = m_are_lists_current = false;
   take(arrays, true);
 }
@@ -160,6 +155,8 @@ void Cell_builder<Real>::set_weights(const Sites_arrays<Real>& arrays)
 {
   m_list_use = m_has_lists && ++m_list_age < list_every ? List_use::read : List_use::make;
   m_are_lists_current = m_list_use == List_use::read;
+  m_arrays = arrays;
+  m_are_weights_old = false;
   take(arrays, false);
 }
 
@@ -178,7 +175,7 @@ void Cell_builder<Real>::construct(Cell_targets<Real>& targets, bool keep_lists)
 
   // Few groups: blocks of one warp spread over the multiprocessors; few cells: several lanes each.
   const int groups = blocks(m_sites, 32), processors = m_backend.multiprocessors();
-  if (m_list_use == List_use::none && groups <= 8 * processors) {
+  if (!keep_lists && groups <= 8 * processors) {
     constexpr int lanes = 4;
     const int warps = groups * lanes <= 4 * processors ? 1 : group_warps<Real>;
     group_cells_kernel<Real, lanes>
@@ -232,156 +229,17 @@ void Cell_builder<Real>::construct_by_warps(Cell_targets<Real>& targets)
 template <class Real>
 void Cell_builder<Real>::build(const Cell_outputs<Real>& out)
 {
+  if (m_are_weights_old) set_weights(m_arrays);
   Cell_targets<Real> targets;
   targets.out = out;
   construct(targets);
 }
 
 template <class Real>
-int Cell_builder<Real>::paper_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites,
-                                            const Real* density, const Real* first,
-                                            const Real* sixth,
-                                            const Multiplicative_weight_rule& rule, int passes,
-                                            const Cell_outputs<Real>& out)
-{
-  if (m_cells == 0) return 0;
-  if (m_sites > large_sites)
-    return large_weight_passes(arrays, sites, density, first, sixth, rule, passes, out);
-  constexpr int warps = pass_warps<Real>, threads = 32 * warps;
-  const std::size_t before = m_backend.bytes();
-  m_area.allocate(m_backend, m_cells);
-  m_pass_state.allocate(m_backend, 1);
-  // A warp for each cell; or one for each group, and others for the cells without lists.
-  const int processors = m_backend.multiprocessors(), groups = blocks(m_sites, 32);
-  const auto resident = [&](auto kernel) {
-    int most = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&most, kernel, threads, 0),
-          "weight passes");
-    return most;
-  };
-  const bool by_lists =
-      m_cells > resident(weight_passes_kernel<Real, false>) * processors * warps;
-  const auto kernel =
-      by_lists ? weight_passes_kernel<Real, true> : weight_passes_kernel<Real, false>;
-  const int wanted = by_lists ? groups + groups / 8 + 32 : std::max(m_cells, groups);
-  const int grid = processors * std::min(blocks(wanted, warps * processors), resident(kernel));
-  m_partials.allocate(m_backend, grid);
-  m_bytes += m_backend.bytes() - before;
-
-  Weight_pass_arguments<Real> a;
-  a.sites = m_packed.data();
-  a.caller_sites = sites;
-  a.density = density;
-  a.first = first;
-  a.sixth = sixth;
-  a.rule = rule;
-  a.partials = m_partials.data();
-  a.state = m_pass_state.data();
-  int done = 0;
-  for (bool again = true; again;) {
-    m_list_use = List_use::make;
-    m_are_lists_current = false;
-    take(arrays, false);
-    a.targets = Cell_targets<Real>();
-    a.targets.out.area = m_area.data();
-    // The masses to begin with, and the lists.
-    if (by_lists) construct(a.targets, true);
-    Weight_pass_state state;
-    m_backend.fill(m_pass_state.data(), state, 1);
-    a.view = view();
-    a.lists = lists();
-    a.targets.radius = m_radius.data();
-    a.targets.guard = m_guard.data();
-    a.targets.rest = m_rest.data();
-    a.links = {m_next.data(), m_previous.data()};
-    a.passes = passes - done < Weight_pass_state::most_passes ? passes - done
-                                                              : Weight_pass_state::most_passes;
-    void* parameters[] = {&a};
-    check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(kernel), grid, threads, parameters, 0,
-                                      m_backend.stream()),
-          "weight passes");
-    // Before a look at the state: nearly always these are the last weights.
-    m_list_use = List_use::read;
-    take(arrays, false);
-    build(out);
-    m_backend.download(&state, m_pass_state.data(), 1);
-    done += state.done;
-    again = !state.equal && done < passes && state.done > 0;
-  }
-  return done;
-}
-
-template <class Real>
-int Cell_builder<Real>::large_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites,
-                                            const Real* density, const Real* first,
-                                            const Real* sixth,
-                                            const Multiplicative_weight_rule& rule, int passes,
-                                            const Cell_outputs<Real>& out)
-{
-  const int sum_blocks = 8 * m_backend.multiprocessors();
-  const std::size_t before = m_backend.bytes();
-  m_area.allocate(m_backend, m_cells);
-  m_partials.allocate(m_backend, sum_blocks);
-  m_large_state.allocate(m_backend, 1);
-  m_bytes += m_backend.bytes() - before;
-
-  const cudaStream_t stream = m_backend.stream();
-  Large_pass_state* const device_state = m_large_state.data();
-  const Pass_masses<Real> masses{density, m_area.data(), first, sixth, rule};
-  Cell_outputs<Real> areas;
-  areas.area = m_area.data();
-  const auto use_lists = [&](List_use use) {
-    m_list_use = use;
-    m_are_lists_current = use == List_use::read;
-  };
-  use_lists(List_use::make);
-  take(arrays, false);
-  build(areas);
-  int done = 0;
-  bool renew = false; // the lists
-  for (bool equal = false; !equal && done < passes;) {
-    Large_pass_state state;
-    m_backend.fill(device_state, state, 1);
-    const int batch = std::min<int>(list_every, passes - done);
-    for (int pass = 0; pass < batch; ++pass) {
-      mean_mass_kernel<<<sum_blocks, sum_threads, 0, stream>>>(
-          m_cells, density, m_area.data(), m_partials.data(), m_tickets.data() + 1, device_state);
-      use_lists(renew && pass == 0 ? List_use::make : List_use::read);
-      m_backend.fill(m_all_growth.data(), Real(0), 1);
-      const int change_grid = blocks(m_sites, change_threads * changes_per_thread);
-      change_weights_kernel<<<change_grid, change_threads, 0, stream>>>(
-          masses, m_cells, m_order.data(), m_packed.data(), m_nodes.data(), Group_layout(m_sites),
-          lists(), m_list_use == List_use::read, device_state, pass,
-          m_open_counts.data() + (m_list_constructions - 1) % 2);
-      raise_weights_kernel<<<1, 1024, 0, stream>>>(m_nodes.data(), Group_layout(m_sites));
-      check(cudaGetLastError(), "weight passes");
-      build(areas);
-    }
-    m_backend.download(&state, device_state, 1);
-    int changes = 0; // a pass that finds all masses inside changes nothing, nor do those after it
-    while (changes < batch && state.outside[changes]) ++changes;
-    equal = changes < batch;
-    renew = state.open > blocks(m_sites, 32) / 16;
-    done += changes;
-  }
-
-  const bool subtract = m_cells == m_sites; // else they are relative to those of the features
-  if (subtract)
-    mean_weight_kernel<<<sum_blocks, sum_threads, 0, stream>>>(
-        m_sites, m_packed.data(), m_partials.data(), m_tickets.data() + 1, device_state);
-  give_weights_kernel<<<blocks(m_sites, 256), 256, 0, stream>>>(
-      m_sites, m_cells, m_order.data(), m_packed.data(), device_state, subtract, sites);
-  check(cudaGetLastError(), "weight passes");
-  use_lists(List_use::read);
-  take(arrays, false);
-  build(out);
-  return done;
-}
-
-template <class Real>
 void Cell_builder<Real>::polygons(int begin, int end, int* size, Real* x, Real* y, int* neighbor,
                                   unsigned char* status)
 {
+  if (m_are_weights_old) set_weights(m_arrays);
   Cell_targets<Real> targets;
   targets.out.status = status;
   targets.polygons = {begin, end, size, x, y, neighbor};

@@ -24,7 +24,7 @@ struct Cell_targets;
 /// Constructs cells on the backend's stream; all calls return before the work is done. Arrays are
 /// in the caller's order, which should follow a space-filling curve: then memory is read in runs.
 /// Coordinates lie in [-1, 1). Memory per site: 180 bytes with `float`, 241 with `double`; 12 more
-/// with features, 4 or 8 for `paper_weight_passes()`.
+/// with features; for the weight passes 4 or 8, where each site finds a warp 32 or 64.
 ///
 /// \tparam Real `float` or `double`.
 template <class Real>
@@ -54,6 +54,16 @@ public:
                           const Multiplicative_weight_rule& rule, int passes,
                           const Cell_outputs<Real>& out);
 
+  /// The same without waiting, where each site finds a warp; returns false where not, and does
+  /// nothing. `first` and `sixth` may both be null: they are found on the way. `arrays` must live
+  /// until the next sites or weights are set.
+  bool start_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
+                           const Real* first, const Real* sixth,
+                           const Multiplicative_weight_rule& rule, int passes,
+                           const Cell_outputs<Real>& out);
+  /// What the passes started last have come to, on the device.
+  const Weight_pass_state* weight_pass_state() const { return m_pass_state.data(); }
+
   /// Distances of the cells' sites to the first and to the sixth nearest site, `compatible` or of
   /// all; see `distance_to_neighbor()`. Null: not wanted.
   void neighbor_distances(bool compatible, Real* first, Real* sixth);
@@ -78,6 +88,10 @@ private:
   /// Sites: so few that a warp for each takes less time than one for 32 of them.
   int most_by_warps() const { return 128 * m_backend.multiprocessors(); }
   void link_features(const Sites_arrays<Real>& arrays);
+  int list_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
+                         const Real* first, const Real* sixth,
+                         const Multiplicative_weight_rule& rule, int passes,
+                         const Cell_outputs<Real>& out);
   int large_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
                           const Real* first, const Real* sixth,
                           const Multiplicative_weight_rule& rule, int passes,
@@ -88,6 +102,8 @@ private:
   Real m_cos_angle, m_guard_factor;
   int m_cells = 0, m_sites = 0;
   bool m_has_features = false;
+  Sites_arrays<Real> m_arrays;    // of the last call
+  bool m_are_weights_old = false; // they are in `m_arrays` only
   unsigned m_settings = 0;     // calls of set_sites() for these sites
   List_use m_list_use = List_use::none;
   bool m_has_lists = false;    // of the current positions, for several weights
@@ -115,7 +131,10 @@ private:
   Buffer<unsigned> m_open_lanes;
   Buffer<Real> m_area;         // paper_weight_passes() only, as what follows
   Buffer<double> m_partials;
+  Buffer<List_pass_state> m_list_state;
   Buffer<Weight_pass_state> m_pass_state;
+  Buffer<Pass_record<Real>> m_pass_records;
+  Buffer<Pass_counters<Real>> m_pass_counters;
   Buffer<Large_pass_state> m_large_state;
   Buffer<int> m_places, m_next, m_previous; // with features only
   Buffer<std::uint64_t> m_keys;

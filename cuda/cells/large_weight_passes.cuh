@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The passes of the paper's rule over the weights of many cells: a kernel for each step, since each
-// keeps the device busy. (Few cells: weight_passes.cuh.)
+// keeps the device busy. (Fewer cells: list_weight_passes.cuh and warp_weight_passes.cuh.)
 #ifndef CGAL_POWER_RTF_CUDA_LARGE_WEIGHT_PASSES_CUH
 #define CGAL_POWER_RTF_CUDA_LARGE_WEIGHT_PASSES_CUH
 
@@ -22,24 +22,25 @@ constexpr int sum_threads = 256;
 template <class F>
 __device__ inline void mean_over_grid(int n, F&& f, double* partials, unsigned* ticket, double* out)
 {
-  __shared__ double shared[32];
+  __shared__ Team_memory memory;
   __shared__ bool is_last;
-  double x[1] = {0};
+  Totals<1, 0> sum;
+  sum.clear();
   for (int i = blockIdx.x * sum_threads + threadIdx.x; i < n; i += gridDim.x * sum_threads)
-    x[0] += f(i);
-  sum_over_block(x, shared);
+    sum.add(0, f(i));
+  join_over_block(sum, memory);
   if (threadIdx.x == 0) {
-    partials[blockIdx.x] = x[0];
+    partials[blockIdx.x] = sum.sum(0);
     __threadfence();
     is_last = atomicAdd(ticket, 1u) == gridDim.x - 1;
   }
   __syncthreads();
   if (!is_last) return;
-  x[0] = 0;
-  for (int b = threadIdx.x; b < int(gridDim.x); b += sum_threads) x[0] += __ldcg(partials + b);
-  sum_over_block(x, shared);
+  sum.clear();
+  for (int b = threadIdx.x; b < int(gridDim.x); b += sum_threads) sum.add(0, __ldcg(partials + b));
+  join_over_block(sum, memory);
   if (threadIdx.x == 0) {
-    *out = x[0] / n;
+    *out = sum.sum(0) / n;
     *ticket = 0;
   }
 }

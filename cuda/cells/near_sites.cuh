@@ -11,21 +11,6 @@ namespace CGAL {
 namespace PowerRTF {
 namespace device {
 
-/// The least of numbers that are not negative, and of integers.
-__device__ inline int warp_least(int x)
-{
-#if __CUDA_ARCH__ >= 800
-  return __reduce_min_sync(full_warp, x);
-#else
-#pragma unroll
-  for (int step = 16; step > 0; step /= 2) x = min(x, __shfl_xor_sync(full_warp, x, step));
-  return x;
-#endif
-}
-__device__ inline float warp_least(float x)
-{ return __int_as_float(warp_least(__float_as_int(x))); }
-__device__ inline double warp_least(double x) { return warp_min(x); }
-
 /// Up to two groups of sites: the lane's ones. Their loads wait together.
 template <class Real>
 struct Site_batch {
@@ -66,21 +51,29 @@ struct Neighbor_distances {
   Real first, sixth;
 };
 
-/// Distances of the site at `place` to the nearest and to the sixth site of its patch, compatible
-/// by `cos_angle`; see `distance_to_neighbor()`. `guess` is where the search begins; `wanted`: how
-/// many are needed. (A call of its own: its registers would be those of all that need it.)
+/// What is compatible, by the cosine of the angle between normals (-2: everything).
+template <class Real>
+struct Neighbor_angles {
+  Real first, sixth;
+};
+
+/// Distances of the site at `place` to the nearest and to the sixth site of its patch that are
+/// compatible by `angles`; see `distance_to_neighbor()`. `guess` is where the search begins;
+/// `wanted`: 1 or 6. (A call of its own: its registers would be those of all that need it.)
 template <class Real>
 __device__ __noinline__ Neighbor_distances<Real>
 neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place, Real guess,
-                   Real cos_angle, int wanted, int lane)
+                   Neighbor_angles<Real> angles, int wanted, int lane)
 {
   constexpr Real infinity = Real(1e30);
   const Packed_site<Real> own_site = load(view.sites + place);
   const Packed_normal<Real> own = load(view.normals + place);
+  const auto distance = [=](Real d2) { return d2 < infinity ? std::sqrt(d2) : Real(0); };
   Group_query<Real> query;
   query.lo = query.hi = own_site.point;
   query.min_weight = infinity; // what is nearer than the radius, whatever the weights
   for (query.radius = guess > 0 ? guess : Real(1);; query.radius *= 2) {
+    Real first = infinity;
     Real nearest[6] = {infinity, infinity, infinity, infinity, infinity, infinity};
     int seen = 0;
     for_each_near_site(view, stack, query, lane, [&](const Site_batch<Real>& batch) {
@@ -91,9 +84,10 @@ neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place,
         if (other < 0 || other == place) continue;
         Real d2 = squared_length(batch.sites[l].point - own_site.point);
         const Packed_normal<Real>& normal = batch.normals[l];
-        if (!(d2 < nearest[5]) || normal.patch != own.patch ||
-            (cos_angle > -1 && !(dot(normal.normal, own.normal) > cos_angle)))
-          continue;
+        if (!(d2 < nearest[5] || d2 < first) || normal.patch != own.patch) continue;
+        const Real cosine = dot(normal.normal, own.normal);
+        if (!(angles.first > -1 && !(cosine > angles.first))) first = fmin(first, d2);
+        if (angles.sixth > -1 && !(cosine > angles.sixth)) continue;
 #pragma unroll
         for (int k = 0; k < 6; ++k) {
           const Real nearer = fmin(nearest[k], d2);
@@ -103,9 +97,9 @@ neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place,
       }
       return true;
     });
-    Neighbor_distances<Real> result{0, 0};
-    Real last = 0, needed = infinity;
-    for (int k = 0; k < wanted; ++k) { // the least of all lanes
+    first = warp_least(first);
+    Real last = 0, needed = first;
+    for (int k = 0; k < 6 && wanted == 6; ++k) { // the least of all lanes
       const Real least = warp_least(nearest[0]);
       const unsigned lanes = __ballot_sync(full_warp, nearest[0] == least);
       if (lane == __ffs(int(lanes)) - 1) {
@@ -114,12 +108,11 @@ neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place,
         nearest[5] = infinity;
       }
       if (least < infinity) last = least;
-      needed = least;
-      if (k == 0) result.first = std::sqrt(last);
+      needed = fmax(first, least);
     }
-    result.sixth = std::sqrt(last);
     // Within the query's radius nothing is missed.
-    if (needed <= query.radius * query.radius || seen == view.tree.items) return result;
+    if (needed <= query.radius * query.radius || seen == view.tree.items)
+      return {distance(first), std::sqrt(last)};
   }
 }
 

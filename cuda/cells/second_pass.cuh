@@ -6,19 +6,11 @@
 #ifndef CGAL_POWER_RTF_CUDA_SECOND_PASS_CUH
 #define CGAL_POWER_RTF_CUDA_SECOND_PASS_CUH
 
-#include "Warp_cell.cuh"
-#include "cell_outputs.cuh"
-
-#include <CGAL/PowerRTF/cells/clip_at_features.h>
+#include "warp_outputs.cuh"
 
 namespace CGAL {
 namespace PowerRTF {
 namespace device {
-
-/// The links of the patches' boundaries, as places; null: no features.
-struct Feature_links {
-  const int *next = nullptr, *previous = nullptr;
-};
 
 template <class Real>
 constexpr int second_warps = sizeof(Real) == 4 ? 4 : 2; // of a block: 48 KB of shared memory
@@ -37,39 +29,6 @@ __device__ inline Real guess_of_radius(const Group_view<Real>& view, int place, 
   if (__ffs(int(__ballot_sync(full_warp, d2 == first))) - 1 == lane) d2 = infinity;
   const Real second = warp_min(d2);
   return second < infinity ? std::sqrt(second) : first < infinity ? std::sqrt(first) : Real(1);
-}
-
-/// The cell in the warp's memory, for lane 0.
-template <class Real>
-__device__ inline Tangent_polygon<Real>& cell_in_memory(const Warp_cell<Real>& cell,
-                                                        Warp_cell_memory<Real>& memory, int lane)
-{
-  const Warp_polygon<Real>& polygon = cell.polygon();
-  const int neighbor = cell.neighbor();
-  Tangent_polygon<Real>& result = memory.polygon();
-  __syncwarp();
-  if (lane < polygon.size) {
-    result.x[lane] = polygon.x;
-    result.y[lane] = polygon.y;
-    result.neighbor[lane] = neighbor;
-  }
-  __syncwarp();
-  if (lane == 0) {
-    result.size = polygon.size;
-    result.overflow = polygon.overflow;
-  }
-  return result;
-}
-
-/// A call of its own: few cells need it, and its registers would be those of all.
-template <class Real>
-__device__ __noinline__ void
-cut_at_features(const Group_view<Real>& view, const Feature_links& links,
-                const Tangent_frame<Real>& frame, int place, Tangent_polygon<Real>& polygon)
-{
-  Sites_view<Real> sites;
-  sites.sites = reinterpret_cast<const Site<Real>*>(view.sites);
-  clip_at_features(sites, place, links.next, links.previous, frame, polygon);
 }
 
 /// Where the search for the sixth neighbour begins. `radius`: the cell's, or -guard radius.
@@ -93,18 +52,14 @@ __device__ inline void second_pass_cell(const Group_view<Real>& view,
   Kept_sites<Real> kept;
   Real guard = targets.guard[place];
   const Cell_status status =
-      cell.construct(Current_weights<Real>{view.sites[place].weight}, radius, guard,
+      cell.construct(Current_weights<Real>(cell.site().weight), radius, guard,
                      guess_of_sixth(view, radius), kept);
   radius = status == Cell_status::ok ? cell.radius() : -guard;
-  Tangent_polygon<Real>& polygon = cell_in_memory(cell, memory, lane);
   if (lane == 0) {
     if (radius != 0) targets.radius[id] = radius;
     targets.guard[place] = guard;
-    if (targets.polygons.size) write_polygon(view, targets.polygons, id, polygon);
-    if (view.has_features) cut_at_features(view, links, cell.frame(), place, polygon);
-    write_cell(view, targets.out, place, id, status, polygon, cell.frame());
   }
-  __syncwarp();
+  write_warp_cell(view, targets, links, memory, cell, place, id, status, lane);
 }
 
 /// One warp per cell. `next_count`: the counter of the next construction, to be cleared.
@@ -153,7 +108,7 @@ neighbor_distances_kernel(const __grid_constant__ Group_view<Real> view, Real co
   if (id >= view.cells) return;
   const Neighbor_distances<Real> d =
       neighbor_distances(view, stacks[threadIdx.x / 32], place, guess_of_sixth(view, radius[id]),
-                         cos_angle, sixth ? 6 : 1, lane);
+                         {cos_angle, cos_angle}, sixth ? 6 : 1, lane);
   if (lane != 0) return;
   if (first) first[id] = d.first;
   if (sixth) sixth[id] = d.sixth;

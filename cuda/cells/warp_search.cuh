@@ -31,6 +31,57 @@ __device__ inline Real warp_max(Real x)
   return x;
 }
 
+template <class Real>
+__device__ inline Real warp_sum(Real x)
+{
+#pragma unroll
+  for (int step = 16; step > 0; step /= 2) x += __shfl_xor_sync(full_warp, x, step);
+  return x;
+}
+
+/// The least of numbers that are not negative, and of integers.
+__device__ inline int warp_least(int x)
+{
+#if __CUDA_ARCH__ >= 800
+  return __reduce_min_sync(full_warp, x);
+#else
+#pragma unroll
+  for (int step = 16; step > 0; step /= 2) x = min(x, __shfl_xor_sync(full_warp, x, step));
+  return x;
+#endif
+}
+__device__ inline float warp_least(float x)
+{ return __int_as_float(warp_least(__float_as_int(x))); }
+/// The greatest of numbers that are not negative.
+__device__ inline float warp_greatest(float x)
+{
+#if __CUDA_ARCH__ >= 800
+  return __int_as_float(__reduce_max_sync(full_warp, __float_as_int(x)));
+#else
+  return warp_max(x);
+#endif
+}
+__device__ inline double warp_greatest(double x)
+{
+#if __CUDA_ARCH__ >= 800
+  const int high = __reduce_max_sync(full_warp, __double2hiint(x));
+  const unsigned low = __double2hiint(x) == high ? __double2loint(x) : 0;
+  return __hiloint2double(high, int(__reduce_max_sync(full_warp, low)));
+#else
+  return warp_max(x);
+#endif
+}
+__device__ inline double warp_least(double x)
+{
+#if __CUDA_ARCH__ >= 800
+  const int high = __reduce_min_sync(full_warp, __double2hiint(x));
+  const unsigned low = __double2hiint(x) == high ? __double2loint(x) : 0xffffffffu;
+  return __hiloint2double(high, int(__reduce_min_sync(full_warp, low)));
+#else
+  return warp_min(x);
+#endif
+}
+
 /// The larger one, whatever the order; for numbers that are not negative.
 __device__ inline void atomic_raise(float* p, float x)
 { atomicMax(reinterpret_cast<int*>(p), __float_as_int(x)); }
@@ -100,38 +151,52 @@ __device__ inline void search_sites(const Group_view<Real>& view, Search_stack& 
 }
 
 /// Calls `on_groups(reached, group)` on all lanes together; `reached`: the query is about sites of
-/// the lane's `group`.
+/// the lane's `group`. Small trees are searched without their upper levels: all loads wait
+/// together.
 template <class Real, class F>
 __device__ inline void search_groups(const Group_view<Real>& view, Search_stack& stack,
                                      const Group_query<Real>& query, int lane, F&& on_groups)
 {
-  const bool is_one_group = view.tree.levels == 1;
+  constexpr int most_rows = 4; // of 32 groups
+  const int groups = view.tree.nodes(0);
+  const bool is_small = groups <= 32 * most_rows;
   int size = 1;
-  if (lane == 0) stack.nodes[0] = view.tree.nodes() - 1;
+  if (!is_small && lane == 0) stack.nodes[0] = view.tree.nodes() - 1;
   __syncwarp();
   while (size > 0) {
-    const int node = stack.nodes[--size];
-    int level = 1, k = lane, child = 0;
-    bool reached = lane == 0;
-    if (!is_one_group) {
+    int first = 0, rows = 1;
+    unsigned reached = 0; // bit k: group first + 32 k + lane
+    --size;
+    if (is_small) {
+      rows = (groups + 31) / 32;
+#pragma unroll
+      for (int k = 0; k < most_rows; ++k) {
+        const int group = 32 * k + lane;
+        if (group >= groups) continue;
+        const Group_node<Real> box = load(view.nodes + group);
+        if (query.reaches(box.lo, box.hi, box.max_weight)) reached |= 1u << k;
+      }
+    } else {
+      const int node = stack.nodes[size];
+      int level = 1;
       while (node >= view.tree.first[level + 1]) ++level;
-      k = (node - view.tree.first[level]) * Group_layout::arity + lane;
-      child = view.tree.first[level - 1] + k;
-      reached = k < view.tree.below(level);
-      if (reached) {
+      first = (node - view.tree.first[level]) * Group_layout::arity;
+      const int child = view.tree.first[level - 1] + first + lane;
+      if (first + lane < view.tree.below(level)) {
         const Group_node<Real> box = load(view.nodes + child);
         reached = query.reaches(box.lo, box.hi, box.max_weight);
       }
-    }
-    __syncwarp();
-    if (level == 1) {
-      on_groups(reached, k);
-    } else {
-      const unsigned lanes = __ballot_sync(full_warp, reached);
-      if (reached) stack.nodes[size + __popc(lanes & ((1u << lane) - 1))] = child;
-      size += __popc(lanes);
       __syncwarp();
+      if (level > 1) {
+        const unsigned lanes = __ballot_sync(full_warp, reached != 0);
+        if (reached) stack.nodes[size + __popc(lanes & ((1u << lane) - 1))] = child;
+        size += __popc(lanes);
+        __syncwarp();
+        continue;
+      }
     }
+#pragma unroll 1
+    for (int k = 0; k < rows; ++k) on_groups((reached >> k & 1) != 0, first + 32 * k + lane);
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include <cuda_runtime.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -45,21 +46,21 @@ __global__ void for_each_kernel(int n, F f)
 }
 
 template <class F>
-__global__ void for_each_by_one_kernel(int n, F f)
+__global__ void for_each_by_one_kernel(int n, const __grid_constant__ F f)
 {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < n) f(i, Single_lane());
 }
 
 template <class F>
-__global__ void for_each_by_eight_kernel(int n, F f)
+__global__ void for_each_by_eight_kernel(int n, const __grid_constant__ F f)
 {
   const int i = (blockIdx.x * blockDim.x + threadIdx.x) / Eight_lanes::size;
   if (i < n) f(i, Eight_lanes());
 }
 
 template <class F>
-__global__ void for_each_by_warp_kernel(int n, F f)
+__global__ void for_each_by_warp_kernel(int n, const __grid_constant__ F f)
 {
   const int i = (blockIdx.x * blockDim.x + threadIdx.x) / Warp_lanes::size;
   if (i < n) f(i, Warp_lanes());
@@ -167,6 +168,26 @@ public:
     std::size_t m_size = 0, m_capacity = 0;
   };
 
+  /// One item that both host and device see: the device writes it through the bus, the host reads
+  /// it after `synchronize()`.
+  template <class T>
+  class Shared_item
+  {
+  public:
+    explicit Shared_item(Cuda_backend&)
+    {
+      check(cudaMallocHost(&m_item, sizeof(T)), "taking memory of the host");
+      *m_item = T();
+    }
+    ~Shared_item() { cudaFreeHost(m_item); }
+    Shared_item(const Shared_item&) = delete;
+    Shared_item& operator=(const Shared_item&) = delete;
+    T* data() { return m_item; }
+
+  private:
+    T* m_item = nullptr;
+  };
+
   /// \throws Cuda_error when the device is missing or cannot be used
   explicit Cuda_backend(int device);
   ~Cuda_backend();
@@ -201,7 +222,7 @@ public:
   void for_each_by_warps(int n, F f)
   {
     if (n <= 0) return;
-    constexpr int threads = 128, items = threads / Warp_lanes::size;
+    constexpr int items = Warp_lanes::in_block, threads = items * Warp_lanes::size;
     for_each_by_warp_kernel<<<(n + items - 1) / items, threads, 0, m_stream>>>(n, f);
     check(cudaGetLastError(), "starting a kernel");
   }
@@ -227,22 +248,22 @@ public:
       check(cudaGetLastError(), "starting a kernel");
       return;
     }
-    int per_multiprocessor = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_multiprocessor, grid_team_kernel<F>,
-                                                        grid_team_threads, 0),
-          "occupancy");
-    int blocks = (n + grid_team_threads - 1) / grid_team_threads;
-    const int most = per_multiprocessor * m_multiprocessors;
-    blocks = blocks < most ? blocks : most;
-    blocks = blocks < grid_team_blocks ? blocks : grid_team_blocks;
-    double* partials = m_partials.data();
-    void* arguments[] = {&f, &partials};
-    check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(grid_team_kernel<F>), dim3(blocks),
-                                      dim3(grid_team_threads), arguments, 0, m_stream),
-          "starting a cooperative kernel");
+    run_grid_team(std::min((n + grid_team_threads - 1) / grid_team_threads, most_team_blocks<F>()),
+                  f);
   }
 
-  /// The order of ascending keys; equal keys keep theirs. `keys` are lost.
+  /// The same with a thread for each item; false: there are not so many at a time.
+  template <class F>
+  bool run_resident_team(int n, F f)
+  {
+    const int blocks = (n + grid_team_threads - 1) / grid_team_threads;
+    if (blocks > most_team_blocks<F>()) return false;
+    run_grid_team(blocks, f);
+    return true;
+  }
+
+  /// The order of n points along the Morton curve, by their codes; those in one small cube keep
+  /// theirs. `keys` are lost.
   void sort_order(int n, std::uint64_t* keys, int* order);
 
   template <class T>
@@ -288,6 +309,25 @@ public:
 
 private:
   void release() noexcept;
+
+  template <class F>
+  int most_team_blocks() const
+  {
+    int per_multiprocessor = 0;
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_multiprocessor, grid_team_kernel<F>,
+                                                        grid_team_threads, 0),
+          "occupancy");
+    return std::min(per_multiprocessor * m_multiprocessors, grid_team_blocks);
+  }
+  template <class F>
+  void run_grid_team(int blocks, F f)
+  {
+    double* partials = m_partials.data();
+    void* arguments[] = {&f, &partials};
+    check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(grid_team_kernel<F>), dim3(blocks),
+                                      dim3(grid_team_threads), arguments, 0, m_stream),
+          "starting a cooperative kernel");
+  }
 
   static constexpr int small = 32768, few = 200000, most_totals = 128;
 

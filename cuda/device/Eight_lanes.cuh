@@ -30,7 +30,7 @@ struct Eight_lanes {
     return __shfl_xor_sync(mask(), x, distance, size);
   }
 
-  __device__ float least(float x) const
+  __device__ float least_of_eight(float x) const
   {
 #pragma unroll
     for (int step = size / 2; step > 0; step /= 2) x = fminf(x, exchanged(x, step));

@@ -27,8 +27,8 @@ namespace device
 struct Host_team {
   CGAL_POWER_RTF_HD int first() const { return 0; }
   CGAL_POWER_RTF_HD int stride() const { return 1; }
-  template <int N>
-  CGAL_POWER_RTF_HD void sum(double (&)[N])
+  template <class T>
+  CGAL_POWER_RTF_HD void join(T&)
   {
   }
 };
@@ -47,6 +47,18 @@ public:
 
   private:
     std::vector<T> m_items;
+  };
+
+  /// One item that both host and device see.
+  template <class T>
+  class Shared_item
+  {
+  public:
+    explicit Shared_item(Host_backend&) {}
+    T* data() { return &m_item; }
+
+  private:
+    T m_item{};
   };
 
   /// Calls `f(i)` for i in [0, n), in any order.
@@ -87,7 +99,14 @@ public:
     f(team);
   }
 
-  /// The order of ascending keys; equal keys keep theirs. `keys` are lost.
+  /// The same with a thread for each item, where there are so many.
+  template <class F>
+  bool run_resident_team(int, const F&)
+  {
+    return false;
+  }
+
+  /// The order of n points along the Morton curve, by their codes.
   void sort_order(int n, std::uint64_t* keys, int* order)
   {
     std::iota(order, order + n, 0);
@@ -110,6 +129,7 @@ public:
     std::fill(to, to + n, value);
   }
 
+  void synchronize() {}
   void start_clock() {}
   void stop_clock() {}
   double seconds() const { return 0; }

@@ -22,7 +22,7 @@ namespace device
 /// What a reduction gathers, in double precision.
 template <int Sums, int Maxima>
 struct Totals {
-  static constexpr int size = Sums + Maxima;
+  static constexpr int sums = Sums, size = Sums + Maxima;
   double values[size]; ///< the sums, then the maxima
 
   CGAL_POWER_RTF_HD void clear()

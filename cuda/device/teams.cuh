@@ -6,6 +6,8 @@
 #ifndef CGAL_POWER_RTF_CUDA_TEAMS_CUH
 #define CGAL_POWER_RTF_CUDA_TEAMS_CUH
 
+#include "Totals.h"
+
 #include <cooperative_groups.h>
 
 namespace CGAL
@@ -16,84 +18,124 @@ namespace device
 {
 
 constexpr int block_team_threads = 1024, block_team_items = 8192;
-constexpr int grid_team_threads = 256, grid_team_blocks = 1056, grid_team_sums = 4;
+constexpr int grid_team_threads = 256, grid_team_blocks = 1056;
+constexpr int most_team_totals = 8;
 
-/// Sums over the block's threads; the result is valid in all of them.
-template <int N>
-__device__ inline void sum_over_block(double (&x)[N], double* shared)
+/// What the threads of a block need to add up.
+struct Team_memory {
+  double of_warps[most_team_totals][32], totals[most_team_totals];
+};
+
+/// Joins the totals of a warp's lanes: that number k in lane 32 / Slots * k and those after it,
+/// where `Slots` >= T::size is a power of two. The lanes halve the numbers that each looks after.
+template <int Slots, class T>
+__device__ inline double join_over_warp(const T& totals)
 {
+  const int lane = threadIdx.x % 32;
+  double x[Slots];
+#pragma unroll
+  for (int k = 0; k < Slots; ++k) x[k] = k < T::size ? totals.values[k] : 0;
+  int first = 0, step = 16; // number of x[0]
+#pragma unroll
+  for (int half = Slots / 2; half > 0; half /= 2, step /= 2) {
+    const bool is_upper = lane & step;
+    if (is_upper) first += half;
+#pragma unroll
+    for (int k = 0; k < half; ++k) {
+      const double kept = is_upper ? x[k + half] : x[k], given = is_upper ? x[k] : x[k + half];
+      x[k] = T::joined(first + k, kept, __shfl_xor_sync(0xffffffffu, given, step));
+    }
+  }
+#pragma unroll
+  for (int rest = 16 / Slots; rest > 0; rest /= 2)
+    x[0] = T::joined(first, x[0], __shfl_xor_sync(0xffffffffu, x[0], rest));
+  return x[0];
+}
+
+/// Joins the totals of the block's threads; the result is valid in all of them.
+template <class T>
+__device__ inline void join_over_block(T& totals, Team_memory& memory)
+{
+  static_assert(T::size <= most_team_totals, "the totals have no room");
+  constexpr int slots = T::size > 4 ? 8 : T::size > 2 ? 4 : T::size;
   const int lane = threadIdx.x % 32, warp = threadIdx.x / 32, warps = blockDim.x / 32;
+  const double x = join_over_warp<slots>(totals);
+  if (lane % (32 / slots) == 0) memory.of_warps[lane / (32 / slots)][warp] = x;
+  __syncthreads();
+  for (int k = warp; k < T::size; k += warps) {
+    double y = memory.of_warps[k][lane < warps ? lane : 0];
+    if (lane >= warps && k < T::sums) y = 0;
 #pragma unroll
-  for (int k = 0; k < N; ++k)
-#pragma unroll
-    for (int step = 16; step > 0; step /= 2) x[k] += __shfl_xor_sync(0xffffffffu, x[k], step);
-  __syncthreads(); // `shared` may still be read
-  if (lane == 0)
-    for (int k = 0; k < N; ++k) shared[k * 32 + warp] = x[k];
+    for (int step = 16; step > 0; step /= 2)
+      y = T::joined(k, y, __shfl_xor_sync(0xffffffffu, y, step));
+    if (lane == 0) memory.totals[k] = y;
+  }
   __syncthreads();
 #pragma unroll
-  for (int k = 0; k < N; ++k) {
-    x[k] = lane < warps ? shared[k * 32 + lane] : 0;
-#pragma unroll
-    for (int step = 16; step > 0; step /= 2) x[k] += __shfl_xor_sync(0xffffffffu, x[k], step);
-  }
+  for (int k = 0; k < T::size; ++k) totals.values[k] = memory.totals[k];
 }
 
 struct Block_team {
-  double* shared;
+  Team_memory& memory;
 
   __device__ int first() const { return threadIdx.x; }
   __device__ int stride() const { return blockDim.x; }
-  template <int N>
-  __device__ void sum(double (&x)[N])
+  /// Joins the totals of all threads, for all of them.
+  template <class T>
+  __device__ void join(T& totals)
   {
-    sum_over_block(x, shared);
+    join_over_block(totals, memory);
   }
 };
 
 struct Grid_team {
-  double* shared;
-  double* partials; // of two sums in turn
+  Team_memory& memory;
+  double* partials; // of two joinings in turn
   int turn;
+
+  static constexpr int warp = 32;
+  /// Over the threads of this one's warp.
+  __device__ double sum_over_warp(double x) const
+  {
+#pragma unroll
+    for (int step = warp / 2; step > 0; step /= 2) x += __shfl_xor_sync(0xffffffffu, x, step);
+    return x;
+  }
 
   __device__ int first() const { return blockIdx.x * blockDim.x + threadIdx.x; }
   __device__ int stride() const { return gridDim.x * blockDim.x; }
-  template <int N>
-  __device__ void sum(double (&x)[N])
+  template <class T>
+  __device__ void join(T& totals)
   {
-    static_assert(N <= grid_team_sums, "the partial sums have no room");
-    double* const mine = partials + turn * grid_team_sums * grid_team_blocks;
+    double* const mine = partials + turn * most_team_totals * grid_team_blocks;
     turn = 1 - turn;
-    sum_over_block(x, shared);
-    if (threadIdx.x < N) {
+    join_over_block(totals, memory);
 #pragma unroll
-      for (int k = 0; k < N; ++k)
-        if (int(threadIdx.x) == k) mine[k * grid_team_blocks + blockIdx.x] = x[k];
-    }
+    for (int k = 0; k < T::size; ++k)
+      if (int(threadIdx.x) == k) mine[k * grid_team_blocks + blockIdx.x] = totals.values[k];
     cooperative_groups::this_grid().sync();
+    totals.clear();
 #pragma unroll
-    for (int k = 0; k < N; ++k) {
-      x[k] = 0;
+    for (int k = 0; k < T::size; ++k)
       for (int b = threadIdx.x; b < int(gridDim.x); b += blockDim.x)
-        x[k] += __ldcg(mine + k * grid_team_blocks + b);
-    }
-    sum_over_block(x, shared);
+        totals.values[k] = T::joined(k, totals.values[k], __ldcg(mine + k * grid_team_blocks + b));
+    join_over_block(totals, memory);
   }
 };
 
 template <class F>
 __global__ void __launch_bounds__(block_team_threads) block_team_kernel(const F f)
 {
-  __shared__ double shared[32 * grid_team_sums];
-  Block_team team{shared};
+  __shared__ Team_memory memory;
+  Block_team team{memory};
   f(team);
 }
 
 template <class F>
 __global__ void __launch_bounds__(grid_team_threads) grid_team_kernel(const F f, double* partials)
 {
-  __shared__ double shared[32 * grid_team_sums];
-  Grid_team team{shared, partials, 0};
+  __shared__ Team_memory memory;
+  Grid_team team{memory, partials, 0};
   f(team);
 }
 

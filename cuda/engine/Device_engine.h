@@ -11,6 +11,7 @@
 #include "../optimization/Device_lbfgs.h"
 #include "../optimization/Newton_solver.h"
 #include "../surface/Device_surface.h"
+#include "Summary_rule.h"
 #include "sample_rules.h"
 
 #include <CGAL/PowerRTF/cells/construct_cell.h>
@@ -38,7 +39,7 @@ template <class Cells, class = void>
 struct Makes_weight_passes : std::false_type {
 };
 template <class Cells>
-struct Makes_weight_passes<Cells, std::void_t<decltype(&Cells::paper_weight_passes)>>
+struct Makes_weight_passes<Cells, std::void_t<decltype(&Cells::start_weight_passes)>>
     : std::true_type {
 };
 
@@ -53,7 +54,7 @@ public:
                 Arguments&&... backend)
       : m_options(options), m_cos_angle(cosine(options.normal_angle)),
         m_backend(std::forward<Arguments>(backend)...), m_surface(m_backend, surface),
-        m_lbfgs(m_backend), m_long_lbfgs(m_backend), m_newton(m_backend)
+        m_lbfgs(m_backend), m_long_lbfgs(m_backend), m_newton(m_backend), m_summary(m_backend)
   {
     if (options.lbfgs_memory > long_memory)
       throw Cuda_error("the CUDA traits keep at most " + std::to_string(long_memory) +
@@ -101,9 +102,9 @@ public:
   double remember_best();
   template <class Lbfgs>
   void find_lbfgs_steps(Lbfgs& lbfgs);
-  void find_lloyd_steps();
   void part_duplicates();
-  void project();
+  template <class Step>
+  void project(const Step& step);
 
 private:
   template <class T>
@@ -121,6 +122,11 @@ private:
             m_cos_angle,
             Real(m_options.centroid_density_power)};
   }
+  Usable_rule<Real> usable_rule()
+  {
+    return {m_area.data(), m_mass.data(), m_density.data(), m_status.data(), m_mean_mass};
+  }
+  Lloyd_step<Real> lloyd_step() { return {usable_rule(), m_offset.data()}; }
   /// Its mean mass is filled in on the device.
   Multiplicative_weight_rule weight_rule() const
   {
@@ -187,7 +193,9 @@ private:
   } m_best;
 
   Buffer<Device_summary> m_summary_buffer;
-  Device_summary m_summary; // of the current cells, when it is valid
+  typename Backend::template Shared_item<Iteration_summary> m_summary; // when it is known
+  double m_mean_mass = 0;             // of the first cells; 0: there was no look at them
+  const int* m_passes_made = nullptr; // by the cell builder, where the summary shall tell
   bool m_is_summary_started = false, m_is_summary_known = false;
   bool m_are_cells_due = false; // until something needs them
   bool m_are_distances_known = false, m_are_components_known = false;

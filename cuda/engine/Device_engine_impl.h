@@ -23,11 +23,11 @@ namespace device
 template <class R, class B, class C>
 void Device_engine<R, B, C>::update_attributes()
 {
-  const Attribute_rule<R> rule = attribute_rule();
-  const Site<R>* const sites = m_sites.data();
-  const int* const facets = m_facets.data();
-  m_backend.for_each(
-      m_cells, [=] CGAL_POWER_RTF_HD(int i) { rule(i, sites[i].point, facets[i], Single_lane()); });
+  const Placed_attributes_rule<R> rule{attribute_rule(), m_sites.data(), m_facets.data()};
+  if (rule.attributes.over_facet)
+    m_backend.for_each_by_lanes(m_cells, rule);
+  else
+    m_backend.for_each_by_warps(m_cells, rule);
   set_sites();
 }
 
@@ -61,43 +61,15 @@ void Device_engine<R, B, C>::start_summary()
   if (m_is_summary_started) return;
   m_is_summary_started = true;
   finish_cells();
-  Device_summary* const s = m_summary_buffer.data();
-  const R *const area = m_area.data(), *const mass = m_mass.data(), *const rho = m_density.data();
-  const Vec3<R>* const offset = m_offset.data();
-  const unsigned char* const status = m_status.data();
-  const double gamma = m_options.capacity_tolerance;
-  const int n = m_cells;
-  m_backend.template reduce<7, 1>(
-      n,
-      [=] CGAL_POWER_RTF_HD(int i, Totals<7, 1>& t) {
-        const double m = double(rho[i]) * area[i];
-        t.add(0, m);
-        const double x = offset[i].x, y = offset[i].y, z = offset[i].z, d = x * x + y * y + z * z;
-        t.add(1, d);
-        if (status[i] == int(Cell_status::ok) && mass[i] > 0) t.add(2, d);
-        for (int k = 0; k < 4; ++k) t.add(3 + k, status[i] == k);
-        t.raise(0, -m);
-      },
-      [=] CGAL_POWER_RTF_HD(const Totals<7, 1>& t) {
-        s->mass = t.sum(0);
-        s->displacement = t.sum(1);
-        s->residual = t.sum(2);
-        for (int k = 0; k < 4; ++k) s->counts[k] = t.sum(3 + k);
-        s->least = -t.maximum(0);
-      });
-  m_backend.template reduce<2, 1>(
-      n,
-      [=] CGAL_POWER_RTF_HD(int i, Totals<2, 1>& t) {
-        const double deviation = std::fabs(double(rho[i]) * area[i] / (s->mass / n) - 1);
-        t.add(0, deviation <= gamma);
-        t.add(1, deviation * deviation);
-        t.raise(0, deviation);
-      },
-      [=] CGAL_POWER_RTF_HD(const Totals<2, 1>& t) {
-        s->inside = t.sum(0);
-        s->squares = t.sum(1);
-        s->largest = t.maximum(0);
-      });
+  Summary_rule<R> rule;
+  rule.usable = usable_rule();
+  rule.offset = m_offset.data();
+  rule.tolerance = m_options.capacity_tolerance;
+  rule.n = m_cells;
+  rule.passes = m_passes_made;
+  rule.result = m_summary_buffer.data();
+  rule.host_result = m_summary.data();
+  m_backend.run_team(m_cells, rule);
 }
 
 template <class R, class B, class C>
@@ -106,10 +78,11 @@ Device_summary Device_engine<R, B, C>::summary()
   if (!m_is_summary_known) {
     start_summary();
     m_backend.stop_clock();
-    m_backend.download(&m_summary, m_summary_buffer.data(), 1);
+    m_backend.synchronize();
     m_is_summary_known = true;
+    if (m_mean_mass == 0 && m_cells > 0) m_mean_mass = m_summary.data()->cells.mass / m_cells;
   }
-  return m_summary;
+  return m_summary.data()->cells;
 }
 
 template <class R, class B, class C>
@@ -168,12 +141,19 @@ template <class R, class B, class C>
 bool Device_engine<R, B, C>::optimize_weights(int passes)
 {
   if constexpr (Makes_weight_passes<C>::value) { // all in one kernel, the first cells too
-    m_are_cells_due = false;
-    find_distances();
-    m_constructions += m_cell_builder->paper_weight_passes(
-        sites(), m_sites.data(), m_density.data(), m_nearest.data(), m_sixth.data(), weight_rule(),
-        passes, outputs());
-    m_is_summary_known = m_is_summary_started = false;
+    m_are_cells_due = m_is_summary_known = m_is_summary_started = false;
+    if (m_cell_builder->start_weight_passes(sites(), m_sites.data(), m_density.data(), nullptr,
+                                            nullptr, weight_rule(), passes, outputs())) {
+      m_passes_made = &m_cell_builder->weight_pass_state()->done;
+      summary();
+      m_passes_made = nullptr;
+      m_constructions += m_summary.data()->passes;
+    } else { // too many
+      find_distances();
+      m_constructions += m_cell_builder->paper_weight_passes(
+          sites(), m_sites.data(), m_density.data(), m_nearest.data(), m_sixth.data(),
+          weight_rule(), passes, outputs());
+    }
   } else {
     for (int pass = 0; pass < passes && summary().inside < m_cells; ++pass) {
       update_weights();
@@ -269,17 +249,16 @@ template <class R, class B, class C>
 template <class Lbfgs>
 void Device_engine<R, B, C>::find_lbfgs_steps(Lbfgs& lbfgs)
 {
-  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). Cells
-  // that are not ok say nothing about it and would poison the memory.
+  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). What
+  // is not usable says nothing about it and would poison the memory.
   const Site<R>* const sites = m_sites.data();
-  const R *const mass = m_mass.data(), *const area = m_area.data();
-  const Vec3<R>* const offset = m_offset.data();
+  const Lloyd_step<R> other = lloyd_step();
   Vec3<R>* const step = m_step.data();
-  const unsigned char* const status = m_status.data();
   const auto gradient = [=] CGAL_POWER_RTF_HD(int i, Vec3<R>& g, R& inverse) {
-    const bool usable = status[i] == int(Cell_status::ok) && mass[i] > 0;
-    g = usable ? offset[i] * (-2 * mass[i]) : Vec3<R>{0, 0, 0};
-    inverse = usable ? 1 / (2 * mass[i]) : R(0);
+    const bool usable = other.usable(i);
+    const R mass = other.usable.mass[i];
+    g = usable ? other.offset[i] * (-2 * mass) : Vec3<R>{0, 0, 0};
+    inverse = usable ? 1 / (2 * mass) : R(0);
     return usable;
   };
   lbfgs.prepare([=] CGAL_POWER_RTF_HD(int i) { return sites[i].point; }, gradient);
@@ -288,27 +267,7 @@ void Device_engine<R, B, C>::find_lbfgs_steps(Lbfgs& lbfgs)
     Vec3<R> g;
     R inverse;
     const bool usable = gradient(i, g, inverse);
-    const bool empty = status[i] == int(Cell_status::empty);
-    step[i] = empty ? Vec3<R>{0, 0, 0} : offset[i] * R(0.5);
-    if (!usable) return;
-    const Vec3<R> d = direction(i, g, inverse);
-    const R longest = std::sqrt(area[i]) / 2, l = length(d);
-    step[i] = l > longest ? d * (longest / l) : d;
-  });
-}
-
-/// Lloyd's method: to the centre of mass.
-template <class R, class B, class C>
-void Device_engine<R, B, C>::find_lloyd_steps()
-{
-  const R* const mass = m_mass.data();
-  const Vec3<R>* const offset = m_offset.data();
-  Vec3<R>* const step = m_step.data();
-  const unsigned char* const status = m_status.data();
-  m_backend.for_each(m_cells, [=] CGAL_POWER_RTF_HD(int i) {
-    const bool usable = status[i] == int(Cell_status::ok) && mass[i] > 0;
-    const bool empty = status[i] == int(Cell_status::empty);
-    step[i] = offset[i] * R(empty ? 0 : usable ? 1 : 0.5);
+    step[i] = usable ? shortened(direction(i, g, inverse), other.usable.area[i]) : other(i);
   });
 }
 
@@ -331,16 +290,14 @@ void Device_engine<R, B, C>::part_duplicates()
 }
 
 template <class R, class B, class C>
-void Device_engine<R, B, C>::project()
+template <class Step>
+void Device_engine<R, B, C>::project(const Step& step)
 {
-  Projection_rule<R> rule;
-  rule.attributes = attribute_rule();
-  rule.sites = m_sites.data();
-  rule.steps = m_step.data();
-  rule.facets = m_facets.data();
-  rule.neighbors = m_options.projection_neighbors;
-  rule.to_nearest_facet = m_options.projection == Projection::nearest_facet;
-  if (rule.to_nearest_facet && rule.attributes.over_facet)
+  const bool to_nearest_facet = m_options.projection == Projection::nearest_facet;
+  const Projection_rule<R, Step> rule{
+      attribute_rule(), step, m_sites.data(), m_facets.data(), m_options.projection_neighbors,
+      to_nearest_facet};
+  if (to_nearest_facet && rule.attributes.over_facet)
     m_backend.for_each_by_lanes(m_cells, rule);
   else
     m_backend.for_each_by_warps(m_cells, rule);
@@ -357,14 +314,18 @@ void Device_engine<R, B, C>::move_samples(Position_method method)
     restore_best();
     lbfgs = false;
   }
+  const bool may_part = summary().counts[int(Cell_status::empty)] > 0;
+  const Lloyd_step<R> lloyd = lloyd_step();
+  if (!lbfgs && !may_part) return project(lloyd);
+  Vec3<R>* const steps = m_step.data();
   if (!lbfgs)
-    find_lloyd_steps();
+    m_backend.for_each(m_cells, [=] CGAL_POWER_RTF_HD(int i) { steps[i] = lloyd(i); });
   else if (has_short_memory())
     find_lbfgs_steps(m_lbfgs);
   else
     find_lbfgs_steps(m_long_lbfgs);
-  if (summary().counts[int(Cell_status::empty)] > 0) part_duplicates();
-  project();
+  if (may_part) part_duplicates();
+  project(Noted_step<R>{steps});
 }
 
 } // namespace device

@@ -50,6 +50,7 @@ void Device_engine<R, B, C>::set_samples(const Device_samples& samples)
   m_best.residual = std::numeric_limits<double>::infinity();
   m_cell_builder.reset(new C(m_backend, m_size, m_cos_angle, R(m_options.guard_factor)));
   m_constructions = 0;
+  m_mean_mass = 0;
   sort(samples);
   m_backend.start_clock();
   update_attributes();

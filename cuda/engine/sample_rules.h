@@ -8,7 +8,7 @@
 #include "../device/Single_lane.h"
 #include "../surface/Surface_view.h"
 
-#include <CGAL/PowerRTF/cells/Sites_view.h>
+#include <CGAL/PowerRTF/cells/construct_cell.h>
 
 #include <cmath>
 
@@ -53,12 +53,72 @@ struct Attribute_rule {
   }
 };
 
-/// Moves a sample by its step, back to the surface, where it takes its attributes.
+/// The attributes of samples that are where they should be.
 template <class Real>
+struct Placed_attributes_rule {
+  Attribute_rule<Real> attributes;
+  const Site<Real>* sites;
+  const int* facets;
+
+  template <class Lanes>
+  CGAL_POWER_RTF_HD void operator()(int i, Lanes lanes) const
+  {
+    attributes(i, sites[i].point, facets[i], lanes);
+  }
+};
+
+/// Whether a cell stands for the surface around its sample; see `Host_engine`.
+template <class Real>
+struct Usable_rule {
+  static constexpr double largest = 1.35; ///< mass over the mean of the first cells
+  const Real *area, *mass, *density;
+  const unsigned char* status;
+  double mean_mass;
+
+  CGAL_POWER_RTF_HD bool operator()(int i) const
+  {
+    return status[i] == int(Cell_status::ok) && mass[i] > 0 &&
+           double(density[i]) * area[i] <= largest * mean_mass;
+  }
+};
+
+/// At most half the side of a square of this area.
+template <class Real>
+CGAL_POWER_RTF_HD inline Vec3<Real> shortened(const Vec3<Real>& step, Real area)
+{
+  const Real longest = std::sqrt(area) / 2, l = length(step);
+  return l > longest ? step * (longest / l) : step;
+}
+
+/// Lloyd's method: to the centre of mass. A sample with an empty cell stays; half a step, and no
+/// long one, where the cell is not usable.
+template <class Real>
+struct Lloyd_step {
+  Usable_rule<Real> usable;
+  const Vec3<Real>* offset;
+
+  CGAL_POWER_RTF_HD Vec3<Real> operator()(int i) const
+  {
+    if (usable.status[i] == int(Cell_status::empty)) return {0, 0, 0};
+    if (usable(i)) return offset[i];
+    const Real area = usable.area[i], usual = Real(usable.mean_mass / usable.density[i]);
+    return shortened(offset[i] * Real(0.5), area < usual ? area : usual);
+  }
+};
+
+template <class Real>
+struct Noted_step {
+  const Vec3<Real>* steps;
+
+  CGAL_POWER_RTF_HD Vec3<Real> operator()(int i) const { return steps[i]; }
+};
+
+/// Moves a sample by its step, back to the surface, where it takes its attributes.
+template <class Real, class Step>
 struct Projection_rule {
   Attribute_rule<Real> attributes;
+  Step step;
   Site<Real>* sites;
-  const Vec3<Real>* steps;
   int* facets;
   int neighbors;
   bool to_nearest_facet;
@@ -67,7 +127,7 @@ struct Projection_rule {
   CGAL_POWER_RTF_HD void operator()(int i, Lanes lanes) const
   {
     const Surface_view<Real>& surface = attributes.surface;
-    const Vec3<Real> target = sites[i].point + steps[i], normal = attributes.normals[i];
+    const Vec3<Real> target = sites[i].point + step(i), normal = attributes.normals[i];
     const Surface_point<Real> q =
         to_nearest_facet ? project_to_nearest_facet(surface, target, normal, attributes.cos_angle,
                                                     facets[i], lanes)

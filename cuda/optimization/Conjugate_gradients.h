@@ -42,23 +42,24 @@ struct Conjugate_gradients {
   CGAL_POWER_RTF_HD void operator()(Team& team) const
   {
     const int n = a.n, first = team.first(), stride = team.stride();
-    double start[3] = {0, 0, 0}; // r . z, r . r, residuals above their limits
+    Totals<3, 0> sums; // r . z, r . r, residuals above their limits
+    sums.clear();
     for (int i = first; i < n; i += stride) {
       const double inverse = inverse_diagonal(i);
       if (!(inverse > 0)) r[i] = 0; // nothing can be done for this cell
       x[i] = p[0][i] = 0;
       z[i] = r[i] * inverse;
-      start[0] += r[i] * z[i];
-      start[1] += r[i] * r[i];
-      start[2] += std::fabs(r[i]) > limits[i];
+      add_residual(i, sums);
     }
-    team.sum(start);
-    const double enough = tolerance * tolerance * start[1];
-    double rz = start[0], rr = start[1], above = start[2], beta = 0;
-    for (int iteration = 0; iteration < most && rr > enough && above > 0; ++iteration) {
+    team.join(sums);
+    const double enough = tolerance * tolerance * sums.sum(1);
+    double rz = sums.sum(0), beta = 0;
+    for (int iteration = 0; iteration < most && sums.sum(1) > enough && sums.sum(2) > 0;
+         ++iteration) {
       const double* const before = p[iteration % 2];
       double* const now = p[1 - iteration % 2];
-      double curvature[1] = {0};
+      Totals<1, 0> curvature;
+      curvature.clear();
       for (int i = first; i < n; i += stride) {
         const double own = z[i] + beta * before[i];
         double sum = a.diagonal[i] * own;
@@ -78,30 +79,32 @@ struct Conjugate_gradients {
         }
         now[i] = own;
         q[i] = sum;
-        curvature[0] += own * sum;
+        curvature.add(0, own * sum);
       }
-      team.sum(curvature);
-      if (!(curvature[0] > 0)) break;
-      const double alpha = rz / curvature[0];
-      double next[3] = {0, 0, 0};
+      team.join(curvature);
+      if (!(curvature.sum(0) > 0)) break;
+      const double alpha = rz / curvature.sum(0);
+      sums.clear();
       for (int i = first; i < n; i += stride) {
         x[i] += alpha * now[i];
         r[i] -= alpha * q[i];
         z[i] = r[i] * inverse_diagonal(i);
-        next[0] += r[i] * z[i];
-        next[1] += r[i] * r[i];
-        next[2] += std::fabs(r[i]) > limits[i];
+        add_residual(i, sums);
       }
-      team.sum(next);
-      beta = next[0] / rz;
-      rz = next[0];
-      rr = next[1];
-      above = next[2];
+      team.join(sums);
+      beta = sums.sum(0) / rz;
+      rz = sums.sum(0);
     }
-    if (rr < 1e300) return;
+    if (sums.sum(1) < 1e300) return;
     for (int i = first; i < n; i += stride) x[i] = 0; // not a number: no direction
   }
 
+  CGAL_POWER_RTF_HD void add_residual(int i, Totals<3, 0>& sums) const
+  {
+    sums.add(0, r[i] * z[i]);
+    sums.add(1, r[i] * r[i]);
+    sums.add(2, std::fabs(r[i]) > limits[i]);
+  }
   CGAL_POWER_RTF_HD double inverse_diagonal(int i) const
   {
     return a.diagonal[i] > 0 ? 1 / a.diagonal[i] : 0;

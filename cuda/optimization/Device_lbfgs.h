@@ -197,8 +197,10 @@ public:
           Vec3<Real> y[slots];
           if (state->has_last) {
             const std::size_t place = std::size_t(state->order[count]) * n + i;
-            steps[place] = p - last_points[i];
-            changes[place] = g - last_gradient[i];
+            const Vec3<Real> unknown{0, 0, 0}; // what such a point did is not remembered
+            const bool is_known = !(g == unknown) && !(last_gradient[i] == unknown);
+            steps[place] = is_known ? p - last_points[i] : unknown;
+            changes[place] = is_known ? g - last_gradient[i] : unknown;
           }
           last_points[i] = p;
           last_gradient[i] = g;

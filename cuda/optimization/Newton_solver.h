@@ -9,7 +9,7 @@
 
 #include "../cells/cell_arrays.h"
 #include "../device/Totals.h"
-#include "Conjugate_gradients.h"
+#include "Resident_gradients.h"
 #include "component_trees.h"
 
 #include <cmath>
@@ -248,6 +248,11 @@ void Newton_solver<Real, Backend>::set_residual(const Real* area, const Real* de
 template <class Real, class Backend>
 void Newton_solver<Real, Backend>::iterate()
 {
+  const int most = 200 + 4 * int(std::sqrt(double(m_n)));
+  const Resident_gradients<Real> resident{
+      rows(),          m_x.data(), m_r.data(), {m_p[0].data(), m_p[1].data()},
+      m_limits.data(), tolerance,  most};
+  if (m_backend.run_resident_team(m_n, resident)) return;
   Conjugate_gradients<Real> solver;
   solver.a = rows();
   solver.x = m_x.data();
@@ -258,7 +263,7 @@ void Newton_solver<Real, Backend>::iterate()
   solver.p[1] = m_p[1].data();
   solver.limits = m_limits.data();
   solver.tolerance = tolerance;
-  solver.most = 200 + 4 * int(std::sqrt(double(m_n)));
+  solver.most = most;
   m_backend.run_team(m_n, solver);
 }
 

@@ -9,6 +9,7 @@
 
 #include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace CGAL
@@ -60,9 +61,32 @@ public:
     m_view.vertex_tree = Packed_tree_layout(int(vertices.size()));
     m_view.first_facet = upload(backend, m_first_facet, in.first_facet);
     m_view.vertex_facets = upload(backend, m_vertex_facets, in.vertex_facets);
+    if (!vertices.empty()) list_near_vertices(backend);
   }
 
   const Surface_view<Real>& view() const { return m_view; }
+
+  /// Makes the vertices' lists, once: 260 bytes per vertex (`float`). Public for the device
+  /// compiler alone.
+  void list_near_vertices(Backend& backend)
+  {
+    constexpr int most = Surface_view<Real>::near_vertices;
+    const int n = m_view.vertex_tree.items;
+    m_near_lists.allocate(backend, std::size_t(n) * most);
+    m_near_reach.allocate(backend, n);
+    int* const lists = m_near_lists.data();
+    Real* const reach = m_near_reach.data();
+    const Surface_view<Real> view = m_view;
+    backend.for_each(n, [=] CGAL_POWER_RTF_HD(int v) {
+      const Vec3<Real> p = view.vertices[v];
+      int* const list = lists + std::size_t(v) * most;
+      const int count = nearest_vertices(view, p, most, list);
+      for (int k = count; k < most; ++k) list[k] = -1;
+      reach[v] = count < n ? length(view.vertices[list[count - 1]] - p) : Real(1e30);
+    });
+    m_view.near_lists = lists;
+    m_view.near_reach = reach;
+  }
 
 private:
   template <class T>
@@ -83,7 +107,8 @@ private:
   Buffer<Child_boxes> m_facet_nodes, m_vertex_nodes;
   Buffer<Vertex_attributes<Real>> m_attributes;
   Buffer<Vec3<Real>> m_vertices;
-  Buffer<int> m_first_facet, m_vertex_facets;
+  Buffer<int> m_first_facet, m_vertex_facets, m_near_lists;
+  Buffer<Real> m_near_reach;
 };
 
 } // namespace device

@@ -45,7 +45,53 @@ struct Surface_view {
   Packed_tree_layout vertex_tree;
   const int* first_facet = nullptr; ///< of a vertex in `vertex_facets`
   const int* vertex_facets = nullptr;
+  /// The `near_vertices` vertices nearest to each, itself first; -1: the surface has no more.
+  const int* near_lists = nullptr;
+  /// Distance of each to the last on its list: all vertices that are nearer are on it.
+  const Real* near_reach = nullptr;
+  static constexpr int near_vertices = 64;
 };
+
+/// A point that is to be projected onto the facets of one patch whose normals make less than Theta
+/// with its own.
+template <class Real>
+class Facet_query
+{
+public:
+  /// `hint`: a facet of the patch.
+  CGAL_POWER_RTF_HD Facet_query(const Surface_view<Real>& view, const Vec3<Real>& p,
+                                const Vec3<Real>& normal, Real cos_angle, int hint)
+      : m_view(view), m_point(p), m_normal(normal), m_cos_angle(cos_angle),
+        m_patch(view.patches ? view.patches[hint] : 0)
+  {
+  }
+
+  /// Its nearest point on the facet at `place`; facet -1 where that one does not count.
+  CGAL_POWER_RTF_HD Surface_point<Real> onto(int place) const
+  {
+    if (m_view.patches && m_view.patches[place] != m_patch) return {};
+    const Facet_corners<Real> f = m_view.facets[place];
+    if (m_cos_angle > -1 && !(dot(f.normal, m_normal) > m_cos_angle)) return {};
+    const Vec3<Real> q = nearest_point_on_triangle(m_point, f.a, f.b, f.c);
+    return {q, place, squared_length(q - m_point)};
+  }
+
+private:
+  const Surface_view<Real>& m_view;
+  Vec3<Real> m_point, m_normal;
+  Real m_cos_angle;
+  int m_patch;
+};
+
+/// Whether a projection is nearer than the best one so far; the lower key decides between equals.
+template <class Real>
+CGAL_POWER_RTF_HD inline bool is_nearer(const Surface_point<Real>& x, int key,
+                                        const Surface_point<Real>& best, int best_key)
+{
+  if (x.facet < 0) return false;
+  return best.facet < 0 || x.squared_distance < best.squared_distance ||
+         (x.squared_distance == best.squared_distance && key < best_key);
+}
 
 // The functions below that take lanes do the work in one thread, whatever the lanes; for some kinds
 // of lanes there are versions that share it.
@@ -102,20 +148,14 @@ CGAL_POWER_RTF_HD inline Surface_point<Real>
 project_to_nearest_facet(const Surface_view<Real>& view, const Vec3<Real>& p,
                          const Vec3<Real>& normal, Real cos_angle, int hint, Lanes)
 {
+  const Facet_query<Real> query(view, p, normal, cos_angle, hint);
   Surface_point<Real> best;
   float bound = 3e38f;
-  const int patch = view.patches ? view.patches[hint] : 0;
   const auto test = [&](int place) {
-    if (view.patches && view.patches[place] != patch) return;
-    const Facet_corners<Real> f = view.facets[place];
-    if (cos_angle > -1 && !(dot(f.normal, normal) > cos_angle)) return;
-    const Vec3<Real> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
-    const Real d = squared_length(q - p);
-    if (best.facet < 0 || d < best.squared_distance ||
-        (d == best.squared_distance && place < best.facet)) {
-      best = {q, place, d};
-      bound = bound_of(d);
-    }
+    const Surface_point<Real> x = query.onto(place);
+    if (!is_nearer(x, place, best, best.facet)) return;
+    best = x;
+    bound = bound_of(x.squared_distance);
   };
   test(hint);
   visit_near(
@@ -126,10 +166,10 @@ project_to_nearest_facet(const Surface_view<Real>& view, const Vec3<Real>& p,
   return best;
 }
 
-/// Most vertices that one search finds.
-constexpr int most_near_vertices = 32;
+/// Most vertices that one search in the tree finds.
+constexpr int most_near_vertices = 64;
 
-/// Writes the `k` vertices nearest to `p`, at most 32, by increasing distance, equal distances by
+/// Writes the `k` vertices nearest to `p`, at most 64, by increasing distance, equal distances by
 /// place. Returns their number.
 template <class Real>
 CGAL_POWER_RTF_HD inline int nearest_vertices(const Surface_view<Real>& view, const Vec3<Real>& p,
@@ -165,19 +205,14 @@ CGAL_POWER_RTF_HD inline Surface_point<Real>
 project_near_vertices(const Surface_view<Real>& view, const Vec3<Real>& p, const Vec3<Real>& normal,
                       Real cos_angle, int k, int hint, Lanes)
 {
-  const int patch = view.patches ? view.patches[hint] : 0;
+  const Facet_query<Real> query(view, p, normal, cos_angle, hint);
   int near[most_near_vertices];
   const int count = nearest_vertices(view, p, k, near);
-  Surface_point<Real> best;
+  Surface_point<Real> best; // the first of equal ones
   for (int l = 0; l < count; ++l)
     for (int at = view.first_facet[near[l]]; at < view.first_facet[near[l] + 1]; ++at) {
-      const int place = view.vertex_facets[at];
-      if (view.patches && view.patches[place] != patch) continue;
-      const Facet_corners<Real> f = view.facets[place];
-      if (!(dot(f.normal, normal) > cos_angle)) continue;
-      const Vec3<Real> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
-      const Real d = squared_length(q - p);
-      if (best.facet < 0 || d < best.squared_distance) best = {q, place, d};
+      const Surface_point<Real> x = query.onto(view.vertex_facets[at]);
+      if (is_nearer(x, 0, best, 0)) best = x;
     }
   return best;
 }
@@ -199,9 +234,33 @@ CGAL_POWER_RTF_HD inline Vertex_attributes<Real> attributes_of_facet(const Surfa
           alpha * a.density + beta * b.density + gamma * c.density};
 }
 
-/// The paper's means over the k_n and k_d nearest vertices of the patch of `facet` whose normals
-/// agree with the mean normal of the three nearest (Section 4.3); over the facet when there is
-/// none.
+/// The paper's means (Section 4.3) over the first of `count` >= 1 vertices, of which `of(l)` is the
+/// l-th nearest, as far as their normals agree with the mean normal of the three nearest.
+template <class Real, class Of>
+CGAL_POWER_RTF_HD inline Vertex_attributes<Real>
+mean_attributes(int count, Of of, int normal_neighbors, int density_neighbors, Real cos_angle)
+{
+  Vec3<Real> basic{0, 0, 0}, sum{0, 0, 0};
+  for (int l = 0; l < count && l < 3; ++l) basic += of(l).normal;
+  basic = normalized(basic);
+  Real densities = 0;
+  int compatible = 0;
+  for (int l = 0; l < count; ++l) {
+    const Vertex_attributes<Real> v = of(l);
+    if (!(dot(basic, v.normal) > cos_angle)) continue;
+    if (l < normal_neighbors) sum += v.normal;
+    if (l < density_neighbors) {
+      densities += v.density;
+      ++compatible;
+    }
+  }
+  const Vertex_attributes<Real> nearest = of(0);
+  return {squared_length(sum) > 0 ? normalized(sum) : nearest.normal,
+          compatible > 0 ? densities / compatible : nearest.density};
+}
+
+/// The paper's means over the k_n and k_d nearest vertices of the patch of `facet`; over the facet
+/// when there is none.
 template <class Real, class Lanes>
 CGAL_POWER_RTF_HD inline Vertex_attributes<Real>
 attributes_near_vertices(const Surface_view<Real>& view, const Vec3<Real>& p, int facet,
@@ -219,23 +278,9 @@ attributes_near_vertices(const Surface_view<Real>& view, const Vec3<Real>& p, in
         near[count++] = near[l];
     if (count == 0) return attributes_of_facet(view, p, facet);
   }
-  Vec3<Real> basic{0, 0, 0}, sum{0, 0, 0};
-  for (int l = 0; l < count && l < 3; ++l) basic += view.attributes[near[l]].normal;
-  basic = normalized(basic);
-  Real densities = 0;
-  int compatible = 0;
-  for (int l = 0; l < count; ++l) {
-    const Vertex_attributes<Real> v = view.attributes[near[l]];
-    if (!(dot(basic, v.normal) > cos_angle)) continue;
-    if (l < normal_neighbors) sum += v.normal;
-    if (l < density_neighbors) {
-      densities += v.density;
-      ++compatible;
-    }
-  }
-  const Vertex_attributes<Real> nearest = view.attributes[near[0]];
-  return {squared_length(sum) > 0 ? normalized(sum) : nearest.normal,
-          compatible > 0 ? densities / compatible : nearest.density};
+  return mean_attributes<Real>(
+      count, [&](int l) { return view.attributes[near[l]]; }, normal_neighbors, density_neighbors,
+      cos_angle);
 }
 
 } // namespace device

@@ -197,7 +197,15 @@ Made warp_cell(const Sites& sites, int i, Last& last, Kept_sites<float>* keep,
     Kept_sites<float> kept = keep ? *keep : Kept_sites<float>();
     float guard = before.guard;
     const float guess = before.radius > 0 ? 2 * before.radius : -before.radius / 3;
-    const Cell_status status = cell.construct(weights(), before.radius, guard, guess, kept);
+    Cell_status status = Cell_status::incomplete;
+    bool is_made = false;
+    float radius_before = before.radius;
+    if constexpr (decltype(weights())::keeps)
+      if (kept.place == i) {
+        is_made = cell.renew(weights(), kept, guard, status);
+        radius_before = cell.radius_to_begin(kept, status, guard);
+      }
+    if (!is_made) status = cell.construct(weights(), radius_before, guard, guess, kept);
     const double area = cell.polygon().area(lane);
     const float radius = status == Cell_status::ok ? cell.radius() : -guard;
     if (lane != 0) return;
@@ -252,14 +260,14 @@ TEST_CASE("a warp's cells are the shared ones")
       };
       const Made exact = exact_cell(exact_sites, i, c.cos_angle);
       check(warp_cell(current, i, last[i], nullptr,
-                      [&] { return Current_weights<float>{current.sites[i].weight}; }),
+                      [&] { return Current_weights<float>(current.sites[i].weight); }),
             exact);
       // From sites that the warp keeps: gathered for old weights, read again for the current ones.
       Kept_sites<float> kept;
       Last own = last[i];
       for (int k = 0; k < 2; ++k)
         check(warp_cell(sites, i, own, &kept,
-                        [&] { return Kept_weights<float>(lists, i, sites.sites[i].weight); }),
+                        [&] { return Kept_weights<float>(lists, sites.sites.data(), i); }),
               exact);
     }
     sites.change_weights(change);

@@ -639,6 +639,25 @@ TEST_CASE("L-BFGS on a quadratic energy")
   }
 }
 
+TEST_CASE("L-BFGS: a point without a gradient has no say")
+{
+  // The first point in a bowl that is twice as steep one way; the other leaps about, its gradient
+  // unknown (0) in most iterations: in none are two known ones in a row.
+  const auto gradient_at = [](const Vec3d& p) { return Vec3d{p.x, 2 * p.y, 1.5 * p.z}; };
+  Lbfgs<Sequential_tag> alone(5), both(5);
+  Vec3d p{1, 2, 3}, leap{10, -20, 30};
+  for (int k = 0; k < 8; ++k) {
+    const Vec3d one = alone.direction({p}, {gradient_at(p)}, {0.7})[0];
+    const bool is_known = k % 3 == 1;
+    const Vec3d two = both.direction({p, leap}, {gradient_at(p), is_known ? leap : Vec3d{0, 0, 0}},
+                                     {0.7, is_known ? 0.5 : 0.0})[0];
+    CHECK(length(one - two) <= 1e-14 * length(one));
+    p += one;
+    leap = Vec3d{leap.y, -leap.z, 1.5 * leap.x};
+  }
+  CHECK(length(p) < 1e-3); // it has learnt something
+}
+
 TEST_CASE("the engine: cells of the surface, Lloyd's steps, statistics")
 {
   const Surface surface = shapes::make_surface(shapes::icosphere(4));

@@ -16,6 +16,7 @@
 #include <vector>
 
 #define __device__
+#define __shared__ static
 #define __global__
 #define __noinline__
 #define __launch_bounds__(...)
@@ -101,6 +102,14 @@ private:
   alignas(8) char m_slots[2][lanes * sizeof(double)];
 };
 
+/// The threads of one warp.
+struct Host_thread_index {
+  struct Rank {
+    operator int() const { return Host_warp::lane(); }
+  } x;
+};
+constexpr Host_thread_index threadIdx{};
+
 inline void __syncwarp() { Host_warp::exchange(0); }
 template <class T>
 T __shfl_sync(unsigned, T x, int from)
@@ -110,6 +119,12 @@ T __shfl_xor_sync(unsigned, T x, int mask)
 {
   const int from = Host_warp::lane() ^ mask;
   return Host_warp::exchange(x)[from];
+}
+template <class T>
+T __shfl_up_sync(unsigned, T x, int distance)
+{
+  const int lane = Host_warp::lane();
+  return Host_warp::exchange(x)[lane < distance ? lane : lane - distance];
 }
 inline unsigned __ballot_sync(unsigned, bool x)
 {

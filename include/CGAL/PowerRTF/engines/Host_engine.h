@@ -91,6 +91,7 @@ public:
 
 private:
   using Frame = Tangent_frame<double>;
+  static constexpr double largest_usable = 1.35; // mass of a cell over the mean of the first cells
 
   int size() const { return static_cast<int>(m_free.size()); }
   int sites() const { return static_cast<int>(m_tree.sites.size()); }
@@ -107,7 +108,13 @@ private:
   { return internal::sum<ConcurrencyTag>(size(), [&](int k) { return f(m_free[k]); }); }
   double density_root(double density) const
   { return std::cbrt(std::pow(density, m_options.centroid_density_power)); }
-  bool usable(int i) const { return m_status[i] == Cell_status::ok && m_moments[i].mass > 0; }
+  /// Whether the cell stands for the surface around its sample. At tips that are narrower than the
+  /// spacing a tangent face reaches far beyond the surface; some of these would rule the energy.
+  bool usable(int i) const
+  {
+    return m_status[i] == Cell_status::ok && m_moments[i].mass > 0 &&
+           mass(i) <= largest_usable * m_mean_mass;
+  }
   void update_attributes();
   /// Calls `f` with the part of the cell that lies on the sample's patch.
   template <class Polygon, class F>
@@ -115,6 +122,12 @@ private:
   void center_weights();
   std::vector<Capacity_edge> capacity_edges();
   std::vector<Vec3d> lbfgs_steps();
+  /// At most half the side of a square of this area.
+  static Vec3d shortened(const Vec3d& step, double area)
+  {
+    const double longest = 0.5 * std::sqrt(area), l = length(step);
+    return l > longest ? step * (longest / l) : step;
+  }
   /// A sample with an empty cell stays, unless it lies on another sample: no weight could part them.
   Vec3d step_apart(int i) const;
   /// Returns the residual, the sum of |s_i - c_i|^2, over the least one so far.
@@ -135,6 +148,7 @@ private:
   std::vector<Cell_status> m_status;
   std::vector<Cell_moments<double>> m_moments;
   std::vector<Vec3d> m_offsets;     // c_i - s_i
+  double m_mean_mass = 0;           // of the first cells; 0: there were none yet
   std::vector<double> m_nearest;    // D_i, for the weights; empty after the samples have moved
   Lbfgs<ConcurrencyTag> m_lbfgs;
   struct Best_state { // where the residual of L-BFGS was least
@@ -149,6 +163,7 @@ template <class Tree, class Tag>
 void Host_engine<Tree, Tag>::set_samples(const Samples& samples, const Feature_samples& features)
 {
   const std::size_t free = samples.size(), n = free + features.sites.size();
+  m_mean_mass = 0;
   // The first neighbour search: a ball of radius 2 R that holds k samples.
   m_tree.resize(n, std::sqrt(m_options.neighbors * m_surface.area / (4 * 3.14159265358979 * n)));
   m_facets.resize(n);
@@ -219,6 +234,7 @@ void Host_engine<Tree, Tag>::build_cells()
         });
         m_offsets[i] = frame.u * m_moments[i].x + frame.v * m_moments[i].y;
       });
+  if (m_mean_mass == 0) m_mean_mass = sum([&](int i) { return mass(i); }) / size();
 }
 
 template <class Tree, class Tag>
@@ -345,8 +361,8 @@ bool Host_engine<Tree, Tag>::newton_weights()
 template <class Tree, class Tag>
 std::vector<Vec3d> Host_engine<Tree, Tag>::lbfgs_steps()
 {
-  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). Cells
-  // that are not ok say nothing about it and would poison the memory.
+  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). What is
+  // not usable says nothing about it and would poison the memory.
   std::vector<Vec3d> positions(sites()), gradient(sites(), {0, 0, 0});
   std::vector<double> inverse_diagonal(sites(), 0);
   for_each_sample([&](int i) {
@@ -397,10 +413,9 @@ void Host_engine<Tree, Tag>::move_samples(Position_method method)
     if (m_status[i] == Cell_status::empty) {
       steps[i] = step_apart(i);
     } else if (!usable(i)) {
-      steps[i] = m_offsets[i] * 0.5;
+      steps[i] = shortened(m_offsets[i] * 0.5, std::min(m_moments[i].area, m_mean_mass / m_density[i]));
     } else if (lbfgs) {
-      const double longest = 0.5 * std::sqrt(m_moments[i].area), l = length(steps[i]);
-      if (l > longest) steps[i] *= longest / l;
+      steps[i] = shortened(steps[i], m_moments[i].area);
     }
   });
   for_each_sample([&](int i) {

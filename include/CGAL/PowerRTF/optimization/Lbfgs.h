@@ -32,6 +32,7 @@ public:
 
   /// The descent direction at `positions` with gradient `gradient`; `inverse_diagonal[i]` is the
   /// initial inverse Hessian of point i. The first call after `clear()` gives a scaled gradient step.
+  /// A gradient of 0 says that none is known: what the point did is not remembered.
   Vectors direction(const Vectors& positions, const Vectors& gradient,
                     const std::vector<double>& inverse_diagonal)
   {
@@ -66,7 +67,10 @@ private:
   {
     const int n = static_cast<int>(positions.size());
     Pair p{Vectors(n), Vectors(n), 0};
+    const Vec3d unknown{0, 0, 0};
     internal::for_each_index<ConcurrencyTag>(n, [&](int i) {
+      p.step[i] = p.change[i] = unknown;
+      if (gradient[i] == unknown || m_last_gradient[i] == unknown) return;
       p.step[i] = positions[i] - m_last_positions[i];
       p.change[i] = gradient[i] - m_last_gradient[i];
     });

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Algorithm 2, lines 3 to 10: the passes of the paper's rule over the weights in one cooperative
-// kernel, for few sites. Special cells are made by warps of their own, which keep the sites that
-// may cut them in memory: all cells, where there are so many warps, else those without a kept list
-// (guarded, empty, at features); the others come from their lists at the same time, a lane each. A
-// pass has two barriers: before the mean mass, and before the new weights.
-#ifndef CGAL_POWER_RTF_CUDA_WEIGHT_PASSES_CUH
-#define CGAL_POWER_RTF_CUDA_WEIGHT_PASSES_CUH
+// kernel, where there are more sites than warps. Cells without a kept list (guarded, empty, at
+// features) are made by warps of their own, which keep the sites that may cut them in memory; the
+// others come from their lists at the same time, a lane each. A pass has two barriers: before the
+// mean mass, and before the new weights.
+#ifndef CGAL_POWER_RTF_CUDA_LIST_WEIGHT_PASSES_CUH
+#define CGAL_POWER_RTF_CUDA_LIST_WEIGHT_PASSES_CUH
 
 #include "Weight_pass_state.h"
 #include "group_cells.cuh"
@@ -22,7 +22,7 @@ namespace PowerRTF {
 namespace device {
 
 template <class Real>
-struct Weight_pass_arguments {
+struct List_pass_arguments {
   Group_view<Real> view;       ///< the tree: for the weights that the lists were made for
   Kept_lists<Real> lists;
   Cell_targets<Real> targets;  ///< out.area: of the current weights, if lists are; rest: scratch
@@ -33,7 +33,7 @@ struct Weight_pass_arguments {
   Multiplicative_weight_rule rule{};
   int passes = 0;
   double* partials = nullptr; ///< one per block
-  Weight_pass_state* state = nullptr;
+  List_pass_state* state = nullptr;
 };
 
 /// Sum over the block's threads, the same on all; in a fixed order.
@@ -92,17 +92,17 @@ private:
 };
 
 template <class Real>
-union Pass_memory {
+union List_pass_memory {
   Ring_memory<Real, 32> polygons;
   Warp_cell_memory<Real> special;
-  __device__ Pass_memory() {}
+  __device__ List_pass_memory() {}
 };
 
 /// The rounds of the kernel below, as a warp sees them.
-template <class Real, bool ByLists>
-class Weight_passes {
+template <class Real>
+class List_weight_passes {
 public:
-  __device__ Weight_passes(const Weight_pass_arguments<Real>& a, Pass_memory<Real>& memory)
+  __device__ List_weight_passes(const List_pass_arguments<Real>& a, List_pass_memory<Real>& memory)
       : m(a), m_memory(memory), m_lane(threadIdx.x % 32),
         m_warp(threadIdx.x / 32 * gridDim.x + blockIdx.x), m_warps(gridDim.x * blockDim.x / 32),
         m_groups(a.view.tree.nodes(0))
@@ -114,9 +114,9 @@ public:
     for (int group = m_warp; group < m_groups; group += m_warps) {
       const Own_cell cell = cell_of(group);
       const bool is_special =
-          cell.id >= 0 && (!ByLists || m.targets.radius[cell.id] < 0 ||
+          cell.id >= 0 && (m.targets.radius[cell.id] < 0 ||
                            m.lists.sizes[cell.place] == Kept_lists<Real>::none);
-      if (ByLists && is_special) m.lists.sizes[cell.place] = Kept_lists<Real>::none;
+      if (is_special) m.lists.sizes[cell.place] = Kept_lists<Real>::none;
       note(is_special, cell.place);
     }
   }
@@ -246,12 +246,15 @@ private:
     const int id = m.view.caller[place];
     Warp_cell_memory<Real>& memory = m_memory.special;
     Warp_cell<Real> cell(m.view, memory, place, m_lane);
-    const Kept_weights<Real> weights(m.lists, place, cell.site().weight);
-    Real last = m.targets.radius[id];
-    if (last == 0) last = guess_of_radius(m.view, place, m_lane);
+    const Kept_weights<Real> weights(m.lists, m.view.sites, place);
     Real guard = m.targets.guard[place];
-    const Cell_status status = cell.construct(weights, last, guard,
-                                              guess_of_sixth(m.view, last), m_kept);
+    Cell_status status = Cell_status::incomplete;
+    const bool is_kept = m_kept.place == place;
+    if (!is_kept || !cell.renew(weights, m_kept, guard, status)) {
+      Real last = is_kept ? cell.radius_to_begin(m_kept, status, guard) : m.targets.radius[id];
+      if (last == 0) last = guess_of_radius(m.view, place, m_lane);
+      status = cell.construct(weights, last, guard, guess_of_sixth(m.view, last), m_kept);
+    }
     const Real radius = status == Cell_status::ok ? cell.radius() : -guard;
     Real area = cell.polygon().area(m_lane);
     if (m.view.has_features) {
@@ -270,24 +273,22 @@ private:
     __syncwarp();
   }
 
-  const Weight_pass_arguments<Real>& m;
-  Pass_memory<Real>& m_memory;
+  const List_pass_arguments<Real>& m;
+  List_pass_memory<Real>& m_memory;
   int m_lane, m_warp, m_warps, m_groups;
   Kept_sites<Real> m_kept;
 };
 
 template <class Real>
-constexpr int pass_warps = sizeof(Real) == 4 ? 8 : 4; // of a block: 48 KB of shared memory
+constexpr int list_pass_warps = sizeof(Real) == 4 ? 8 : 4; // of a block: 48 KB of shared memory
 
-/// `ByLists`: of all cells but the special ones there are lists. Else all are special; more warps
-/// then find room.
-template <class Real, bool ByLists>
-__global__ void __launch_bounds__(32 * pass_warps<Real>, ByLists ? 2 : 3)
-weight_passes_kernel(const __grid_constant__ Weight_pass_arguments<Real> a)
+template <class Real>
+__global__ void __launch_bounds__(32 * list_pass_warps<Real>, 2)
+list_weight_passes_kernel(const __grid_constant__ List_pass_arguments<Real> a)
 {
   const cooperative_groups::grid_group grid = cooperative_groups::this_grid();
-  __shared__ Pass_memory<Real> memories[pass_warps<Real>];
-  Weight_passes<Real, ByLists> cells(a, memories[threadIdx.x / 32]);
+  __shared__ List_pass_memory<Real> memories[list_pass_warps<Real>];
+  List_weight_passes<Real> cells(a, memories[threadIdx.x / 32]);
   const int lane = threadIdx.x % 32;
 
   cells.begin();
@@ -297,15 +298,15 @@ weight_passes_kernel(const __grid_constant__ Weight_pass_arguments<Real> a)
   Mass_sum mass(0);
   Multiplicative_weight_rule rule = a.rule;
   for (int pass = 0;; ++pass) {
-    if (!ByLists || pass > 0) {
+    if (pass > 0) {
       mass.clear();
-      if (ByLists) cells.make_listed(mass);
+      cells.make_listed(mass);
 #pragma unroll 1
       for (int begin = 0;;) {
         cells.make_special(begin, specials, mass);
         mass.leave(&a.state->mass[pass], lane);
         grid.sync();
-        const int now = ByLists ? __ldcg(&a.state->specials) : specials;
+        const int now = __ldcg(&a.state->specials);
         if (now == specials) break;
         begin = specials; // those that the lists did not prove, shared by all warps
         specials = now;
@@ -322,7 +323,7 @@ weight_passes_kernel(const __grid_constant__ Weight_pass_arguments<Real> a)
     grid.sync();
     const bool equal = __ldcg(a.state->outside + pass) == 0;
     // Where many cells are not proved by their lists, new lists are better.
-    const bool is_slow = ByLists && specials > usual + a.view.cells / 8;
+    const bool is_slow = specials > usual + a.view.cells / 8;
     if (equal || pass + 1 == a.passes || is_slow) {
       if (grid.thread_rank() == 0) {
         a.state->done = pass + !equal;
@@ -346,4 +347,4 @@ weight_passes_kernel(const __grid_constant__ Weight_pass_arguments<Real> a)
 } // namespace PowerRTF
 } // namespace CGAL
 
-#endif // CGAL_POWER_RTF_CUDA_WEIGHT_PASSES_CUH
+#endif // CGAL_POWER_RTF_CUDA_LIST_WEIGHT_PASSES_CUH
