@@ -93,14 +93,24 @@ std::set<std::pair<int, int>> border_edges(const Extracted_mesh& mesh)
 TEST_CASE("triangle badness")
 {
   const Vec3d a{0, 0, 0}, b{1, 0, 0};
+  const double degree = std::acos(-1.) / 180;
   using internal::triangle_badness;
   const auto equilateral = triangle_badness(a, b, {0.5, std::sqrt(0.75), 0});
   CHECK(equilateral.badness == 0);
   CHECK(equilateral.inverse_mean_ratio == doctest::Approx(1));
-  // right-angled, 45 degrees: Q = sqrt(3) / ((2 + sqrt(2)) / 2 * sqrt(2))
-  const double q = std::sqrt(3.) / ((1 + std::sqrt(0.5)) * std::sqrt(2.));
-  CHECK(triangle_badness(a, b, {0, 1, 0}).badness ==
-        doctest::Approx(4 * std::pow(0.77 - q, 2) + 8 * std::pow(4 / 60., 2)));
+  // isosceles: Q = sqrt(3) height / (half the perimeter * the longest edge)
+  for (double apex = 1; apex < 170; apex += 0.5) {
+    CAPTURE(apex);
+    const double base = 2 * std::sin(apex / 2 * degree);
+    const double q =
+        2 * std::sqrt(3.) * std::sin(apex * degree) / ((2 + base) * std::max(1., base));
+    const double smallest = std::min(apex, 90 - apex / 2), largest = std::max(apex, 90 - apex / 2);
+    const double expected = 4 * std::pow(std::max(0., 0.77 - q), 2) +
+                            4 * std::pow(std::max(0., 41.5 - smallest) / 60, 2) +
+                            8 * std::pow(std::max(0., largest - 86) / 60, 2);
+    const Vec3d c{std::cos(apex * degree), std::sin(apex * degree), 0};
+    CHECK(triangle_badness(a, b, c).badness == doctest::Approx(expected).epsilon(0.05));
+  }
   CHECK(triangle_badness(a, b, {0, 1e3, 0}).badness > 1);
   CHECK(std::isinf(triangle_badness(a, b, {2, 0, 0}).badness));
   // the same at any size
@@ -129,14 +139,68 @@ TEST_CASE("smoothing finds the best place in a star, and leaves it")
     return sum;
   };
   internal::Star_mesh mesh(star, guide);
-  internal::Edge_flipper flipper(mesh.working(), 0);
-  internal::Star_smoother smoother(mesh, flipper);
+  internal::Star_smoother smoother(mesh);
   for (int i = 0; i < 10; ++i) smoother.sweep();
   const Vec3d p = mesh.point(internal::Star_mesh::Vertex(0));
   CHECK(energy(p) < energy(star.points[0]));
   for (int k = 0; k < 12; ++k) {
     const double angle = k * std::acos(-1.) / 6;
     CHECK(energy(p) < energy(p + 1e-3 * unit * Vec3d{std::cos(angle), std::sin(angle), 0}));
+  }
+}
+
+TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as a whole")
+{
+  const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
+  const Facet_tree tree(c.surface.points, c.surface.triangles);
+  const internal::Surface_guide guide(c.surface, tree);
+  internal::Star_mesh mesh(c.raw, guide);
+  using Vertex = internal::Star_mesh::Vertex;
+  const auto& m = mesh.working().mesh;
+  const auto state = [&](bool with_times) {
+    std::vector<double> s;
+    for (const Vertex v : m.vertices()) {
+      for (const Vec3d& x : {mesh.point(v), mesh.normal(v)}) s.insert(s.end(), {x.x, x.y, x.z});
+      s.insert(s.end(), {double(mesh.facet(v)), mesh.height(v), double(mesh.is_movable(v)),
+                         double(m.halfedge(v))});
+      if (with_times) s.push_back(double(mesh.changed_around(v)));
+    }
+    for (const auto h : m.halfedges())
+      s.insert(s.end(), {double(m.target(h)), double(m.next(h)), double(m.face(h))});
+    for (const auto f : m.faces()) s.push_back(double(m.halfedge(f)));
+    return s;
+  };
+
+  const std::vector<double> before = state(true);
+  std::size_t flips = 0;
+  for (const auto e : m.edges()) {
+    if (!mesh.is_flippable(e)) continue;
+    ++flips;
+    const auto memory = mesh.before_flip(e);
+    const auto time = mesh.now();
+    mesh.flip(e);
+    for (const Vertex v : memory.corners) {
+      CHECK(mesh.changed_around(v) > time);
+      mesh.move(v, mesh.project(v, 0.9 * mesh.point(v) + 0.1 * mesh.point(memory.corners[0])));
+    }
+    CHECK(state(true) != before);
+    mesh.undo_flip(memory);
+    CHECK(state(true) == before);
+  }
+  CHECK(flips > 500);
+
+  const std::vector<double> all = state(false);
+  const internal::Star_mesh copy = mesh;
+  const auto time = mesh.now();
+  const Vertex v(7);
+  mesh.pin(v);
+  REQUIRE(mesh.move_off(v, 1.05 * mesh.point(v)));
+  mesh.restore(copy);
+  CHECK(state(false) == all);
+  CHECK(mesh.now() > time);
+  for (const Vertex u : m.vertices()) {
+    const bool is_near = u == v || mesh.working().are_adjacent(u, v);
+    CHECK((mesh.changed_around(u) > time) == is_near);
   }
 }
 
@@ -249,6 +313,27 @@ TEST_CASE("a tree of the surface can be shared")
   const Extracted_mesh other = improved(c);
   CHECK(mesh.points == other.points);
   CHECK(mesh.triangles == other.triangles);
+}
+
+TEST_CASE("a tree whose facets have moved finds what a new one finds")
+{
+  Surface surface = shapes::make_surface(shapes::torus(40, 20, 1, 0.4));
+  Facet_tree tree(surface.points, surface.triangles);
+  for (Vec3d& p : surface.points) p = 0.7 * Vec3d{p.y + 0.2 * p.x * p.x, p.z, 0.5 * p.x};
+  tree.refit(surface.points, surface.triangles);
+  const Facet_tree fresh(surface.points, surface.triangles);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p{coordinate(random), coordinate(random), coordinate(random)};
+    const Vec3d normal = normalized(Vec3d{coordinate(random), coordinate(random), 0.1});
+    const auto a = nearest_facet(tree.view(), p, normal, 0.3, -1),
+               b = nearest_facet(fresh.view(), p, normal, 0.3, -1);
+    CHECK((a.facet < 0) == (b.facet < 0));
+    if (a.facet < 0) continue;
+    CHECK(a.squared_distance == b.squared_distance);
+    CHECK(length(a.point - b.point) <= 1e-12 * surface.area);
+  }
 }
 
 TEST_CASE("deterministic, and the same at any scale")

@@ -6,6 +6,7 @@
 performance.py            n = 1000 ... 100000; a million for the stages on regular, uniform samples
 performance.py --quick    n = 1000 and 10000
 performance.py --all      everything, whole runs of a million too: an hour or so
+performance.py --traits cuda          only these traits (cpu, exact, cuda)
 
 Installs and builds what is missing, as ./run_tests does, and runs the program `stages` (Google
 Benchmark). Results: results.md, stages.csv, stages.json (Google Benchmark's own) and, where
@@ -25,19 +26,22 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from common import (BUILD, ROOT, build, made_by, markdown, notice,  # noqa: E402
                     python_environment, update_block, write_csv)
 
+# {all}: the traits that are asked for; {fast}: without the exact ones
 FILTERS = {
-    "quick": ".*/(1000|10000)(/|$)",
+    "quick": "^[^/]*/({all})/.*/(1000|10000)(/|$)",
     # whole runs of a million, and 100000 exact ones, take minutes each
-    "default": "(.*/(1000|10000)(/|$)|.*/(cpu|cuda)/.*/100000(/|$)|"
-               "^([^w]|weight).*/(cpu|cuda)/[^/]*/regular/uniform/1000000(/|$))",
-    "all": ".*",
+    "default": "(^[^/]*/({all})/.*/(1000|10000)(/|$)|^[^/]*/({fast})/.*/100000(/|$)|"
+               "^([^w]|weight)[^/]*/({fast})/[^/]*/regular/uniform/1000000(/|$))",
+    "all": "^[^/]*/({all})/",
 }
+TRAITS = ["cpu", "exact", "cuda"]
 ORDER = ("neighbour_search", "construction", "weight_pass", "newton_step", "position_step",
          "projection", "sampling", "extraction", "improvement", "whole_run")
 
 
-def measure(program, target, which, min_time):
-    command = [program, f"--benchmark_filter={FILTERS[which]}", f"--benchmark_out={target}",
+def measure(program, target, which, traits, min_time):
+    names = FILTERS[which].format(all="|".join(traits), fast="|".join(t for t in traits if t != "exact"))
+    command = [program, f"--benchmark_filter={names}", f"--benchmark_out={target}",
                "--benchmark_out_format=json", f"--benchmark_min_time={min_time}"]
     with subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE,
                           text=True) as process:
@@ -152,6 +156,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--traits", nargs="+", choices=TRAITS, default=TRAITS)
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "output/performance",
                         metavar="FOLDER")
     parser.add_argument("--results", type=pathlib.Path, metavar="FOLDER",
@@ -175,11 +180,14 @@ def main():
     load = os.getloadavg()[0]
     which = "quick" if options.quick else "all" if options.all else "default"
     target = options.output / "stages.json"
-    measure(options.binaries / "stages", target, which, options.min_time)
+    measure(options.binaries / "stages", target, which, options.traits, options.min_time)
     data, wrong = series(json.loads(target.read_text(encoding="utf-8")))
     columns, rows = table(data)
     write_csv(options.results / "stages.csv", columns, rows)
-    footer = made_by(__file__, [f"--{which}"] if which != "default" else [])
+    arguments = [f"--{which}"] if which != "default" else []
+    if options.traits != TRAITS:
+        arguments += ["--traits", *options.traits]
+    footer = made_by(__file__, arguments)
     footer += f" Other work at the start: a load of {load:.1f}."
     text = ("# PowerRTF: the speed of its stages\n\n" + footer + "\n\nSamples per second (k: "
             "10^3, M: 10^6, G: 10^9); by CPU time for one thread, by real time for all. `samples`: "

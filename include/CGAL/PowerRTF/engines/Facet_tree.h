@@ -26,15 +26,26 @@ public:
     for (const Triangle& t : triangles)
       centers.push_back((points[t[0]] + points[t[1]] + points[t[2]]) * (1.0 / 3));
     m_places.resize(triangles.size());
+    m_facets.resize(triangles.size());
+    m_normals.resize(triangles.size());
+    m_nodes.resize(m_tree.nodes());
+    int place = 0;
     for (int f : internal::spatial_order(centers)) {
-      m_places[f] = static_cast<int>(m_facets.size());
-      const Triangle& t = triangles[f];
-      m_facets.push_back({points[t[0]], points[t[1]], points[t[2]], f});
-      m_normals.push_back(
-          normalized(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]])));
+      m_places[f] = place++;
       if (!patches.empty()) m_patches.push_back(patches[f]);
     }
-    m_nodes.resize(m_tree.nodes());
+    refit(points, triangles);
+  }
+
+  /// The same facets, moved; queries are fast as long as most are near where they were.
+  void refit(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
+  {
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      const Triangle& t = triangles[f];
+      const Vec3d &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+      m_facets[m_places[f]] = {a, b, c, static_cast<int>(f)};
+      m_normals[m_places[f]] = normalized(cross(b - a, c - a));
+    }
     std::vector<Box3<double>> boxes(m_tree.nodes());
     for (int level = 0; level < m_tree.levels; ++level)
       for (int k = 0; k < m_tree.nodes(level); ++k)

@@ -7,7 +7,6 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVE_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVE_MESH_H
 
-#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/improvement/cover_tips.h>
 #include <CGAL/PowerRTF/extraction/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>
@@ -35,8 +34,8 @@ public:
   /// \throw Invalid_input_error if `raw` is not an oriented 2-manifold
   Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw)
       : m_surface(surface), m_guide(surface, tree), m_raw(raw), m_locked(raw.points.size(), false),
-        m_raw_stars(raw, m_guide), m_raw_watch(m_raw_stars),
-        m_largest_distance(m_raw_watch.max_distance() +
+        m_raw_stars(raw, m_guide), m_watch(m_raw_stars),
+        m_largest_distance(m_watch.max_distance() +
                            worsening * std::sqrt(surface.area / double(raw.points.size())))
   {
   }
@@ -70,45 +69,54 @@ private:
   static constexpr int smoothing_steps = 3;
   static constexpr int mending_rounds = 8;
   static constexpr int sliding_rounds = 4;
-  static constexpr double far = 0.7;   // share of the maximal distance from which tips are covered
-  static constexpr double very_far = 0.45; // in units of sqrt(area / n): vertices move once more
-  static constexpr double rough = 0.3; // badness that the mending after it can heal
+  static constexpr double far = 0.7;       // share of the maximal distance: tips are covered
+  static constexpr double very_far = 0.4;  // in units of sqrt(area / n): vertices move once more
+  static constexpr double rough = 0.3;     // badness that the mending after it can heal
+  static constexpr double healable = 0.008; // the same around a vertex that has been put elsewhere
 
   void improve(Star_mesh& stars, int steps)
   {
-    Edge_flipper flipper(stars.working(), 0);
-    Star_smoother smoother(stars, flipper);
+    Star_smoother smoother(stars);
     for (int i = 0; i < steps; ++i) {
       smoother.flip();
       smoother.sweep();
     }
-    const auto mend = [&] { Star_mender(stars, flipper).run(mending_rounds); };
+    Star_mender mender(stars);
+    const auto mend = [&] { mender.run(mending_rounds); };
     mend();
     if (!m_raw.feature_edges.empty()) {
-      Feature_slider(stars, m_surface).run(sliding_rounds);
-      mend();
+      Feature_slider slider(stars, m_surface);
+      for (int i = 0; i < 2; ++i) {
+        slider.run(sliding_rounds);
+        mend();
+      }
     }
-    Surface_watch watch(m_raw_watch, stars);
-    watch.update();
-    Tip_coverer(stars, watch, rough).run(far);
+    m_watch.follow(stars);
+    Tip_coverer(stars, m_watch, rough).run(far);
     mend();
-    watch.update();
-    Surface_fitter(stars, watch, rough).run();
+    m_watch.update();
+    Surface_fitter(stars, m_watch, rough).run();
     mend();
-    if (Star_mender(stars, flipper).release_pinned() > 0) mend();
-    watch.update();
-    Vertex_relocator relocator(stars, flipper, watch);
+    if (mender.release_pinned() > 0) mend();
+    m_watch.update();
+    Vertex_relocator relocator(stars, mender, m_watch);
     const double too_far = very_far * std::sqrt(m_surface.area / double(stars.size()));
-    if (relocator.run(far) && watch.max_distance() > too_far) relocator.run(far);
-    if (Star_mender(stars, flipper).is_needed()) {
+    if (relocator.run(far) && relocator.farthest() > too_far) relocator.run(far);
+    if (mender.is_needed()) {
       mend();
-      watch.update();
+      m_watch.update();
     }
-    Tip_coverer(stars, watch, Triangle_badness::tolerable).run(far);
+    if (relocator.farthest() > too_far && !mender.is_needed()) {
+      const Star_mesh before = stars;
+      if (relocator.run(far, healable)) mend();
+      if (mender.is_needed()) stars.restore(before);
+      m_watch.update();
+    }
+    Tip_coverer(stars, m_watch, Triangle_badness::tolerable).run(far);
     m_too_far.clear();
-    for (int i = 0; i < watch.size(); ++i)
-      if (watch[i].distance > m_largest_distance)
-        m_too_far.push_back(stars.working().mesh.face(watch[i].face));
+    for (int i = 0; i < m_watch.size(); ++i)
+      if (m_watch[i].distance > m_largest_distance)
+        m_too_far.push_back(stars.working().mesh.face(m_watch[i].face));
   }
 
   // The faces that intersect others or are too far from the surface, but for those between locked
@@ -150,7 +158,7 @@ private:
   const Extracted_mesh& m_raw;
   std::vector<char> m_locked;
   Star_mesh m_raw_stars;
-  Surface_watch m_raw_watch;
+  Surface_watch m_watch;
   double m_largest_distance;
   std::vector<Face> m_too_far;
 };

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The mesh that the improvement works on: the working mesh, the place of each vertex on the
-// surface, and which vertices may move. A move is tried on the star of a vertex and kept only if it
-// folds nothing. The ends of feature edges and the vertices on borders never move; features have no
-// normal: what lies beside them is judged by its own side alone.
+// surface, which vertices may move, and when each has changed. A move is tried on the star of a
+// vertex and kept only if it folds nothing; a flip that is undone leaves no trace. The ends of
+// feature edges and the vertices on borders never move; features have no normal: what lies beside
+// them is judged by its own side alone.
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_STAR_MESH_H
 
@@ -17,8 +18,10 @@
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace CGAL
@@ -44,13 +47,15 @@ public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
+  /// Counts the changes of the mesh.
+  using Time = std::size_t;
 
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_guide& guide)
       : m_guide(&guide), m(refined(mesh)), m_heights(mesh.points.size(), 0),
         m_locked(mesh.points.size(), false), m_movable(mesh.points.size()),
         m_pinned(mesh.points.size(), false), m_on_feature(mesh.points.size(), false),
-        m_is_feature(m.mesh.number_of_edges(), false)
+        m_changed(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
   {
     const std::size_t n = mesh.points.size();
     for (const auto& [a, b] : mesh.feature_edges) {
@@ -87,6 +92,7 @@ public:
   {
     m_movable[v] = false;
     m_pinned[v] = true;
+    touch(v);
   }
   /// \returns whether `v` was pinned.
   bool release(Vertex v)
@@ -94,8 +100,23 @@ public:
     if (!m_pinned[v]) return false;
     m_pinned[v] = false;
     m_movable[v] = true;
+    touch(v);
     return true;
   }
+
+  /// The time of the last change.
+  Time now() const { return m_now; }
+  /// When `v` or a neighbour has last changed.
+  Time changed_around(Vertex v) const
+  {
+    Time last = m_changed[v];
+    if (m.mesh.is_isolated(v)) return last;
+    for (const Halfedge h : halfedges_around_target(v, m.mesh))
+      last = std::max(last, m_changed[m.mesh.source(h)]);
+    return last;
+  }
+  /// `v` counts as changed.
+  void touch(Vertex v) { m_changed[v] = ++m_now; }
 
   Vec3d point(Vertex v) const { return m.point(v); }
   const Vec3d& normal(Vertex v) const { return m.normals[v]; }
@@ -182,6 +203,75 @@ public:
     return least / l;
   }
 
+  /// True if the edge can be flipped without a change of topology.
+  bool is_flippable(Edge e) const
+  {
+    if (m.mesh.is_removed(e) || m.mesh.is_border(e)) return false;
+    const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
+    return !m.are_adjacent(m.mesh.target(m.mesh.next(h)), m.mesh.target(m.mesh.next(o)));
+  }
+
+  /// The corners of its two triangles: its ends and the two that a flip joins.
+  std::array<Vertex, 4> corners(Edge e) const
+  {
+    // not halfedge(e): that is the one that e was made from, and the order must not depend on it
+    const Halfedge h = m.mesh.halfedge(e, 0), o = m.mesh.halfedge(e, 1);
+    return {m.mesh.source(h), m.mesh.target(h), m.mesh.target(m.mesh.next(h)),
+            m.mesh.target(m.mesh.next(o))};
+  }
+
+  void flip(Edge e)
+  {
+    for (const Vertex v : corners(e)) touch(v);
+    Euler::flip_edge(m.mesh.halfedge(e), m.mesh);
+  }
+
+  /// What is around an edge, to bring it back after a flip and moves of its four corners.
+  struct Before_flip {
+    Edge edge;
+    std::array<Vertex, 4> corners;
+    std::array<Surface_guide::Place, 4> places;
+    std::array<Time, 4> changed;
+    std::array<Halfedge, 4> at_corners;
+    std::array<Halfedge, 2> at_faces;
+  };
+
+  Before_flip before_flip(Edge e) const
+  {
+    Before_flip b{e, corners(e), {}, {}, {}, {}};
+    for (int k = 0; k < 4; ++k) {
+      b.places[k] = place(b.corners[k]);
+      b.changed[k] = m_changed[b.corners[k]];
+      b.at_corners[k] = m.mesh.halfedge(b.corners[k]);
+    }
+    for (int k = 0; k < 2; ++k) b.at_faces[k] = m.mesh.halfedge(m.mesh.face(m.mesh.halfedge(e, k)));
+    return b;
+  }
+
+  /// \pre since `before_flip()`, no more has happened than the flip and moves on the surface.
+  void undo_flip(const Before_flip& b)
+  {
+    const Halfedge h = m.mesh.halfedge(b.edge);
+    for (int k = 0; k < 3; ++k) Euler::flip_edge(h, m.mesh); // four turns are a whole one
+    for (const Halfedge g : b.at_faces) m.mesh.set_halfedge(m.mesh.face(g), g);
+    for (int k = 0; k < 4; ++k) {
+      m.mesh.set_halfedge(b.corners[k], b.at_corners[k]);
+      move(b.corners[k], b.places[k]);
+      m_changed[b.corners[k]] = b.changed[k];
+    }
+  }
+
+  /// Brings back all that was in a copy. What has changed since then counts as changed now.
+  void restore(const Star_mesh& copy)
+  {
+    const Time now = m_now;
+    const std::vector<Time> changed = std::move(m_changed);
+    *this = copy;
+    m_now = now;
+    for (std::size_t v = 0; v < size(); ++v)
+      if (changed[v] != m_changed[v]) touch(Vertex(Vertex::size_type(v)));
+  }
+
   /// Takes a vertex out of the mesh: of the two ends of `h` one stays, as its target was.
   /// \pre both may move, the link condition holds, no feature is near
   /// \returns what stays.
@@ -192,6 +282,7 @@ public:
     const double height = m_heights[target];
     const Vertex kept = Euler::collapse_edge(m.mesh.edge(h), m.mesh);
     move(kept, there);
+    touch_around(kept);
     m_heights[kept] = height;
     return kept;
   }
@@ -205,6 +296,7 @@ public:
     Euler::split_face(o, m.mesh.next(m.mesh.opposite(first)), m.mesh);
     const Vertex v = m.mesh.target(first);
     move(v, place);
+    touch_around(v);
     m_heights[v] = 0;
     return v;
   }
@@ -218,7 +310,11 @@ public:
     m_facets[v] = place.facet;
   }
 
-  void set_point(Vertex v, const Vec3d& p) { m.mesh.point(v) = Working_mesh::Point(p.x, p.y, p.z); }
+  void set_point(Vertex v, const Vec3d& p)
+  {
+    m.mesh.point(v) = Working_mesh::Point(p.x, p.y, p.z);
+    touch(v);
+  }
 
   void write(Extracted_mesh& mesh) const
   {
@@ -243,12 +339,19 @@ private:
     return r;
   }
 
+  void touch_around(Vertex v)
+  {
+    for (const Halfedge h : halfedges_around_target(v, m.mesh)) touch(m.mesh.source(h));
+  }
+
   const Surface_guide* m_guide;
   Working_mesh m;
   std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
   std::vector<double> m_heights; // by vertex: over the surface
   std::vector<char> m_locked, m_movable, m_pinned, m_on_feature;
+  std::vector<Time> m_changed;    // by vertex: it or its edges
   std::vector<char> m_is_feature; // by edge
+  Time m_now = 1;
 };
 
 } // namespace internal

@@ -41,6 +41,12 @@ public:
     return place(nearest_facet(m_tree.view(), p, normal, largest_turn, hint));
   }
 
+  bool are_on_one_patch(int facet, int other) const
+  {
+    return !m_facets.patches ||
+           m_facets.patches[m_facets.places[facet]] == m_facets.patches[m_facets.places[other]];
+  }
+
   const Surface& surface() const { return m_surface; }
   /// The surface's facets in spatial order.
   const Facets_view<double>& facets() const { return m_facets; }

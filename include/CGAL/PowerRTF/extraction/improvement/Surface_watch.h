@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,7 @@ public:
     std::array<double, 3> barycentric; ///< of the nearest point: source, target, apex of `face`
     Vec3d nearest;
     double distance;
+    int facet; ///< of the surface, at the point
   };
 
   /// \pre `mesh` has a face
@@ -58,14 +60,19 @@ public:
     find_far();
   }
 
-  /// The same for a copy of that mesh.
-  Surface_watch(const Surface_watch& other, const Star_mesh& mesh) : Surface_watch(other)
+  /// Watches a copy of that mesh from now on.
+  void follow(const Star_mesh& copy)
   {
-    m_mesh = &mesh;
+    m_mesh = &copy;
+    m_updated = 0;
+    update();
   }
 
   int size() const { return int(m_points.size()); }
   const Watched& operator[](int i) const { return m_points[i]; }
+
+  /// Those that are nearest to a face.
+  const auto& at_face(Face f) const { return m_at_face[f]; }
 
   double max_distance() const
   {
@@ -77,7 +84,13 @@ public:
   /// After any changes of the mesh.
   void update()
   {
-    for (Watched& w : m_points) go_downhill(w);
+    std::vector<char> changed(m_mesh->size()); // by vertex: its star
+    for (const Vertex v : topology().vertices()) changed[v] = m_mesh->changed_around(v) > m_updated;
+    for (Watched& w : m_points)
+      if (changed[topology().source(w.face)] || changed[topology().target(w.face)] ||
+          changed[topology().target(topology().next(w.face))])
+        go_downhill(w);
+    m_updated = m_mesh->now();
     find_far();
   }
 
@@ -86,7 +99,7 @@ public:
   double farthest_around(Vertex v, const Vec3d& p,
                          double limit = std::numeric_limits<double>::infinity()) const
   {
-    const Faces faces = patch(v);
+    const Faces faces = patch(v, p);
     double farthest = 0;
     for (const Halfedge h : halfedges_around_target(v, topology()))
       if (!topology().is_border(h))
@@ -102,7 +115,7 @@ public:
   /// After `v` has moved.
   void update_around(Vertex v)
   {
-    const Faces faces = patch(v);
+    const Faces faces = patch(v, m_mesh->point(v));
     boost::container::small_vector<int, 64> watched;
     for (const Halfedge h : halfedges_around_target(v, topology())) {
       if (topology().is_border(h)) continue;
@@ -122,7 +135,13 @@ private:
   static constexpr double large = 0.25;         // distance, in units of sqrt(area / n)
   static constexpr int max_steps = 30;          // downhill
 
-  using Faces = boost::container::small_vector<Face, 32>;
+  // A face in a ball.
+  struct Bounded_face {
+    Halfedge halfedge;
+    Vec3d center;
+    double radius;
+  };
+  using Faces = boost::container::small_vector<Bounded_face, 32>;
 
   const Working_mesh::Mesh& topology() const { return m_mesh->working().mesh; }
 
@@ -147,7 +166,8 @@ private:
                               Halfedge(),
                               {1, 0, 0},
                               surface.points[v],
-                              0});
+                              0,
+                              f});
         }
         if (numbers[v] >= 0) m_points[numbers[v]].weight += surface.facet_areas[f] / 3;
       }
@@ -164,24 +184,26 @@ private:
     assign();
   }
 
+  // \pre all faces are there: what has been taken out has been put back elsewhere
   void find(const std::vector<Watched*>& some)
   {
     std::vector<Vec3d> points;
     std::vector<Triangle> triangles;
-    std::vector<Halfedge> halfedges;
     for (const Vertex v : topology().vertices()) points.push_back(m_mesh->point(v));
     for (const Face f : topology().faces()) {
       const Halfedge h = topology().halfedge(f);
-      halfedges.push_back(h);
       triangles.push_back({int(topology().source(h)), int(topology().target(h)),
                            int(topology().target(topology().next(h)))});
     }
-    const Facet_tree tree(points, triangles);
-    int hint = -1;
+    if (!m_tree)
+      m_tree.emplace(points, triangles);
+    else
+      m_tree->refit(points, triangles);
     for (Watched* w : some) {
-      hint = nearest_facet(tree.view(), w->point, w->normal, largest_turn, hint).facet;
-      if (hint < 0) hint = tree.nearest(w->point).facet; // none agrees: any
-      look_at(*w, halfedges[hint], Vertex(), {}, any);
+      const int hint = int(topology().face(w->face));
+      int f = nearest_facet(m_tree->view(), w->point, w->normal, largest_turn, hint).facet;
+      if (f < 0) f = m_tree->nearest(w->point, hint).facet; // none agrees: any
+      look_at(*w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
     }
   }
 
@@ -202,9 +224,7 @@ private:
   // With v at p.
   bool look_at(Watched& w, Halfedge h, Vertex v, const Vec3d& p, double distance) const
   {
-    const auto& mesh = topology();
-    const auto at = [&](Vertex u) { return u == v ? p : m_mesh->point(u); };
-    const Vec3d a = at(mesh.source(h)), b = at(mesh.target(h)), c = at(mesh.target(mesh.next(h)));
+    const auto [a, b, c] = corners(h, v, p);
     const Vec3d y = nearest_point_on_triangle(w.point, a, b, c);
     const double d = length(y - w.point);
     if (distance < any && !(d < distance && agrees(w, a, b, c))) return false;
@@ -247,23 +267,43 @@ private:
     }
   }
 
-  // The faces around v and its neighbours.
-  Faces patch(Vertex v) const
+  // The faces around v, which is at p, and its neighbours.
+  Faces patch(Vertex v, const Vec3d& p) const
   {
     const auto& mesh = topology();
-    Faces faces;
+    boost::container::small_vector<Face, 48> around;
     for (const Halfedge h : halfedges_around_target(v, mesh))
       for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
-        if (!mesh.is_border(g)) faces.push_back(mesh.face(g));
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        if (!mesh.is_border(g)) around.push_back(mesh.face(g));
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    Faces faces;
+    for (const Face f : around) {
+      const Halfedge h = mesh.halfedge(f);
+      const auto [a, b, c] = corners(h, v, p);
+      const Vec3d center = (a + b + c) * (1 / 3.);
+      const double squared_radius = std::max(
+          {squared_length(a - center), squared_length(b - center), squared_length(c - center)});
+      faces.push_back({h, center, std::sqrt(squared_radius)});
+    }
     return faces;
+  }
+
+  // With v at p.
+  std::array<Vec3d, 3> corners(Halfedge h, Vertex v, const Vec3d& p) const
+  {
+    const auto& mesh = topology();
+    const auto at = [&](Vertex u) { return u == v ? p : m_mesh->point(u); };
+    return {at(mesh.source(h)), at(mesh.target(h)), at(mesh.target(mesh.next(h)))};
   }
 
   void find(Watched& w, const Faces& faces, Vertex v, const Vec3d& p) const
   {
     look_at(w, w.face, v, p, any);
-    for (const Face f : faces) look_at(w, topology().halfedge(f), v, p, w.distance);
+    for (const Bounded_face& f : faces) {
+      const double reach = closer * length(w.point - f.center) - f.radius;
+      if (reach < w.distance) look_at(w, f.halfedge, v, p, w.distance);
+    }
   }
 
   static constexpr double disagreement = std::numeric_limits<double>::max();
@@ -272,6 +312,8 @@ private:
   static constexpr double closer = 1 - 1e-9; // what is less than this times is less
 
   const Star_mesh* m_mesh;
+  std::optional<Facet_tree> m_tree; // of the mesh's faces
+  Star_mesh::Time m_updated = 0;
   double m_far; // the least distance that is searched for in the whole mesh
   std::vector<Watched> m_points;
   std::vector<boost::container::small_vector<int, 12>> m_at_face; // by face: the points

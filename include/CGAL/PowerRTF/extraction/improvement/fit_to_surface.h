@@ -91,6 +91,7 @@ private:
   // What moves in the tangent plane cost; more where the samples are to be spaced evenly.
   static constexpr double sideways = 0.05, sideways_even = 0.3;
   static constexpr double upwards = 1e-3; // and those along the normal
+  static constexpr double alike = 0.5;    // cosine of normals of facets on one sheet
   // The weight of the surface's vertices, with 8 or more for each vertex of the mesh. The fewer
   // there are, the more they are a random choice: it falls with the square of their number.
   static constexpr double watched_share = 0.7, watched_fully = 8;
@@ -167,11 +168,30 @@ private:
     if (nearest < 0) return; // no corner can move
     const Vertex guide = mesh.source(edges[nearest]);
     n = squared_length(n) > 0 ? normalized(n) : m.normal(guide); // the middle of a feature edge
-    const auto place = m.guide().project(p, n, m.facet(guide));
+    const auto place = m.guide().project(p, n, near_facet(mesh.face(edges[0]), p, n, guide));
     if (place.facet < 0) return;
     const double distance = length(place.point - p);
     add(edges, barycentric, distance > 0 ? (place.point - p) * (1 / distance) : n, distance,
         weight);
+  }
+
+  // A facet near the point `p` of a face: that of `guide`, or of a point that is watched there, on
+  // the same patch, if it is nearer.
+  int near_facet(Working_mesh::Mesh::Face_index f, const Vec3d& p, const Vec3d& n,
+                 Vertex guide) const
+  {
+    int facet = m.facet(guide);
+    double least = squared_length(m.point(guide) - p);
+    for (const int i : m_watch.at_face(f)) {
+      const auto& w = m_watch[i];
+      const double d = squared_length(w.point - p);
+      if (!(d < least) || !(dot(w.normal, n) > alike) ||
+          !m.guide().are_on_one_patch(w.facet, m.facet(guide)))
+        continue;
+      facet = w.facet;
+      least = d;
+    }
+    return facet;
   }
 
   // A point with these barycentric coordinates is to move by `distance` along `direction`.

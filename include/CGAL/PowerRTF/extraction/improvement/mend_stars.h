@@ -3,11 +3,11 @@
 //
 // Targeted optimisation of the few bad triangles that smoothing leaves: the vertices around them
 // search their tangent planes for places with less energy, and edges are flipped where that, with
-// the search after it, lowers the energy. The rest of the mesh stays as it is.
+// the search after it, lowers the energy. The rest of the mesh stays as it is. What has failed is
+// not tried again before something near it has changed.
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_MEND_STARS_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_MEND_STARS_H
 
-#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
 
@@ -35,11 +35,12 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Edge = Star_mesh::Edge;
   using Face = Working_mesh::Mesh::Face_index;
+  using Time = Star_mesh::Time;
 
-  Star_mender(Star_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper)
+  explicit Star_mender(Star_mesh& mesh)
+      : m(mesh), m_anchors(mesh.size()), m_failed_searches(mesh.size(), 0),
+        m_failed_flips(mesh.working().mesh.number_of_edges(), 0)
   {
-    m_anchors.reserve(mesh.size());
-    for (const Vertex v : mesh.working().mesh.vertices()) m_anchors.push_back(mesh.point(v));
   }
 
   /// Whether a triangle is worse than tolerable.
@@ -97,6 +98,7 @@ private:
   // \returns the triangles that are left.
   std::vector<Face> run(int rounds, std::vector<Face> bad)
   {
+    set_anchors();
     double total = total_badness(bad);
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
       std::vector<Vertex> vertices;
@@ -187,10 +189,24 @@ private:
                    [](const auto& x) { return x.second; });
   }
 
-  // Looks for a place of less energy in eight directions, with shorter and shorter steps.
-  bool search(Vertex v)
+  void set_anchors()
   {
-    if (!m.is_movable(v)) return false;
+    for (const Vertex v : m.working().mesh.vertices())
+      if (!(m_anchors[v] == m.point(v))) {
+        m_anchors[v] = m.point(v);
+        m.touch(v);
+      }
+  }
+
+  void search(Vertex v)
+  {
+    if (m.is_movable(v) && m.changed_around(v) > m_failed_searches[v] && !move_to_better(v))
+      m_failed_searches[v] = m.now();
+  }
+
+  // Looks for a place of less energy in six directions, with shorter and shorter steps.
+  bool move_to_better(Vertex v)
+  {
     Star star = m.star(v);
     const Vec3d p = m.point(v), n = m.normal(v);
     sort_by_energy(star, p);
@@ -207,13 +223,12 @@ private:
     };
     const double start = energy(p, unlimited);
     double step = first_step * scale, least = start, su = 0, sw = 0;
-    constexpr double d = 0.7071067811865476;
-    constexpr double directions[8][2] = {{1, 0},  {d, d},   {0, 1},  {-d, d},
-                                         {-1, 0}, {-d, -d}, {0, -1}, {d, -d}};
+    constexpr double d = 0.8660254037844386;
+    constexpr double directions[6][2] = {{1, 0}, {.5, d}, {-.5, d}, {-1, 0}, {-.5, -d}, {.5, -d}};
     int halved = 0;
     for (int i = 0; i < max_steps && halved < halvings; ++i) {
       int best = -1;
-      for (int k = 0; k < 8; ++k) {
+      for (int k = 0; k < 6; ++k) {
         const double e =
             energy(p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w,
                    clearly * least);
@@ -254,13 +269,10 @@ private:
 
   bool flip_if_better(Edge e)
   {
-    auto& mesh = m.working().mesh;
-    if (!m.is_free(e) || !m_flipper.is_legal(e)) return false;
-    const Halfedge h = mesh.halfedge(e), o = mesh.opposite(h);
-    const std::array<Vertex, 4> corners{mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)),
-                                        mesh.target(mesh.next(o))};
+    if (!m.is_free(e) || !m.is_flippable(e)) return false;
+    const std::array<Vertex, 4> corners = m.corners(e);
     // a vertex of valence 3 or 4 cannot lose an edge; one of valence 8 is to get no more
-    const auto valence = [&](int k) { return int(mesh.degree(corners[k])); };
+    const auto valence = [&](int k) { return int(m.working().mesh.degree(corners[k])); };
     if (valence(0) < 5 || valence(1) < 5 || valence(2) > 7 || valence(3) > 7) return false;
     const auto shape = [&](int i, int j, int k) {
       return m.working().shape(corners[i], corners[j], corners[k]);
@@ -270,17 +282,22 @@ private:
                        std::max(valence(0), valence(1)) >= 9;
     if (std::min(shape(0, 3, 2), shape(1, 2, 3)) < (heals ? least_shape_if_healing : least_shape))
       return false; // hopeless
-    std::array<Surface_guide::Place, 4> before;
-    for (int k = 0; k < 4; ++k) before[k] = m.place(corners[k]);
+    Time changed = 0;
+    for (const Vertex v : corners) changed = std::max(changed, m.changed_around(v));
+    if (changed <= m_failed_flips[e]) return false;
+    const Star_mesh::Before_flip before = m.before_flip(e);
+    std::array<Time, 4> failed_searches;
+    for (int k = 0; k < 4; ++k) failed_searches[k] = m_failed_searches[corners[k]];
     const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);
-    m_flipper.flip(e);
+    m.flip(e);
     for (int pass = 0; pass < 2; ++pass)
       for (const Vertex v : corners) search(v);
     if (patch_energy(corners) < clearly * energy_before &&
         patch_agreement(corners) >= std::min(foldless, agreement - slack))
       return true;
-    m_flipper.flip(e);
-    for (int k = 0; k < 4; ++k) m.move(corners[k], before[k]);
+    m.undo_flip(before);
+    for (int k = 0; k < 4; ++k) m_failed_searches[corners[k]] = failed_searches[k];
+    m_failed_flips[e] = m.now();
     return false;
   }
 
@@ -322,8 +339,9 @@ private:
   }
 
   Star_mesh& m;
-  Edge_flipper& m_flipper;
-  std::vector<Vec3d> m_anchors;
+  std::vector<Vec3d> m_anchors;        // by vertex
+  std::vector<Time> m_failed_searches; // by vertex
+  std::vector<Time> m_failed_flips;    // by edge
 };
 
 } // namespace internal

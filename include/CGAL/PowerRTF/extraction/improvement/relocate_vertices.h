@@ -8,7 +8,6 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_RELOCATE_VERTICES_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_RELOCATE_VERTICES_H
 
-#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/extraction/improvement/Surface_watch.h>
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>
@@ -36,16 +35,17 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Edge = Star_mesh::Edge;
 
-  Vertex_relocator(Star_mesh& mesh, Edge_flipper& flipper, Surface_watch& watch)
-      : m(mesh), m_flipper(flipper), m_watch(watch),
+  Vertex_relocator(Star_mesh& mesh, Star_mender& mender, Surface_watch& watch)
+      : m(mesh), m_mender(mender), m_watch(watch),
         m_spacing(std::sqrt(mesh.guide().surface().area / double(mesh.size())))
   {
   }
 
-  /// Looks at what is farther away than `share` times the farthest. \returns whether anything has
-  /// changed.
-  bool run(double share)
+  /// Looks at what is farther away than `share` times the farthest. `tolerable`: badness of the
+  /// triangles that a change may leave. \returns whether anything has changed.
+  bool run(double share, double tolerable = Triangle_badness::tolerable)
   {
+    m_tolerable = tolerable;
     std::vector<Tip> tips = find_tips(share);
     if (tips.empty()) return false;
     const double farthest = tips.front().distance;
@@ -59,23 +59,30 @@ public:
         changed = true;
         continue;
       }
-      m = now;
+      m.restore(now);
       bool removed = false;
-      while (next < spare.size() && !(removed = remove(spare[next++]))) m = now;
+      while (next < spare.size() && !(removed = remove(spare[next++]))) m.restore(now);
       if (removed && insert(tip) && !intersects_near(tip.point)) {
         changed = true;
         continue;
       }
-      m = now;
+      m.restore(now);
       if (!changed) return false; // the farthest stays
     }
     if (!changed) return false;
     m_watch.update();
     tips = find_tips(share);
     if (tips.empty() || tips.front().distance < farthest) return true;
-    m = before;
+    m.restore(before);
     m_watch.update();
     return false;
+  }
+
+  /// The largest distance that is worth a look, or 0.
+  double farthest() const
+  {
+    const std::vector<Tip> tips = find_tips(1);
+    return tips.empty() ? 0 : tips.front().distance;
   }
 
 private:
@@ -89,7 +96,7 @@ private:
   };
 
   static constexpr int max_tips = 4, max_tries = 3; // whatever the size of the mesh
-  static constexpr double large = 0.3;              // distance, in units of sqrt(area / n)
+  static constexpr double large = 0.25;             // distance, in units of sqrt(area / n)
   static constexpr double apart = 3;                // of places that change, in the same unit
   static constexpr double steep = 0.5; // sine of the angle of an edge and the surface at its ends
   static constexpr double flat = 0.9;  // agreement of stars that can be spared
@@ -160,9 +167,9 @@ private:
     const auto& mesh = m.working().mesh;
     const Edge e = mesh.edge(tip.near);
     const Vertex v = mesh.source(tip.near);
-    if (!m_flipper.is_legal(e) || mesh.degree(v) < 4 || mesh.degree(mesh.target(tip.near)) < 4)
+    if (!m.is_flippable(e) || mesh.degree(v) < 4 || mesh.degree(mesh.target(tip.near)) < 4)
       return false;
-    m_flipper.flip(e);
+    m.flip(e);
     return is_good_around(mesh.source(mesh.halfedge(e))) && is_good_around(v) &&
            across(mesh.halfedge(e)).second < worthwhile * tip.distance;
   }
@@ -222,7 +229,7 @@ private:
   bool insert(const Tip& tip)
   {
     const Star_mesh before = m;
-    for (const double share : {1., 0.6}) {
+    for (const double share : {1., 0.6, 0.3}) {
       const Vec3d p = tip.mesh_point + share * (tip.point - tip.mesh_point);
       for (const Halfedge h : edges_to_split(tip, p)) {
         const Vertex v = m.split(h, m.guide().nearest(p));
@@ -230,7 +237,7 @@ private:
         release_around(v);
         m.pin(v);
         if (is_good_around(v)) return true;
-        m = before;
+        m.restore(before);
       }
     }
     return false;
@@ -283,7 +290,7 @@ private:
 
   bool is_good_around(Vertex v)
   {
-    return Star_mender(m, m_flipper).run_around(v, rounds) <= Triangle_badness::tolerable;
+    return m_mender.run_around(v, rounds) <= m_tolerable;
   }
 
   // Far places are often thin: what is on their other side must not be met.
@@ -299,9 +306,9 @@ private:
   }
 
   Star_mesh& m;
-  Edge_flipper& m_flipper;
+  Star_mender& m_mender;
   Surface_watch& m_watch;
-  double m_spacing;
+  double m_spacing, m_tolerable = 0;
 };
 
 } // namespace internal

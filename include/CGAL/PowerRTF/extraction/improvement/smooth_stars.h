@@ -8,7 +8,6 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H
 
-#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 
 #include <algorithm>
@@ -27,11 +26,9 @@ class Star_smoother
 {
 public:
   using Vertex = Star_mesh::Vertex;
-
-  using Halfedge = Star_mesh::Halfedge;
   using Edge = Star_mesh::Edge;
 
-  Star_smoother(Star_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper) {}
+  explicit Star_smoother(Star_mesh& mesh) : m(mesh) {}
 
   /// Flips edges until that does not help any more.
   void flip()
@@ -75,11 +72,8 @@ private:
 
   bool flip_if_better(Edge e)
   {
-    const auto& mesh = m.working().mesh;
     if (!m.is_free(e)) return false;
-    const Halfedge h = mesh.halfedge(e), o = mesh.opposite(h);
-    const Vertex a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h)),
-                 d = mesh.target(mesh.next(o));
+    const auto [a, b, c, d] = m.corners(e);
     const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
     const double now = term(pa, pb, pc) + term(pb, pa, pd),
                  then = term(pd, pc, pa) + term(pc, pd, pb);
@@ -87,8 +81,8 @@ private:
     const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
     if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) < std::min(flat, agreement))
       return false;
-    if (!m_flipper.is_legal(e)) return false;
-    m_flipper.flip(e);
+    if (!m.is_flippable(e)) return false;
+    m.flip(e);
     return true;
   }
 
@@ -138,7 +132,6 @@ private:
   }
 
   Star_mesh& m;
-  Edge_flipper& m_flipper;
 };
 
 } // namespace internal

@@ -30,42 +30,48 @@ struct Triangle_badness {
 };
 
 /// 4 (.77 - Q)+^2 + 4 ((41.5 - theta_min) / 60)+^2 + 8 ((theta_max - 86) / 60)+^2, Q as in
-/// triangle_quality.h, angles in degrees.
+/// triangle_quality.h, angles in degrees. They come, within some percent and without trigonometric
+/// functions, from tan(41.5 - theta_min) and cot 86 - cot theta_max: atan(x)^2 is nearly
+/// x^2 / (1 + 0.64 x^2) up to tan 41.5.
 inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
-  constexpr double quality = 0.77, smallest = 41.5, largest = 86, degrees = 57.29577951308232;
+  constexpr double least_quality = 0.77, quality_weight = 4;
+  constexpr double cot_smallest = 1.130294386361753, smallest_weight = 3.648; // 41.5 degrees
+  constexpr double cot_largest = 0.06992681194351034, largest_weight = 7.295; // 86 degrees
   constexpr double surely_good = 1.09; // the least of those with an angle of 41.5 degrees: 1.0901
-  constexpr double cos_smallest = 0.7489557207890021, cos_largest = 0.0697564737441253;
   Triangle_badness result;
   const Vec3d ab = b - a, ac = c - a;
-  const double twice_area = length(cross(ab, ac));
-  double s[3] = {squared_length(ab), squared_length(ac), squared_length(c - b)};
-  const double sum = s[0] + s[1] + s[2];
-  if (!(twice_area > 0)) {
+  const double squared_double_area = squared_length(cross(ab, ac));
+  if (!(squared_double_area > 0)) {
     result.badness = result.inverse_mean_ratio = std::numeric_limits<double>::infinity();
     return result;
   }
-  result.inverse_mean_ratio = sum / (2 * 1.7320508075688772 * twice_area);
+  const double s0 = squared_length(ab), s1 = squared_length(ac), s2 = squared_length(c - b);
+  const double sum = s0 + s1 + s2, quadruple_area = 2 * std::sqrt(squared_double_area);
+  result.inverse_mean_ratio = sum / (1.7320508075688772 * quadruple_area);
   if (result.inverse_mean_ratio < surely_good) return result;
-  if (s[0] > s[1]) std::swap(s[0], s[1]);
-  if (s[1] > s[2]) std::swap(s[1], s[2]);
-  if (s[0] > s[1]) std::swap(s[0], s[1]);
-  const double l0 = std::sqrt(s[0]), l1 = std::sqrt(s[1]), l2 = std::sqrt(s[2]);
-  // the divisions only for what is bad
-  const double q_above = 2 * 1.7320508075688772 * twice_area, q_below = (l0 + l1 + l2) * l2,
-               min_above = s[1] + s[2] - s[0], min_below = 2 * l1 * l2,
-               max_above = s[0] + s[1] - s[2], max_below = 2 * l0 * l1;
-  if (q_above < quality * q_below) {
-    const double x = quality - q_above / q_below;
-    result.badness += 4 * x * x;
+  // the cotangent of the angle opposite to the edge s: (sum - 2 s) / quadruple_area
+  const double shortest = std::min({s0, s1, s2}), longest = std::max({s0, s1, s2});
+  const double smallest_excess = sum - 2 * shortest - cot_smallest * quadruple_area;
+  if (smallest_excess > 0) {
+    const double below =
+        (1 + cot_smallest * cot_smallest) * quadruple_area + cot_smallest * smallest_excess;
+    const double x2 = smallest_excess * smallest_excess;
+    result.badness += smallest_weight * x2 / (below * below + 0.64 * x2);
   }
-  if (min_above > cos_smallest * min_below) {
-    const double x = (smallest - std::acos(std::min(1., min_above / min_below)) * degrees) / 60;
-    result.badness += 4 * x * x;
+  const double largest_excess = cot_largest * quadruple_area - (sum - 2 * longest);
+  if (largest_excess > 0) {
+    const double x2 = largest_excess * largest_excess;
+    result.badness += largest_weight * x2 / (4 * squared_double_area + 0.45 * x2);
   }
-  if (max_above < cos_largest * max_below) {
-    const double x = (std::acos(std::max(-1., max_above / max_below)) * degrees - largest) / 60;
-    result.badness += 8 * x * x;
+  // the square of the perimeter is at most 3 sum: most triangles need no more
+  if (12 * squared_double_area < 3 * least_quality * least_quality * sum * longest) {
+    const double q = 1.7320508075688772 * quadruple_area /
+                     ((std::sqrt(s0) + std::sqrt(s1) + std::sqrt(s2)) * std::sqrt(longest));
+    if (q < least_quality) {
+      const double x = least_quality - q;
+      result.badness += quality_weight * x * x;
+    }
   }
   return result;
 }
