@@ -153,6 +153,7 @@ public:
         arrive(&counters.arrivals);
         const unsigned expected = (pass + 1) * gridDim.x;
         while (*static_cast<volatile unsigned*>(&counters.arrivals) < expected) {}
+        __threadfence(); // one for the block: it empties the L1 cache of put-away registers, too
       }
       __syncwarp();
       Pass_totals all;
@@ -203,8 +204,7 @@ public:
   }
 
 private:
-  /// All that the block has written is seen by those who see this. They read it past the L1 cache:
-  /// with a fence they would lose what else that holds, registers that have been put away too.
+  /// All that the block has written is seen by those who see this and fence after it.
   __device__ static void arrive(unsigned* arrivals)
   { asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrivals) : "memory"); }
 

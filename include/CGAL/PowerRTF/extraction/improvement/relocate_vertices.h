@@ -96,7 +96,7 @@ private:
   };
 
   static constexpr int max_tips = 4, max_tries = 3; // whatever the size of the mesh
-  static constexpr double large = 0.25;             // distance, in units of sqrt(area / n)
+  static constexpr double large = 0.2;              // distance, in units of sqrt(area / n)
   static constexpr double apart = 3;                // of places that change, in the same unit
   static constexpr double steep = 0.5; // sine of the angle of an edge and the surface at its ends
   static constexpr double flat = 0.9;  // agreement of stars that can be spared
