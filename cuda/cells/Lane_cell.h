@@ -15,20 +15,30 @@ namespace CGAL {
 namespace PowerRTF {
 namespace device {
 
-/// By loads of 16 bytes.
-template <class T>
-CGAL_POWER_RTF_HD inline T load(const T* p)
+#ifdef __CUDACC__
+/// By loads of 16 bytes, each made by `load_word(address)`.
+template <class T, class Load_word>
+__device__ inline T load_words(const T* p, const Load_word& load_word)
 {
   static_assert(sizeof(T) % 16 == 0 && alignof(T) % 16 == 0, "loads of 16 bytes");
-#ifdef __CUDA_ARCH__
   union Bits {
     int4 words[sizeof(T) / 16];
     T value;
     __device__ Bits() {}
   } bits;
 #pragma unroll
-  for (int k = 0; k < int(sizeof(T) / 16); ++k) bits.words[k] = reinterpret_cast<const int4*>(p)[k];
+  for (int k = 0; k < int(sizeof(T) / 16); ++k)
+    bits.words[k] = load_word(reinterpret_cast<const int4*>(p) + k);
   return bits.value;
+}
+#endif
+
+/// By loads of 16 bytes where there are such.
+template <class T>
+CGAL_POWER_RTF_HD inline T load(const T* p)
+{
+#ifdef __CUDA_ARCH__
+  return load_words(p, [](const int4* word) { return *word; });
 #else
   return *p;
 #endif

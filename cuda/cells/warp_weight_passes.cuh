@@ -47,16 +47,7 @@ struct Warp_pass_arguments {
 template <class T>
 __device__ inline T load_from_all(const T* p)
 {
-  static_assert(sizeof(T) % 16 == 0 && alignof(T) % 16 == 0, "loads of 16 bytes");
-  union Bits {
-    int4 words[sizeof(T) / 16];
-    T value;
-    __device__ Bits() {}
-  } bits;
-#pragma unroll
-  for (int k = 0; k < int(sizeof(T) / 16); ++k)
-    bits.words[k] = __ldcg(reinterpret_cast<const int4*>(p) + k);
-  return bits.value;
+  return load_words(p, [](const int4* word) { return __ldcg(word); });
 }
 
 /// The weights of a pass: what the sites were gathered for are those to begin with.

@@ -249,8 +249,7 @@ template <class R, class B, class C>
 template <class Lbfgs>
 void Device_engine<R, B, C>::find_lbfgs_steps(Lbfgs& lbfgs)
 {
-  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). What
-  // is not usable says nothing about it and would poison the memory.
+  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i).
   const Site<R>* const sites = m_sites.data();
   const Lloyd_step<R> other = lloyd_step();
   Vec3<R>* const step = m_step.data();

@@ -8,7 +8,7 @@
 #include "../device/Single_lane.h"
 #include "../surface/Surface_view.h"
 
-#include <CGAL/PowerRTF/cells/construct_cell.h>
+#include <CGAL/PowerRTF/optimization/usable_cells.h>
 
 #include <cmath>
 
@@ -67,31 +67,20 @@ struct Placed_attributes_rule {
   }
 };
 
-/// Whether a cell stands for the surface around its sample; see `Host_engine`.
+/// See `is_usable()`.
 template <class Real>
 struct Usable_rule {
-  static constexpr double largest = 1.35; ///< mass over the mean of the first cells
   const Real *area, *mass, *density;
   const unsigned char* status;
   double mean_mass;
 
   CGAL_POWER_RTF_HD bool operator()(int i) const
   {
-    return status[i] == int(Cell_status::ok) && mass[i] > 0 &&
-           double(density[i]) * area[i] <= largest * mean_mass;
+    return is_usable(Cell_status(status[i]), mass[i], double(density[i]) * area[i], mean_mass);
   }
 };
 
-/// At most half the side of a square of this area.
-template <class Real>
-CGAL_POWER_RTF_HD inline Vec3<Real> shortened(const Vec3<Real>& step, Real area)
-{
-  const Real longest = std::sqrt(area) / 2, l = length(step);
-  return l > longest ? step * (longest / l) : step;
-}
-
-/// Lloyd's method: to the centre of mass. A sample with an empty cell stays; half a step, and no
-/// long one, where the cell is not usable.
+/// Lloyd's method: to the centre of mass. A sample with an empty cell stays.
 template <class Real>
 struct Lloyd_step {
   Usable_rule<Real> usable;
@@ -101,8 +90,8 @@ struct Lloyd_step {
   {
     if (usable.status[i] == int(Cell_status::empty)) return {0, 0, 0};
     if (usable(i)) return offset[i];
-    const Real area = usable.area[i], usual = Real(usable.mean_mass / usable.density[i]);
-    return shortened(offset[i] * Real(0.5), area < usual ? area : usual);
+    const Real usual_area = Real(usable.mean_mass / usable.density[i]);
+    return cautious_step(offset[i], usable.area[i], usual_area);
   }
 };
 

@@ -642,7 +642,7 @@ TEST_CASE("L-BFGS on a quadratic energy")
 TEST_CASE("L-BFGS: a point without a gradient has no say")
 {
   // The first point in a bowl that is twice as steep one way; the other leaps about, its gradient
-  // unknown (0) in most iterations: in none are two known ones in a row.
+  // unknown (0) in most iterations: it is known in no two in a row.
   const auto gradient_at = [](const Vec3d& p) { return Vec3d{p.x, 2 * p.y, 1.5 * p.z}; };
   Lbfgs<Sequential_tag> alone(5), both(5);
   Vec3d p{1, 2, 3}, leap{10, -20, 30};

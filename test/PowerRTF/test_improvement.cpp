@@ -174,7 +174,7 @@ TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as
   const std::vector<double> before = state(true);
   std::size_t flips = 0;
   for (const auto e : m.edges()) {
-    if (!mesh.is_flippable(e)) continue;
+    if (!mesh.working().is_flippable(e)) continue;
     ++flips;
     const auto memory = mesh.before_flip(e);
     const auto time = mesh.now();

@@ -119,19 +119,12 @@ struct Stage_benchmarks {
 
   /// A step of L-BFGS with its projection onto the surface and the samples' new attributes.
   static void position_step(benchmark::State& state, const Workload& w)
-  {
-    const Peak_memory memory;
-    Engine engine(w.surface, w.options);
-    engine.set_samples(w.samples);
-    for (auto _ : state) {
-      state.PauseTiming();
-      build_cells(engine);
-      state.ResumeTiming();
-      engine.move_samples(CGAL::PowerRTF::Position_method::lbfgs);
-      Wait()();
-    }
-    count(state, w.kind.n, engine, memory);
-  }
+  { step(state, w, CGAL::PowerRTF::Position_method::lbfgs); }
+
+  /// Back to the surface after a step to the centre of mass, on a device: with the samples' new
+  /// attributes, which it takes in the same pass.
+  static void projection(benchmark::State& state, const Workload& w)
+  { step(state, w, CGAL::PowerRTF::Position_method::lloyd); }
 
   /// All of a run but reading and writing files: sampling, optimisation, extraction, improvement,
   /// and the assessment of the result.
@@ -158,9 +151,27 @@ struct Stage_benchmarks {
     register_stage("weight_pass", traits, threads, kind, weight_pass);
     register_stage("newton_step", traits, threads, kind, newton_step);
     register_stage("position_step", traits, threads, kind, position_step);
+    if constexpr (on_device) register_stage("projection", traits, threads, kind, projection);
     // the kind of samples is where the stages start from; a run makes its own
     if (kind.regular && kind.n <= largest_run)
       register_stage("whole_run", traits, threads, kind, whole_run, 1);
+  }
+
+private:
+  static void step(benchmark::State& state, const Workload& w,
+                   CGAL::PowerRTF::Position_method method)
+  {
+    const Peak_memory memory;
+    Engine engine(w.surface, w.options);
+    engine.set_samples(w.samples);
+    for (auto _ : state) {
+      state.PauseTiming();
+      build_cells(engine);
+      state.ResumeTiming();
+      engine.move_samples(method);
+      Wait()();
+    }
+    count(state, w.kind.n, engine, memory);
   }
 };
 

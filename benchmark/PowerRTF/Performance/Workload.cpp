@@ -50,6 +50,7 @@ Workload make(const Workload::Kind& kind)
   set_density(w.surface, w.options);
   smooth_normals(w.surface, w.options.number_of_samples, w.options.normal_smoothing);
   if (!kind.regular) w.options.sampling = Sampling::random;
+  if (kind.n > 1000000) w.options.oversampling = 1; // an elimination would take minutes
   w.samples = sample_surface(w.surface, w.options);
   if (!kind.regular) return w;
   Cpu_engine<CGAL::Parallel_if_available_tag> engine(w.surface, w.options);

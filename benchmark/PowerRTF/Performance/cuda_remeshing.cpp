@@ -10,9 +10,9 @@
 //
 // MODEL is an OFF file; `--refine`: N times by Loop's subdivision. `--cpu`: the same work on this
 // machine's CPU, too. `--check`: what the oracle says of the cells of the first iteration, the one
-// in the middle and the last. `--meshes`: the least and largest figures of the meshes that the GPU's
-// and the CPU's samples make, over so many seeds. From 200 000 samples on, the first samples are
-// stratified random ones instead of those of an elimination, which takes the host long.
+// in the middle and the last. `--meshes`: the least and largest figures of the meshes that the
+// GPU's and the CPU's samples make, over so many seeds. From 200 000 samples on, the first samples
+// are stratified random ones instead of those of an elimination, which takes the host long.
 #include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
@@ -110,8 +110,8 @@ struct Checking_visitor : Remeshing_default_visitor {
     const Cell_comparison c = check_cells<CGAL::Parallel_if_available_tag>(
         gpu.sites(), gpu.cells(), compatibility_cosine(o.normal_angle),
         std::numeric_limits<float>::epsilon(), o.guard_factor);
-    std::printf("  check: %-6s  wrong %zu  uncertified %zu + %zu  differing edges %zu  area p99 %.1e "
-                "max %.1e  centroid p99 %.1e max %.1e\n",
+    std::printf("  check: %-6s  wrong %zu  uncertified %zu + %zu  differing edges %zu  "
+                "area p99 %.1e max %.1e  centroid p99 %.1e max %.1e\n",
                 when, c.certified_wrong, c.uncertified_right, c.uncertified_wrong,
                 c.differing_edges, c.area.p99, c.area.max, c.centroid.p99, c.centroid.max);
     std::fflush(stdout);

@@ -77,8 +77,9 @@ def select(kernels, occurrence, wanted):
 def main():
     program = sys.argv[1]
     sizes = [int(n) for n in sys.argv[2:]] or [1000000, 10000000]
-    print(f"# The cells on a GPU\n\n{made_by(__file__, [])}\nIt says what the columns mean; those of "
-          "the first table are explained in cuda_cells.cu.\n\n```")
+    footer = made_by(__file__, ["PROGRAM", *sys.argv[2:]])
+    print(f"# The cells on a GPU\n\n{footer}\nIt says what the columns mean; those of the first table "
+          "are explained in cuda_cells.cu.\n\n```")
     print(subprocess.run([program, str(max(sizes))], check=True, capture_output=True,
                          text=True).stdout.rstrip())
     print("```\n\n| sites | step | ms | G cells/s | instructions per 32 cells | issue, ms | bytes "

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures every stage of the remesher and makes tables and plots of it.
 
-performance.py            n = 1000 ... 100000; a million for the stages on regular, uniform samples
+performance.py            n = 1000 ... 100000; a million (cuda: 10 and 30, too) for the stages on
+                          regular, uniform samples
 performance.py --quick    n = 1000 and 10000
 performance.py --all      everything, whole runs of a million too: an hour or so
 performance.py --traits cuda          only these traits (cpu, exact, cuda)
@@ -31,7 +32,7 @@ FILTERS = {
     "quick": "^[^/]*/({all})/.*/(1000|10000)(/|$)",
     # whole runs of a million, and 100000 exact ones, take minutes each
     "default": "(^[^/]*/({all})/.*/(1000|10000)(/|$)|^[^/]*/({fast})/.*/100000(/|$)|"
-               "^([^w]|weight)[^/]*/({fast})/[^/]*/regular/uniform/1000000(/|$))",
+               "^([^w]|weight)[^/]*/({fast})/[^/]*/regular/uniform/(1|10|30)000000(/|$))",
     "all": "^[^/]*/({all})/",
 }
 TRAITS = ["cpu", "exact", "cuda"]
@@ -40,7 +41,8 @@ ORDER = ("neighbour_search", "construction", "weight_pass", "newton_step", "posi
 
 
 def measure(program, target, which, traits, min_time):
-    names = FILTERS[which].format(all="|".join(traits), fast="|".join(t for t in traits if t != "exact"))
+    fast = [t for t in traits if t != "exact"]
+    names = FILTERS[which].format(all="|".join(traits), fast="|".join(fast))
     command = [program, f"--benchmark_filter={names}", f"--benchmark_out={target}",
                "--benchmark_out_format=json", f"--benchmark_min_time={min_time}"]
     with subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE,

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The stages on the GPU; said to be skipped where there is none. Larger n: cuda_cells.cu and
-// cuda_remeshing.cpp, by cuda/run_gpu_checks.sh.
+// The stages on the GPU; said to be skipped where there is none. The neighbour search by itself:
+// cuda_cells.cu; whole runs of more than a million: cuda_remeshing.cpp.
 #include "Stage_benchmarks.h"
 #include "stages.h"
 
@@ -13,6 +13,7 @@
 
 #include <iostream>
 #include <stdexcept>
+#include <vector>
 
 namespace
 {
@@ -36,7 +37,9 @@ void register_cuda_stages()
     return;
   }
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  for (const Workload::Kind& kind : Workload::kinds(1000000))
+  std::vector<Workload::Kind> kinds = Workload::kinds(1000000);
+  for (const int n : {10000000, 30000000}) kinds.push_back({n, true, false});
+  for (const Workload::Kind& kind : kinds)
     Stage_benchmarks<CGAL::PowerRTF_cuda_traits_3<Kernel>, Wait_for_device>::register_all(
         "gpu", kind, 1000000);
 }

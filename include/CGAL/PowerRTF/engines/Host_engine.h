@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The steps of Algorithms 1 to 3 over all samples at once on the CPU, sequential or with TBB, for any
-// construction of the cells. The result is the same bit for bit for any number of threads.
+// The steps of Algorithms 1 to 3 over all samples at once on the CPU, sequential or with TBB, for
+// any construction of the cells. The result is the same bit for bit for any number of threads.
 #ifndef CGAL_POWER_RTF_ENGINES_HOST_ENGINE_H
 #define CGAL_POWER_RTF_ENGINES_HOST_ENGINE_H
 
@@ -17,6 +17,7 @@
 #include <CGAL/PowerRTF/optimization/capacity_statistics.h>
 #include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
 #include <CGAL/PowerRTF/optimization/newton_weights.h>
+#include <CGAL/PowerRTF/optimization/usable_cells.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
 
 #include <boost/container/small_vector.hpp>
@@ -91,7 +92,6 @@ public:
 
 private:
   using Frame = Tangent_frame<double>;
-  static constexpr double largest_usable = 1.35; // mass of a cell over the mean of the first cells
 
   int size() const { return static_cast<int>(m_free.size()); }
   int sites() const { return static_cast<int>(m_tree.sites.size()); }
@@ -108,13 +108,8 @@ private:
   { return internal::sum<ConcurrencyTag>(size(), [&](int k) { return f(m_free[k]); }); }
   double density_root(double density) const
   { return std::cbrt(std::pow(density, m_options.centroid_density_power)); }
-  /// Whether the cell stands for the surface around its sample. At tips that are narrower than the
-  /// spacing a tangent face reaches far beyond the surface; some of these would rule the energy.
   bool usable(int i) const
-  {
-    return m_status[i] == Cell_status::ok && m_moments[i].mass > 0 &&
-           mass(i) <= largest_usable * m_mean_mass;
-  }
+  { return is_usable(m_status[i], m_moments[i].mass, mass(i), m_mean_mass); }
   void update_attributes();
   /// Calls `f` with the part of the cell that lies on the sample's patch.
   template <class Polygon, class F>
@@ -122,12 +117,6 @@ private:
   void center_weights();
   std::vector<Capacity_edge> capacity_edges();
   std::vector<Vec3d> lbfgs_steps();
-  /// At most half the side of a square of this area.
-  static Vec3d shortened(const Vec3d& step, double area)
-  {
-    const double longest = 0.5 * std::sqrt(area), l = length(step);
-    return l > longest ? step * (longest / l) : step;
-  }
   /// A sample with an empty cell stays, unless it lies on another sample: no weight could part them.
   Vec3d step_apart(int i) const;
   /// Returns the residual, the sum of |s_i - c_i|^2, over the least one so far.
@@ -275,7 +264,8 @@ void Host_engine<Tree, Tag>::update_weights()
   }
   const double mean = sum([&](int i) { return mass(i); }) / size();
   const Multiplicative_weight_rule change{m_options.capacity_tolerance, m_options.weight_step,
-                                          m_options.weight_operator == Weight_operator::floor, mean};
+                                          m_options.weight_operator == Weight_operator::floor,
+                                          mean};
   for_each_sample([&](int i) {
     // An empty cell often lies close to the sample that displaced it, where D_i says nothing.
     const double distance =
@@ -361,8 +351,7 @@ bool Host_engine<Tree, Tag>::newton_weights()
 template <class Tree, class Tag>
 std::vector<Vec3d> Host_engine<Tree, Tag>::lbfgs_steps()
 {
-  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i). What is
-  // not usable says nothing about it and would poison the memory.
+  // The energy is the sum of int rho |x - s_i|^2 over the cells: gradient 2 m_i (s_i - c_i).
   std::vector<Vec3d> positions(sites()), gradient(sites(), {0, 0, 0});
   std::vector<double> inverse_diagonal(sites(), 0);
   for_each_sample([&](int i) {
@@ -377,9 +366,8 @@ std::vector<Vec3d> Host_engine<Tree, Tag>::lbfgs_steps()
 template <class Tree, class Tag>
 double Host_engine<Tree, Tag>::remember_best()
 {
-  const double residual = sum([&](int i) {
-    return usable(i) ? squared_length(m_offsets[i]) : 0;
-  });
+  const double residual =
+      sum([&](int i) { return usable(i) ? squared_length(m_offsets[i]) : 0; });
   if (residual < m_best.residual) {
     m_best.residual = residual;
     m_best.sites = m_tree.sites;
@@ -413,7 +401,7 @@ void Host_engine<Tree, Tag>::move_samples(Position_method method)
     if (m_status[i] == Cell_status::empty) {
       steps[i] = step_apart(i);
     } else if (!usable(i)) {
-      steps[i] = shortened(m_offsets[i] * 0.5, std::min(m_moments[i].area, m_mean_mass / m_density[i]));
+      steps[i] = cautious_step(m_offsets[i], m_moments[i].area, m_mean_mass / m_density[i]);
     } else if (lbfgs) {
       steps[i] = shortened(steps[i], m_moments[i].area);
     }
@@ -457,8 +445,7 @@ Cell_counts Host_engine<Tree, Tag>::cell_counts() const
 template <class Tree, class Tag>
 double Host_engine<Tree, Tag>::displacement() const
 {
-  const double squares =
-      sum([&](int i) { return squared_length(m_offsets[i]); });
+  const double squares = sum([&](int i) { return squared_length(m_offsets[i]); });
   return std::sqrt(squares / m_surface.area);
 }
 

@@ -100,6 +100,14 @@ struct Working_mesh {
     return false;
   }
 
+  /// True if the edge can be flipped without a change of topology.
+  bool is_flippable(Edge e) const
+  {
+    if (mesh.is_removed(e) || mesh.is_border(e)) return false;
+    const Halfedge h = mesh.halfedge(e);
+    return !are_adjacent(mesh.target(mesh.next(h)), mesh.target(mesh.next(mesh.opposite(h))));
+  }
+
   /// Twice the area times the normal.
   Vec3d area_vector(Vertex a, Vertex b, Vertex c) const
   {

@@ -75,14 +75,9 @@ public:
     return flips;
   }
 
-  /// True if the edge can be flipped without a change of topology.
+  /// True if the edge can be flipped without a change of topology or of features.
   bool is_legal(Edge e) const
-  {
-    if (m.mesh.is_removed(e) || m.mesh.is_border(e) || m.is_feature(e)) return false;
-    const Halfedge h = m.mesh.halfedge(e);
-    return !m.are_adjacent(apex(h), apex(m.mesh.opposite(h))) &&
-           !(m_guard && m_guard->forbids_flip(e));
-  }
+  { return m.is_flippable(e) && !m.is_feature(e) && !(m_guard && m_guard->forbids_flip(e)); }
 
   void flip(Edge e)
   {

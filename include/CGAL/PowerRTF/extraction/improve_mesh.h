@@ -16,6 +16,7 @@
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -41,7 +42,7 @@ public:
   }
 
   /// The improved mesh. If an improvement has broken something, it is made anew: at first with less
-  /// smoothing, which may already do, then with what was broken locked.
+  /// smoothing, which may already do, then with what was broken locked, as little of it as does.
   Extracted_mesh run()
   {
     Extracted_mesh mesh = m_raw;
@@ -54,7 +55,10 @@ public:
         stars.write(mesh);
         return mesh;
       }
-      if (attempt > 0) lock(stars, broken, attempt - 1);
+      if (attempt == 1)
+        lock_farthest(stars, broken);
+      else if (attempt > 1)
+        lock(stars, broken, attempt - 2);
     }
     return mesh;
   }
@@ -65,7 +69,7 @@ private:
   using Face = Mesh::Face_index;
 
   static constexpr double worsening = 0.2; // of the maximal distance, in units of sqrt(area / n)
-  static constexpr int max_attempts = 7;
+  static constexpr int max_attempts = 8;
   static constexpr int smoothing_steps = 3;
   static constexpr int mending_rounds = 8;
   static constexpr int sliding_rounds = 4;
@@ -137,6 +141,19 @@ private:
     for (const auto& [f, g] : pairs)
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
     return broken;
+  }
+
+  // Locks the vertex of each face that has moved farthest.
+  void lock_farthest(const Star_mesh& stars, const std::vector<Face>& broken)
+  {
+    const auto moved = [&](Vertex v) { return squared_length(stars.point(v) - m_raw.points[v]); };
+    const Mesh& mesh = stars.working().mesh;
+    for (const Face f : broken) {
+      const auto corners = mesh.vertices_around_face(mesh.halfedge(f));
+      const Vertex v = *std::max_element(corners.begin(), corners.end(), [&](Vertex a, Vertex b)
+                                         { return moved(a) < moved(b); });
+      m_locked[v] = true;
+    }
   }
 
   // Locks the vertices of the faces and those so many edges around them.

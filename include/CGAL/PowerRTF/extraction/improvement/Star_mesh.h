@@ -203,14 +203,6 @@ public:
     return least / l;
   }
 
-  /// True if the edge can be flipped without a change of topology.
-  bool is_flippable(Edge e) const
-  {
-    if (m.mesh.is_removed(e) || m.mesh.is_border(e)) return false;
-    const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
-    return !m.are_adjacent(m.mesh.target(m.mesh.next(h)), m.mesh.target(m.mesh.next(o)));
-  }
-
   /// The corners of its two triangles: its ends and the two that a flip joins.
   std::array<Vertex, 4> corners(Edge e) const
   {

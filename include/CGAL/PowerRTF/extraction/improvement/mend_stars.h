@@ -269,7 +269,7 @@ private:
 
   bool flip_if_better(Edge e)
   {
-    if (!m.is_free(e) || !m.is_flippable(e)) return false;
+    if (!m.is_free(e) || !m.working().is_flippable(e)) return false;
     const std::array<Vertex, 4> corners = m.corners(e);
     // a vertex of valence 3 or 4 cannot lose an edge; one of valence 8 is to get no more
     const auto valence = [&](int k) { return int(m.working().mesh.degree(corners[k])); };

@@ -166,9 +166,8 @@ private:
   {
     const auto& mesh = m.working().mesh;
     const Edge e = mesh.edge(tip.near);
-    const Vertex v = mesh.source(tip.near);
-    if (!m.is_flippable(e) || mesh.degree(v) < 4 || mesh.degree(mesh.target(tip.near)) < 4)
-      return false;
+    const Vertex v = mesh.source(tip.near), u = mesh.target(tip.near);
+    if (!m.working().is_flippable(e) || mesh.degree(v) < 4 || mesh.degree(u) < 4) return false;
     m.flip(e);
     return is_good_around(mesh.source(mesh.halfedge(e))) && is_good_around(v) &&
            across(mesh.halfedge(e)).second < worthwhile * tip.distance;

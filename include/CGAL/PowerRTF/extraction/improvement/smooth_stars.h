@@ -81,7 +81,7 @@ private:
     const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
     if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) < std::min(flat, agreement))
       return false;
-    if (!m.is_flippable(e)) return false;
+    if (!m.working().is_flippable(e)) return false;
     m.flip(e);
     return true;
   }
