@@ -8,7 +8,7 @@
 
 #include "Eight_lanes.cuh"
 #include "Single_lane.h"
-#include "Totals.h"
+#include <CGAL/PowerRTF/internal/Totals.h>
 #include "Warp_lanes.cuh"
 #include "teams.cuh"
 

@@ -7,14 +7,14 @@
 #define CGAL_POWER_RTF_CUDA_HOST_BACKEND_H
 
 #include "Single_lane.h"
-#include "Totals.h"
+
+#include <CGAL/PowerRTF/internal/host_loops.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <string>
-#include <vector>
 
 namespace CGAL
 {
@@ -33,22 +33,9 @@ struct Host_team {
   }
 };
 
-class Host_backend
+class Host_backend : public Host_loops<Sequential_tag>
 {
 public:
-  template <class T>
-  class Buffer
-  {
-  public:
-    void allocate(Host_backend&, std::size_t n) { m_items.resize(n); }
-    T* data() { return m_items.data(); }
-    const T* data() const { return m_items.data(); }
-    std::size_t size() const { return m_items.size(); }
-
-  private:
-    std::vector<T> m_items;
-  };
-
   /// One item that both host and device see.
   template <class T>
   class Shared_item
@@ -60,23 +47,6 @@ public:
   private:
     T m_item{};
   };
-
-  /// Calls `f(i)` for i in [0, n), in any order.
-  template <class F>
-  void for_each(int n, F f)
-  {
-    for (int i = 0; i < n; ++i) f(i);
-  }
-
-  /// Adds `f(i, totals)` up over [0, n) in a fixed order and calls `finish(totals)` once.
-  template <int Sums, int Maxima, class F, class Finish>
-  void reduce(int n, F f, Finish finish)
-  {
-    Totals<Sums, Maxima> totals;
-    totals.clear();
-    for (int i = 0; i < n; ++i) f(i, totals);
-    finish(totals);
-  }
 
   /// Calls `f(i, lanes)` for i in [0, n), in any order; the lanes work on i together.
   template <class F>
@@ -117,16 +87,6 @@ public:
   void upload(T* to, const T* from, std::size_t n)
   {
     std::copy(from, from + n, to);
-  }
-  template <class T>
-  void download(T* to, const T* from, std::size_t n)
-  {
-    std::copy(from, from + n, to);
-  }
-  template <class T>
-  void fill(T* to, T value, std::size_t n)
-  {
-    std::fill(to, to + n, value);
   }
 
   void synchronize() {}

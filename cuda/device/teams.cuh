@@ -6,7 +6,7 @@
 #ifndef CGAL_POWER_RTF_CUDA_TEAMS_CUH
 #define CGAL_POWER_RTF_CUDA_TEAMS_CUH
 
-#include "Totals.h"
+#include <CGAL/PowerRTF/internal/Totals.h>
 
 #include <cooperative_groups.h>
 

@@ -3,7 +3,7 @@
 #ifndef CGAL_POWER_RTF_CUDA_SUMMARY_RULE_H
 #define CGAL_POWER_RTF_CUDA_SUMMARY_RULE_H
 
-#include "../device/Totals.h"
+#include <CGAL/PowerRTF/internal/Totals.h>
 #include "sample_rules.h"
 
 #include <CGAL/PowerRTF/engines/Cuda_engine_api.h>

@@ -7,7 +7,7 @@
 #ifndef CGAL_POWER_RTF_CUDA_DEVICE_LBFGS_H
 #define CGAL_POWER_RTF_CUDA_DEVICE_LBFGS_H
 
-#include "../device/Totals.h"
+#include <CGAL/PowerRTF/internal/Totals.h>
 
 #include <cstddef>
 

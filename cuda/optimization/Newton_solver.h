@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Newton's direction for the weights on the device: the system of `newton_weights_direction()`,
-// solved by conjugate gradients with the diagonal as preconditioner. The direction is damped and
-// its step judged afterwards, so the residual need only fall to a small part.
+// solved by conjugate gradients. The direction is damped and its step judged afterwards, so the
+// residual need only fall to a small part.
 #ifndef CGAL_POWER_RTF_CUDA_NEWTON_SOLVER_H
 #define CGAL_POWER_RTF_CUDA_NEWTON_SOLVER_H
 
 #include "../cells/cell_arrays.h"
-#include "../device/Totals.h"
 #include "Resident_gradients.h"
 #include "component_trees.h"
+
+#include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/optimization/Multigrid_gradients.h>
 
 #include <cmath>
 #include <cstddef>
@@ -29,10 +31,13 @@ public:
   static constexpr int edge_capacity = 16;
   /// A direction is near enough when it would bring all areas within this part of the capacity
   /// interval around their targets, or leave this part of the residual's norm. What one step
-  /// leaves, the next one takes; to ask for more costs iterations in proportion to sqrt(n).
+  /// leaves, the next one takes.
   static constexpr double part_of_interval = 0.5, tolerance = 0.03;
 
-  explicit Newton_solver(Backend& backend) : m_backend(backend) { m_scalars.allocate(backend, 4); }
+  explicit Newton_solver(Backend& backend) : m_backend(backend), m_gradients(backend)
+  {
+    m_scalars.allocate(backend, 4);
+  }
 
   /// Where `build()` shall write the edges of n cells.
   void add_outputs(int n, Cell_outputs<Real>& out)
@@ -66,6 +71,7 @@ public:
   void component_sums(F f, const double* most, long long* sums);
 
 private:
+  static constexpr int most_resident = 300000; ///< threads that a GPU runs at once
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
@@ -81,7 +87,8 @@ private:
   Buffer<Real> m_edge_ratio;
   Buffer<int> m_row_size, m_column, m_label, m_is_anchored;
   Buffer<Real> m_value;
-  Buffer<double> m_diagonal, m_x, m_r, m_z, m_q, m_p[2], m_limits, m_scalars;
+  Buffer<double> m_diagonal, m_x, m_r, m_exchanged[2], m_limits, m_scalars;
+  Multigrid_gradients<Real, Backend> m_gradients;
   Buffer<long long> m_sums[3];
 };
 
@@ -90,8 +97,7 @@ void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* de
                                          double capacity_tolerance, bool find_components)
 {
   m_n = n;
-  for (Buffer<double>* b : {&m_diagonal, &m_x, &m_r, &m_z, &m_q, &m_p[0], &m_p[1], &m_limits})
-    b->allocate(m_backend, n);
+  for (Buffer<double>* b : {&m_diagonal, &m_x, &m_r, &m_limits}) b->allocate(m_backend, n);
   make_rows(n);
   if (find_components) label_components();
   set_residual(area, density, capacity_tolerance);
@@ -248,23 +254,14 @@ void Newton_solver<Real, Backend>::set_residual(const Real* area, const Real* de
 template <class Real, class Backend>
 void Newton_solver<Real, Backend>::iterate()
 {
-  const int most = 200 + 4 * int(std::sqrt(double(m_n)));
-  const Resident_gradients<Real> resident{
-      rows(),          m_x.data(), m_r.data(), {m_p[0].data(), m_p[1].data()},
-      m_limits.data(), tolerance,  most};
-  if (m_backend.run_resident_team(m_n, resident)) return;
-  Conjugate_gradients<Real> solver;
-  solver.a = rows();
-  solver.x = m_x.data();
-  solver.r = m_r.data();
-  solver.z = m_z.data();
-  solver.q = m_q.data();
-  solver.p[0] = m_p[0].data();
-  solver.p[1] = m_p[1].data();
-  solver.limits = m_limits.data();
-  solver.tolerance = tolerance;
-  solver.most = most;
-  m_backend.run_team(m_n, solver);
+  if (m_n <= most_resident) {
+    for (Buffer<double>& b : m_exchanged) b.allocate(m_backend, m_n);
+    const Resident_gradients<Real> resident{
+        rows(),          m_x.data(), m_r.data(), {m_exchanged[0].data(), m_exchanged[1].data()},
+        m_limits.data(), tolerance,  200 + 4 * int(std::sqrt(double(m_n)))};
+    if (m_backend.run_resident_team(m_n, resident)) return;
+  }
+  m_gradients.solve(rows(), m_x.data(), m_r.data(), m_limits.data(), tolerance);
 }
 
 template <class Real, class Backend>

@@ -6,7 +6,11 @@
 #ifndef CGAL_POWER_RTF_CUDA_RESIDENT_GRADIENTS_H
 #define CGAL_POWER_RTF_CUDA_RESIDENT_GRADIENTS_H
 
-#include "Conjugate_gradients.h"
+#include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/optimization/Laplacian_rows.h>
+
+#include <cmath>
+#include <cstddef>
 
 namespace CGAL
 {
@@ -15,7 +19,7 @@ namespace PowerRTF
 namespace device
 {
 
-/// `Conjugate_gradients` in another order, so that an iteration waits for the whole team only once.
+/// Conjugate gradients in an order in which an iteration waits for the whole team only once.
 /// (Ghysels, Vanroose, "Hiding global synchronization latency in the preconditioned conjugate
 /// gradient algorithm", 2014.) The preconditioner is the diagonal, and a coarse one: a row for each
 /// warp, whose cells are neighbours on a space-filling curve.
@@ -24,9 +28,9 @@ struct Resident_gradients {
   Laplacian_rows<Real> a;
   double *x, *r;        ///< the solution; the right side
   double* exchanged[2]; ///< scratch: the vector that other rows read, in turn
-  const double* limits; ///< see `Conjugate_gradients`, as what follows
-  double tolerance;
-  int most;
+  const double* limits; ///< where all residuals are below these, it is enough
+  double tolerance;     ///< or where their norm is, relative to the first
+  int most;             ///< iterations
 
   template <class Team>
   CGAL_POWER_RTF_HD void operator()(Team& team) const
@@ -87,23 +91,23 @@ private:
       if (i < a.n) {
         size = a.size[i];
         diagonal = a.diagonal[i];
-        inverse = diagonal > 0 ? 1 / diagonal : 0;
+        inverse = a.inverse_diagonal(i);
       }
       double outward = diagonal; // the entries that leave the warp
       CGAL_POWER_RTF_UNROLL
       for (int k = 0; k < kept; ++k) {
         const bool is_there = k < size;
-        column[k] = is_there ? a.column[place(k)] : i < a.n ? i : 0;
-        value[k] = is_there ? a.value[place(k)] : Real(0);
+        column[k] = is_there ? a.column[a.place(k, i)] : i < a.n ? i : 0;
+        value[k] = is_there ? a.value[a.place(k, i)] : Real(0);
         if (is_there && column[k] / Team::warp == i / Team::warp) outward -= value[k];
       }
       for (int k = kept; k < size; ++k)
-        if (a.column[place(k)] / Team::warp == i / Team::warp) outward -= a.value[place(k)];
+        if (a.column[a.place(k, i)] / Team::warp == i / Team::warp)
+          outward -= a.value[a.place(k, i)];
       const double sum = team.sum_over_warp(outward), all = team.sum_over_warp(diagonal);
       warp_inverse = sum > 1e-6 * all ? 1 / sum : 0; // else its cells touch no others
     }
 
-    CGAL_POWER_RTF_HD std::size_t place(int k) const { return std::size_t(k) * a.n + i; }
     CGAL_POWER_RTF_HD void give(double own, double* vector) const
     {
       if (i < a.n) vector[i] = own;
@@ -121,7 +125,7 @@ private:
       CGAL_POWER_RTF_UNROLL
       for (int k = 0; k < kept; ++k) sum += double(value[k]) * vector[column[k]];
       for (int k = kept; k < size; ++k)
-        sum += double(a.value[place(k)]) * vector[a.column[place(k)]];
+        sum += double(a.value[a.place(k, i)]) * vector[a.column[a.place(k, i)]];
       return diagonal * own - sum;
     }
   };

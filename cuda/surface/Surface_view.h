@@ -6,7 +6,7 @@
 #ifndef CGAL_POWER_RTF_CUDA_SURFACE_VIEW_H
 #define CGAL_POWER_RTF_CUDA_SURFACE_VIEW_H
 
-#include "../device/Totals.h"
+#include <CGAL/PowerRTF/internal/Totals.h>
 
 #include <CGAL/PowerRTF/cells/nearest_facet.h>
 

@@ -245,6 +245,16 @@ TEST_CASE("bad samples, edges and corners: nothing breaks")
   }
 }
 
+TEST_CASE("where sheets would meet, a few vertices stay where they were, and no others")
+{
+  const Case c = make_case(shapes::thin_disc(0.02), 400, 1, Sampling::random);
+  const Extracted_mesh mesh = improved(c);
+  std::size_t still = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) still += mesh.points[v] == c.raw.points[v];
+  CHECK(still > 0);
+  CHECK(still <= 8); // with all corners of what meets: 24
+}
+
 TEST_CASE("borders stay")
 {
   for (unsigned seed = 0; seed < 3; ++seed)

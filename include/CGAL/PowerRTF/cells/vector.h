@@ -13,6 +13,13 @@
 #define CGAL_POWER_RTF_HD
 #endif
 
+/// Before a loop whose arrays must stay in registers.
+#ifdef __CUDA_ARCH__
+#define CGAL_POWER_RTF_UNROLL _Pragma("unroll")
+#else
+#define CGAL_POWER_RTF_UNROLL
+#endif
+
 namespace CGAL {
 namespace PowerRTF {
 

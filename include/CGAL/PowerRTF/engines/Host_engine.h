@@ -327,7 +327,7 @@ bool Host_engine<Tree, Tag>::newton_weights()
     densities.push_back(m_density[i]);
   }
   const std::vector<double> direction =
-      newton_weights_direction(areas, densities, capacity_edges());
+      newton_weights_direction<Tag>(areas, densities, capacity_edges());
   if (direction.empty()) return false;
 
   const State before = state();

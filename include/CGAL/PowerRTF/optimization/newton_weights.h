@@ -6,10 +6,14 @@
 #ifndef CGAL_POWER_RTF_OPTIMIZATION_NEWTON_WEIGHTS_H
 #define CGAL_POWER_RTF_OPTIMIZATION_NEWTON_WEIGHTS_H
 
-#include <Eigen/IterativeLinearSolvers>
+#include <CGAL/PowerRTF/internal/host_loops.h>
+#include <CGAL/PowerRTF/optimization/Multigrid_gradients.h>
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -26,27 +30,61 @@ struct Capacity_edge {
 
 namespace internal {
 
-/// The solution of a definite system of which the lower triangle is given; empty when it cannot be
-/// solved. Exact up to 100 000 unknowns; a factor of more costs too much (n^1.5), and there the
-/// residual falls to a thousandth: the direction is damped, and what a step leaves the next takes.
-inline Eigen::VectorXd solve_definite(const Eigen::SparseMatrix<double>& matrix,
-                                      const Eigen::VectorXd& right_side)
+/// The solution of L x = r by a factor of L; empty when there is none.
+inline std::vector<double> solve_by_factor(const std::vector<double>& diagonal,
+                                           const std::vector<Capacity_edge>& edges,
+                                           const std::vector<double>& r)
 {
   using Matrix = Eigen::SparseMatrix<double>;
-  constexpr Eigen::Index most_factored = 100000;
-  const auto solution = [&](auto&& solver) -> Eigen::VectorXd {
-    solver.compute(matrix);
-    if (solver.info() != Eigen::Success) return {};
-    Eigen::VectorXd x = solver.solve(right_side);
-    if (solver.info() != Eigen::Success || !x.allFinite()) return {};
-    return x;
+  const int n = static_cast<int>(r.size());
+  std::vector<Eigen::Triplet<double>> entries; // of the lower triangle
+  entries.reserve(edges.size() + n);
+  for (const Capacity_edge& e : edges)
+    if (e.j != Capacity_edge::fixed)
+      entries.emplace_back(std::max(e.i, e.j), std::min(e.i, e.j), -e.ratio / 4);
+  // L is singular (adding a constant changes nothing): a touch of the diagonal makes it definite.
+  const double scale = std::accumulate(diagonal.begin(), diagonal.end(), 0.0) / n;
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i] + 1e-10 * scale);
+  Matrix laplacian(n, n);
+  laplacian.setFromTriplets(entries.begin(), entries.end());
+  if (!(scale > 0)) return {};
+  Eigen::SimplicialLDLT<Matrix> factor(laplacian);
+  if (factor.info() != Eigen::Success) return {};
+  const Eigen::VectorXd x = factor.solve(Eigen::Map<const Eigen::VectorXd>(r.data(), n));
+  if (factor.info() != Eigen::Success || !x.allFinite()) return {};
+  return {x.data(), x.data() + n};
+}
+
+/// The same by iterations, until the residual has fallen to a thousandth.
+template <class ConcurrencyTag>
+std::vector<double> solve_by_multigrid(std::vector<double> diagonal,
+                                       const std::vector<Capacity_edge>& edges,
+                                       std::vector<double> r)
+{
+  using Rows = Laplacian_rows<double>;
+  const int n = static_cast<int>(r.size());
+  std::vector<int> size(n, 0), column(std::size_t(n) * Rows::capacity);
+  std::vector<double> value(column.size()), x(n);
+  const Rows rows{size.data(), column.data(), value.data(), diagonal.data(), n};
+  const auto add = [&](int i, int j, int k, double ratio) {
+    if (k == size[i]) {
+      rows.column[rows.place(k, i)] = j;
+      rows.value[rows.place(k, i)] = 0;
+      ++size[i];
+    }
+    rows.value[rows.place(k, i)] += ratio;
   };
-  if (matrix.rows() <= most_factored) return solution(Eigen::SimplicialLDLT<Matrix>());
-  using Preconditioner =
-      Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
-  Eigen::ConjugateGradient<Matrix, Eigen::Lower, Preconditioner> gradients;
-  gradients.setTolerance(1e-3);
-  return solution(gradients);
+  for (const Capacity_edge& e : edges) {
+    if (e.j == Capacity_edge::fixed) continue;
+    const int k = rows.entry(e.i, e.j, size[e.i]), l = rows.entry(e.j, e.i, size[e.j]);
+    if (k == Rows::capacity || l == Rows::capacity) continue;
+    add(e.i, e.j, k, e.ratio / 4);
+    add(e.j, e.i, l, e.ratio / 4);
+  }
+  Host_loops<ConcurrencyTag> loops;
+  Multigrid_gradients<double, Host_loops<ConcurrencyTag>> gradients(loops);
+  if (gradients.solve(rows, x.data(), r.data(), nullptr, 1e-3) < 0) return {};
+  return x;
 }
 
 } // namespace internal
@@ -54,8 +92,11 @@ inline Eigen::VectorXd solve_definite(const Eigen::SparseMatrix<double>& matrix,
 /// Solves L dw = target - area, L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4. On each connected component of
 /// the cells the target areas are c / rho_i with c such that the component's area is kept, and the
 /// mean of dw is 0 unless it has an edge with a fixed site. `edges` has one entry per side of each
-/// cell. Empty when the system cannot be solved.
-inline std::vector<double> newton_weights_direction(const std::vector<double>& areas,
+/// cell. Empty when the system cannot be solved. Exact up to 100 000 cells; a factor of more costs
+/// too much (n^1.5), and there a direction that is near enough does: it is damped, and what a step
+/// leaves the next takes. Cells with close numbers should be close to each other.
+template <class ConcurrencyTag = Sequential_tag>
+std::vector<double> newton_weights_direction(const std::vector<double>& areas,
                                                     const std::vector<double>& density,
                                                     const std::vector<Capacity_edge>& edges)
 {
@@ -77,33 +118,25 @@ inline std::vector<double> newton_weights_direction(const std::vector<double>& a
     share[root(i)] += 1 / density[i];
     count[root(i)] += 1;
   }
-  Eigen::VectorXd residual(n);
+  std::vector<double> residual(n);
   for (int i = 0; i < n; ++i) residual[i] = area[root(i)] / share[root(i)] / density[i] - areas[i];
 
-  std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> diagonal(n, 0);
   std::vector<char> is_fixed(n, 0); // components with an edge with a fixed site
-  entries.reserve(edges.size() + n);
   for (const Capacity_edge& e : edges) {
     if (e.j == Capacity_edge::fixed) { // the site has no cell that would tell of the edge again
       diagonal[e.i] += e.ratio / 2;
       is_fixed[root(e.i)] = 1;
       continue;
     }
-    const double half = e.ratio / 4;
-    entries.emplace_back(std::max(e.i, e.j), std::min(e.i, e.j), -half); // lower triangle
-    diagonal[e.i] += half;
-    diagonal[e.j] += half;
+    diagonal[e.i] += e.ratio / 4;
+    diagonal[e.j] += e.ratio / 4;
   }
-  // L is singular (adding a constant changes nothing): a touch of the diagonal makes it definite.
-  const double scale = std::accumulate(diagonal.begin(), diagonal.end(), 0.0) / n;
-  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i] + 1e-10 * scale);
-
-  Eigen::SparseMatrix<double> laplacian(n, n);
-  laplacian.setFromTriplets(entries.begin(), entries.end());
-  if (!(scale > 0)) return {};
-  const Eigen::VectorXd solution = internal::solve_definite(laplacian, residual);
-  if (solution.size() == 0) return {};
+  constexpr int most_factored = 100000;
+  const std::vector<double> solution =
+      n <= most_factored ? internal::solve_by_factor(diagonal, edges, residual)
+                         : internal::solve_by_multigrid<ConcurrencyTag>(diagonal, edges, residual);
+  if (solution.empty()) return {};
 
   for (int i = 0; i < n; ++i) mean[root(i)] += solution[i];
   std::vector<double> direction(n);

@@ -1,23 +1,12 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef CGAL_POWER_RTF_CUDA_TOTALS_H
-#define CGAL_POWER_RTF_CUDA_TOTALS_H
+#ifndef CGAL_POWER_RTF_INTERNAL_TOTALS_H
+#define CGAL_POWER_RTF_INTERNAL_TOTALS_H
 
 #include <CGAL/PowerRTF/cells/vector.h>
 
-/// Before a loop whose arrays must stay in registers.
-#ifdef __CUDA_ARCH__
-#define CGAL_POWER_RTF_UNROLL _Pragma("unroll")
-#else
-#define CGAL_POWER_RTF_UNROLL
-#endif
-
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace device
-{
+namespace CGAL {
+namespace PowerRTF {
 
 /// What a reduction gathers, in double precision.
 template <int Sums, int Maxima>
@@ -44,8 +33,7 @@ struct Totals {
   }
 };
 
-} // namespace device
 } // namespace PowerRTF
 } // namespace CGAL
 
-#endif // CGAL_POWER_RTF_CUDA_TOTALS_H
+#endif // CGAL_POWER_RTF_INTERNAL_TOTALS_H
