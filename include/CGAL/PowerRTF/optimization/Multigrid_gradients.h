@@ -90,8 +90,7 @@ void Multigrid_gradients<Real, Backend>::begin(double* x, double* r, const doubl
         t.add(1, !limits || std::fabs(r[i]) > limits[i]);
       },
       [=] CGAL_POWER_RTF_HD(const Totals<2, 0>& t) {
-        state->squares = t.sum(0);
-        state->above = t.sum(1);
+        *state = {0, 0, 0, 0, t.sum(0), t.sum(1)};
       });
 }
 
