@@ -66,6 +66,32 @@ TEST_CASE("the same input gives the same samples bit for bit")
   }
 }
 
+TEST_CASE("more cells than a GPU has threads: Newton's steps equal them, the same bit for bit")
+{
+  Case c = large_case(false, Density::uniform);
+  c.options.number_of_samples = 400000;
+  c.options.oversampling = 1;
+  const Start start(c);
+  Samples first;
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    Cuda_engine<float> engine(start.patches->surface(), c.options);
+    engine.set_samples(start.samples, start.patches->features());
+    for (int k = 0; k < 5; ++k) {
+      engine.build_cells();
+      engine.move_samples(Position_method::lloyd);
+    }
+    engine.build_cells();
+    const double before = engine.capacity().rms;
+    CHECK(engine.newton_weights());
+    for (int k = 0; k < 3; ++k) engine.newton_weights(); // until none makes them more equal
+    CHECK(engine.capacity().rms < 0.1 * before);
+    const Samples s = engine.samples();
+    if (repeat == 0) first = s;
+    CHECK(s.weights == first.weights);
+    CHECK(s.points == first.points);
+  }
+}
+
 TEST_CASE("the cells are the exact ones of their samples")
 {
   std::vector<Case> all = cases();
