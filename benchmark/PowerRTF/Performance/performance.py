@@ -197,7 +197,8 @@ def main():
             "sample`: memory at the largest n, surface and samples not counted. The surface has "
             "81920 facets, on which sampling, extraction and improvement depend, too: a small n "
             "pays for them. More than a million regular samples begin as stratified random ones "
-            "instead of those of an elimination, and are less regular.\n\n" + markdown(columns, rows, 5))
+            "instead of those of an elimination, and are less regular.\n\n"
+            + markdown(columns, rows, 5))
     if options.network:
         python, missing = python_environment(options.output / "environment", ["matplotlib"])
         if python and not missing and plot(python, data, options.results):

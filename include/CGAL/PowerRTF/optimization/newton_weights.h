@@ -55,7 +55,8 @@ inline std::vector<double> solve_by_factor(const std::vector<double>& diagonal,
   return {x.data(), x.data() + n};
 }
 
-/// The same by iterations, until the residual has fallen to a thousandth.
+/// The same by iterations, until the residual has fallen to a thousandth. Edges of the few cells that
+/// have more than there is room for are left out.
 template <class ConcurrencyTag>
 std::vector<double> solve_by_multigrid(std::vector<double> diagonal,
                                        const std::vector<Capacity_edge>& edges,
@@ -77,7 +78,10 @@ std::vector<double> solve_by_multigrid(std::vector<double> diagonal,
   for (const Capacity_edge& e : edges) {
     if (e.j == Capacity_edge::fixed) continue;
     const int k = rows.entry(e.i, e.j, size[e.i]), l = rows.entry(e.j, e.i, size[e.j]);
-    if (k == Rows::capacity || l == Rows::capacity) continue;
+    if (k == Rows::capacity || l == Rows::capacity) {
+      for (const int i : {e.i, e.j}) diagonal[i] -= e.ratio / 4;
+      continue;
+    }
     add(e.i, e.j, k, e.ratio / 4);
     add(e.j, e.i, l, e.ratio / 4);
   }
@@ -97,8 +101,8 @@ std::vector<double> solve_by_multigrid(std::vector<double> diagonal,
 /// leaves the next takes. Cells with close numbers should be close to each other.
 template <class ConcurrencyTag = Sequential_tag>
 std::vector<double> newton_weights_direction(const std::vector<double>& areas,
-                                                    const std::vector<double>& density,
-                                                    const std::vector<Capacity_edge>& edges)
+                                             const std::vector<double>& density,
+                                             const std::vector<Capacity_edge>& edges)
 {
   const int n = static_cast<int>(areas.size());
   std::vector<int> component(n);
