@@ -28,8 +28,16 @@ namespace PowerRTF
 namespace internal
 {
 
+/// Whether the coordinates of a point are of type `float`.
+template <class Point, class = void>
+struct Has_float_coordinates : std::false_type {};
+template <class Point>
+struct Has_float_coordinates<Point, std::void_t<decltype(std::declval<const Point&>().x())>>
+    : std::is_same<std::decay_t<decltype(std::declval<const Point&>().x())>, float> {};
+
 /// What named parameters say about the options; a parameter of its own wins over `options`.
-template <class NamedParameters>
+/// \tparam Point of the output
+template <class Point, class NamedParameters>
 Remeshing_options options_of(std::size_t number_of_samples, const NamedParameters& np)
 {
   using CGAL::parameters::choose_parameter;
@@ -37,6 +45,8 @@ Remeshing_options options_of(std::size_t number_of_samples, const NamedParameter
   Remeshing_options options =
       choose_parameter(get_parameter(np, remeshing_options_t()), Remeshing_options());
   options.number_of_samples = number_of_samples;
+  if (Has_float_coordinates<Point>::value)
+    options.coordinates = Coordinates::single_precision;
   options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair == Repair::yes)
                        ? Repair::yes
                        : Repair::no;
@@ -250,8 +260,10 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
   Default_visitor default_visitor;
   Visitor visitor =
       choose_parameter(get_parameter_reference(np_in, internal_np::visitor), default_visitor);
+  using Output_map = typename GetVertexPointMap<OutputMesh, NamedParametersOut>::type;
+  using Output_point = typename boost::property_traits<Output_map>::value_type;
   const PowerRTF::Remeshing_options options =
-      PowerRTF::internal::options_of(number_of_samples, np_in);
+      PowerRTF::internal::options_of<Output_point>(number_of_samples, np_in);
 
   PowerRTF::Remeshing_report report;
   PowerRTF::Repair_counts repairs;

@@ -21,6 +21,7 @@ enum class Weight_operator { ceiling, floor };         ///< rounding of alpha; f
 enum class Extraction_method { insertion, restricted_delaunay };
 enum class Improvement { no, yes };
 enum class Repair { no, yes };
+enum class Coordinates { double_precision, single_precision };
 
 /// Parameters of `PowerRTF_remesher`. The defaults are those of the preset `quality`;
 /// `paper_preset()` gives those of the paper. Lengths are relative, so no parameter depends on the
@@ -85,6 +86,8 @@ struct Remeshing_options {
   Extraction_method extraction = Extraction_method::insertion;
   /// Of the triangles after the extraction (not in the paper); no: triangles on the samples.
   Improvement improvement = Improvement::yes;
+  /// What will hold the result's coordinates: its guarantees are those of the rounded points.
+  Coordinates coordinates = Coordinates::double_precision;
 
   /// The paper's own algorithms and parameter values (Section 5). Its initial drawing,
   /// `Sampling::random`, is "replaced by other curvature-adapted sampling methods", as it allows:

@@ -147,6 +147,7 @@ inline Extracted_mesh extract_restricted_delaunay(const Surface& surface, const 
                                                   const Feature_samples& features = {})
 {
   Extracted_mesh mesh = internal::Restricted_delaunay_extractor(surface, samples).run();
+  for (Vec3d& p : mesh.points) p = surface.normalization.snapped(p);
   const int first = static_cast<int>(samples.size() - features.size());
   for (const Edge& e : features.edges) mesh.feature_edges.push_back({first + e[0], first + e[1]});
   return mesh;

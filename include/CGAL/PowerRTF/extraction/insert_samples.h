@@ -39,7 +39,7 @@ namespace internal
 
 /// The surface with the samples as additional vertices.
 struct Refined_surface {
-  std::vector<Vec3d> points;  ///< the surface's vertices, then the inserted samples
+  std::vector<Vec3d> points;  ///< the surface's vertices, then the inserted samples; on the grid
   std::vector<Vec3d> normals; ///< unit normal of the surface at each point
   std::vector<int> samples;   ///< the sample that each vertex is; -1: none
   std::vector<Triangle> triangles;
@@ -70,6 +70,7 @@ public:
       triangulate_facet(f, begin, inside);
     }
     if (!features.empty()) cut_features();
+    for (Vec3d& p : m_refined.points) p = surface.normalization.snapped(p);
   }
 
   Refined_surface release() { return std::move(m_refined); }

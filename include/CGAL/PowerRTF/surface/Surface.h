@@ -7,7 +7,10 @@
 
 #include <CGAL/PowerRTF/cells/vector.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -20,13 +23,33 @@ using Edge = std::array<int, 2>;
 inline Edge sorted_edge(int a, int b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
 /// Maps the input to the unit box and back: `inside = (outside - center) * scale`.
-/// `scale` is a power of two, so that the mapping rounds only in the translation.
+/// `scale` is a power of two. The points of a result lie on a grid on which the way back is exact:
+/// what is judged inside is what is written outside.
 struct Normalization {
-  Vec3d center{0, 0, 0}; ///< centre of the input's bounding box
+  Vec3d center{0, 0, 0}; ///< near the centre of the input's bounding box
   double scale = 1;      ///< power of two; the box's longest side becomes at most 1
+  double reach = 0;      ///< no coordinate of a result is larger, outside
+  double grid = 0;       ///< inside, a result's coordinates are multiples of it; 0: all are allowed
 
   Vec3d to_inside(const Vec3d& p) const { return (p - center) * scale; }
   Vec3d to_outside(const Vec3d& p) const { return p * (1 / scale) + center; }
+
+  /// The finest grid on which `Number` holds all coordinates up to `reach`: its spacing, outside.
+  template <class Number>
+  double spacing() const
+  {
+    using Limits = std::numeric_limits<Number>;
+    int exponent;
+    std::frexp(reach, &exponent);
+    return (std::max)(std::ldexp(1., exponent - Limits::digits), double(Limits::denorm_min()));
+  }
+  /// The point of a grid that is nearest to `p`.
+  static Vec3d snapped(const Vec3d& p, double grid)
+  {
+    const auto snap = [grid](double x) { return std::nearbyint(x / grid) * grid; };
+    return {snap(p.x), snap(p.y), snap(p.z)};
+  }
+  Vec3d snapped(const Vec3d& p) const { return grid > 0 ? snapped(p, grid) : p; }
 };
 
 /// A triangulated, oriented 2-manifold surface (possibly with borders and several components) in

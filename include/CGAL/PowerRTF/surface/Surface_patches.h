@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
+#include <CGAL/PowerRTF/surface/output_grid.h>
 #include <CGAL/PowerRTF/surface/smooth_normals.h>
 #include <CGAL/PowerRTF/surface/topology_minimum.h>
 
@@ -19,14 +20,15 @@ namespace PowerRTF {
 
 class Surface_patches {
 public:
-  /// Keeps a reference to `surface` and replaces its vertex normals by the smoothed ones (the means
-  /// over the patches at each vertex).
+  /// Keeps a reference to `surface`, sets the grid of the result's points and replaces the vertex
+  /// normals by the smoothed ones (the means over the patches at each vertex).
   /// \throws Invalid_input_error when there are too few samples for the topology, or for the creases
-  ///   and borders
+  ///   and borders, or too many for the output's coordinates
   Surface_patches(Surface& surface, const Remeshing_options& options) : m_whole(surface)
   {
     const std::size_t n = options.number_of_samples;
     require_enough_samples(surface, n);
+    set_output_grid(surface, options);
     const Facet_adjacency adjacency = facet_adjacency(surface.triangles, surface.points.size());
     if (surface.creases.empty() && adjacency.border_edges == 0 &&
         facet_components(adjacency).second == 1) {

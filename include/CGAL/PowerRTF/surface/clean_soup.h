@@ -98,7 +98,16 @@ inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vecto
   if (!(side > 1e-300)) throw Invalid_input_error("the surface has no area");
   int exponent;
   if (std::frexp(side, &exponent) == 0.5) --exponent;
-  return {low + 0.5 * size, std::ldexp(1., -exponent)};
+  Normalization result;
+  result.scale = std::ldexp(1., -exponent);
+  // A vertex of the result may leave the input's box a little.
+  for (const double x : {low.x, low.y, low.z, high.x, high.y, high.z})
+    result.reach = (std::max)(result.reach, std::abs(x) + side);
+  // Floats hold the center, too, where they hold anything like the surface.
+  const double coarse = result.spacing<float>(), fine = result.spacing<double>();
+  result.center = Normalization::snapped(low + 0.5 * size, 1024 * coarse < side ? coarse : fine);
+  result.grid = fine * result.scale;
+  return result;
 }
 
 /// Cuts the polygons into triangles of distinct vertices; `vertex[v]` stands for corner `v`.

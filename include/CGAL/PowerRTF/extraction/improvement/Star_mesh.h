@@ -302,9 +302,11 @@ public:
     m_facets[v] = place.facet;
   }
 
+  /// To the point of the grid that is nearest to `p`.
   void set_point(Vertex v, const Vec3d& p)
   {
-    m.mesh.point(v) = Working_mesh::Point(p.x, p.y, p.z);
+    const Vec3d q = m_guide->surface().normalization.snapped(p);
+    m.mesh.point(v) = Working_mesh::Point(q.x, q.y, q.z);
     touch(v);
   }
 
