@@ -349,6 +349,79 @@ TEST_CASE("narrow patches are joined to a neighbour")
   for (double area : areas) CHECK(area > 0.45 * surface.area);
 }
 
+TEST_CASE("of two close creases the one around the larger flat patch stays")
+{
+  // the box [-1, 1]^3 with the edges around its top cut off
+  const double cut = 0.05;
+  shapes::Soup box = shapes::box(8);
+  for (Vec3d& p : box.points)
+    if (p.z == 1) p = {p.x * (1 - cut), p.y * (1 - cut), 1};
+    else if (p.z == 0.75) p.z = 1 - cut;
+  for (const double height : {0.3, 3.}) { // the top is larger than a side, or smaller
+    CAPTURE(height);
+    shapes::Soup soup = box;
+    for (Vec3d& p : soup.points)
+      if (p.z < 1) p.z = 1 - cut - height * (1 - cut - p.z);
+    Surface surface = shapes::make_surface(soup);
+    surface.creases = find_creases(surface, 40, 500);
+    join_narrow_patches(surface, 0.2 * surface.normalization.scale);
+    double at_top = 0, at_sides = 0;
+    for (const Edge& e : surface.creases) {
+      const Vec3d a = surface.normalization.to_outside(surface.points[e[0]]);
+      const Vec3d b = surface.normalization.to_outside(surface.points[e[1]]);
+      if (std::abs(a.z - b.z) > 1e-9 || a.z < 1 - 2 * cut) continue;
+      (a.z > 1 - 1e-9 ? at_top : at_sides) += length(b - a);
+    }
+    CHECK((height < 1 ? at_top : at_sides) > 7);
+    CHECK((height < 1 ? at_sides : at_top) < 0.5);
+  }
+}
+
+TEST_CASE("large flat faces end in creases where round ones begin")
+{
+  // a quarter of a tube of radius 1 between two plates of length 4, width 3
+  const auto bent_plate = [](int steps) {
+    std::vector<Vec3d> profile;
+    for (int k = 0; k <= 16; ++k) profile.push_back({-4 + 0.25 * k, 0, 0});
+    for (int k = 1; k < steps; ++k) {
+      const double u = shapes::pi / 2 * k / steps;
+      profile.push_back({std::sin(u), 0, 1 - std::cos(u)});
+    }
+    for (int k = 0; k <= 8; ++k) profile.push_back({1, 0, 1 + 0.5 * k});
+    shapes::Soup s;
+    for (const Vec3d& p : profile)
+      for (int j = 0; j <= 6; ++j) s.points.push_back({p.x, 0.5 * j, p.z});
+    for (int i = 0; i + 1 < int(profile.size()); ++i)
+      for (int j = 0; j < 6; ++j)
+        shapes::add_quad(s, 7 * i + j, 7 * i + 7 + j, 7 * i + 8 + j, 7 * i + j + 1);
+    return s;
+  };
+  const Surface surface = shapes::make_surface(bent_plate(12));
+  const double scale = surface.normalization.scale;
+  const Facet_adjacency adjacency = facet_adjacency(surface.triangles, surface.points.size());
+  const auto lengths = [&](const std::vector<Edge>& edges) {
+    double sum = 0;
+    for (const Edge& e : edges) {
+      const Vec3d a = surface.points[e[0]], b = surface.points[e[1]];
+      CHECK(length(b - a) == doctest::Approx(std::abs(b.y - a.y))); // across, not along
+      sum += length(b - a) / scale;
+    }
+    return sum;
+  };
+  CHECK(lengths(flat_patch_boundaries(surface, adjacency, {}, 0.3 * scale)) == doctest::Approx(6));
+  // too narrow for rows of triangles
+  CHECK(flat_patch_boundaries(surface, adjacency, {}, 0.6 * scale).empty());
+  // with so many samples every strip of the tube is wide: the surface is a polyhedron
+  CHECK(flat_patch_boundaries(surface, adjacency, {}, 0.01 * scale).empty());
+  // a crease that comes too near
+  std::vector<Edge> creases;
+  for (int j = 0; j < 6; ++j) creases.push_back({15 * 7 + j, 15 * 7 + j + 1}); // at x = -0.25
+  CHECK(lengths(flat_patch_boundaries(surface, adjacency, creases, 0.3 * scale)) ==
+        doctest::Approx(6));
+  CHECK(lengths(flat_patch_boundaries(surface, adjacency, creases, 0.55 * scale)) ==
+        doctest::Approx(3));
+}
+
 TEST_CASE("density does not see a crease as curvature")
 {
   Remeshing_options options;

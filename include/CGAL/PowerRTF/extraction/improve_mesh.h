@@ -36,6 +36,7 @@ public:
   Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw)
       : m_surface(surface), m_guide(surface, tree), m_raw(raw), m_locked(raw.points.size(), false),
         m_raw_stars(raw, m_guide), m_watch(m_raw_stars),
+        m_flat(surface, facet_adjacency(surface.triangles, surface.points.size())),
         m_largest_distance(m_watch.max_distance() +
                            worsening * std::sqrt(surface.area / double(raw.points.size())))
   {
@@ -99,7 +100,7 @@ private:
     Tip_coverer(stars, m_watch, rough).run(far);
     mend();
     m_watch.update();
-    Surface_fitter(stars, m_watch, rough).run();
+    Surface_fitter(stars, m_watch, m_flat, rough).run();
     mend();
     if (mender.release_pinned() > 0) mend();
     m_watch.update();
@@ -176,6 +177,7 @@ private:
   std::vector<char> m_locked;
   Star_mesh m_raw_stars;
   Surface_watch m_watch;
+  Flat_patches m_flat;
   double m_largest_distance;
   std::vector<Face> m_too_far;
 };

@@ -8,6 +8,7 @@
 #define CGAL_POWER_RTF_SURFACE_CREASES_H
 
 #include <CGAL/PowerRTF/surface/facet_adjacency.h>
+#include <CGAL/PowerRTF/surface/flat_boundaries.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,27 +19,6 @@
 namespace CGAL {
 namespace PowerRTF {
 namespace internal {
-
-/// A graph of some edges of a surface, by vertex.
-class Edge_graph {
-public:
-  Edge_graph(const std::vector<Edge>& edges, std::size_t vertices) : m_edges(vertices)
-  {
-    for (std::size_t e = 0; e < edges.size(); ++e)
-      for (const int v : edges[e]) m_edges[v].push_back(static_cast<int>(e));
-  }
-  /// The edges at `v`, by increasing index.
-  const std::vector<int>& at(int v) const { return m_edges[v]; }
-  int degree(int v) const { return static_cast<int>(m_edges[v].size()); }
-  void remove(int e, const Edge& edge)
-  {
-    for (const int v : edge)
-      m_edges[v].erase(std::find(m_edges[v].begin(), m_edges[v].end(), e));
-  }
-
-private:
-  std::vector<std::vector<int>> m_edges;
-};
 
 inline std::vector<char> border_vertices(const Surface& surface, const Facet_adjacency& adjacency)
 {
@@ -116,7 +96,8 @@ inline void prune_creases(const Surface& surface, const std::vector<char>& on_bo
 
 /// The edges where the facets' normals differ by at least `angle` degrees, if these creases are
 /// clean: nearly all of their chains close, or end at other creases or at the border. Otherwise
-/// none. Dangling chains shorter than `2 h`, h = sqrt(area / n), and pieces shorter than `4 h` in
+/// none. Where there are creases, the boundaries of large flat patches are creases, too
+/// (`flat_patch_boundaries()`). Dangling chains shorter than `2 h`, h = sqrt(area / n), and pieces shorter than `4 h` in
 /// all are taken for noise.
 ///
 /// Measured on the models of CGAL's data: mechanical parts have less than one dangling end in 30
@@ -150,8 +131,11 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
   for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
     dangling += graph.degree(v) == 1 && !on_border[v];
   const bool clean = 30 * dangling <= creases.size() || (6 * dangling <= creases.size() && soft <= sharp);
-  if (!clean) return {};
+  if (!clean || creases.empty()) return {};
   const double h = std::sqrt(surface.area / static_cast<double>(n));
+  std::sort(creases.begin(), creases.end());
+  const std::vector<Edge> flat = flat_patch_boundaries(surface, adjacency, creases, h);
+  creases.insert(creases.end(), flat.begin(), flat.end());
   internal::prune_creases(surface, on_border, 2 * h, creases);
   std::sort(creases.begin(), creases.end());
   return creases;

@@ -6,19 +6,35 @@
 #ifndef CGAL_POWER_RTF_SURFACE_NARROW_PATCHES_H
 #define CGAL_POWER_RTF_SURFACE_NARROW_PATCHES_H
 
-#include <CGAL/PowerRTF/surface/cut_surface.h>
+#include <CGAL/PowerRTF/surface/facet_adjacency.h>
 #include <CGAL/PowerRTF/surface/feature_curves.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <numeric>
+#include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace PowerRTF {
 namespace internal {
+
+/// What decides which patches are joined.
+struct Patch_shape {
+  double area = 0, perimeter = 0;
+  Vec3d area_vector{0, 0, 0}; ///< sum of the facets' areas times their normals
+
+  double width() const { return 2 * area / perimeter; }
+  double flat_area() const
+  {
+    constexpr double flat = 1 - 1e-4;
+    return length(area_vector) > flat * area ? area : 0;
+  }
+};
 
 /// A curve of creases between two patches; no seam.
 struct Crease_curve {
@@ -27,23 +43,45 @@ struct Crease_curve {
   std::array<int, 2> patches{-1, -1};
 };
 
-inline std::vector<Crease_curve> crease_curves(const Surface& surface, const Cut_surface& cut,
-                                               std::vector<double>& perimeters)
-{
-  const auto& triangles = surface.triangles;
-  const Facet_adjacency adjacency = facet_adjacency(triangles, surface.points.size());
-  std::vector<std::array<int, 2>> sides(surface.creases.size(), {-1, -1}); // of the creases
-  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    const Edge edge = sorted_edge(a, b);
-    const auto crease = std::lower_bound(surface.creases.begin(), surface.creases.end(), edge);
-    const bool is_crease = crease != surface.creases.end() && *crease == edge;
-    if (!is_crease && adjacency.opposite[h] != Facet_adjacency::none) continue;
-    const int patch = cut.surface.facet_patches[h / 3];
-    perimeters[patch] += length(surface.points[b] - surface.points[a]);
-    if (is_crease) sides[crease - surface.creases.begin()][a < b] = patch;
-  }
+/// The patches, by facet, and their shapes; `sides`: of the creases, the patches to the right (seen
+/// from the smaller vertex) and to the left.
+struct Crease_patches {
+  std::vector<int> of_facet;
+  std::vector<Patch_shape> shapes;
+  std::vector<std::array<int, 2>> sides;
 
+  Crease_patches(const Surface& surface, const Facet_adjacency& adjacency)
+      : sides(surface.creases.size(), {-1, -1})
+  {
+    const auto& triangles = surface.triangles;
+    Facet_adjacency cut = adjacency;
+    std::vector<int> crease(adjacency.opposite.size(), -1); // of the halfedges
+    for (int h = 0; h < static_cast<int>(crease.size()); ++h) {
+      const Edge edge = sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h));
+      const auto found = std::lower_bound(surface.creases.begin(), surface.creases.end(), edge);
+      if (found == surface.creases.end() || *found != edge) continue;
+      crease[h] = static_cast<int>(found - surface.creases.begin());
+      cut.opposite[h] = Facet_adjacency::none;
+    }
+    int count;
+    std::tie(of_facet, count) = facet_components(cut);
+    shapes.resize(count);
+    for (std::size_t f = 0; f < of_facet.size(); ++f) {
+      shapes[of_facet[f]].area += surface.facet_areas[f];
+      shapes[of_facet[f]].area_vector += surface.facet_areas[f] * surface.facet_normals[f];
+    }
+    for (int h = 0; h < static_cast<int>(crease.size()); ++h) {
+      if (cut.opposite[h] != Facet_adjacency::none) continue;
+      const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+      shapes[of_facet[h / 3]].perimeter += length(surface.points[b] - surface.points[a]);
+      if (crease[h] >= 0) sides[crease[h]][a < b] = of_facet[h / 3];
+    }
+  }
+};
+
+inline std::vector<Crease_curve> crease_curves(const Surface& surface,
+                                               const Crease_patches& patches)
+{
   std::vector<Crease_curve> curves;
   for (const Feature_curve& curve : feature_curves(surface, 0)) {
     Crease_curve result;
@@ -55,51 +93,127 @@ inline std::vector<Crease_curve> crease_curves(const Surface& surface, const Cut
       has_seam = has_seam || std::binary_search(surface.seams.begin(), surface.seams.end(), edge);
       result.edges.push_back(edge);
       result.length += length(surface.points[edge[1]] - surface.points[edge[0]]);
-      result.patches = sides[crease - surface.creases.begin()];
+      result.patches = patches.sides[crease - surface.creases.begin()];
     }
     if (!result.edges.empty() && !has_seam) curves.push_back(std::move(result));
   }
   return curves;
 }
 
+/// Joins narrow patches to their neighbours, the narrowest first.
+class Patch_joiner {
+public:
+  Patch_joiner(std::vector<Patch_shape> shapes, std::vector<Crease_curve> curves, double width)
+      : m_shapes(std::move(shapes)), m_curves(std::move(curves)), m_width(width),
+        m_joined_to(m_shapes.size()), m_curves_of(m_shapes.size())
+  {
+    std::iota(m_joined_to.begin(), m_joined_to.end(), 0);
+    for (int c = 0; c < static_cast<int>(m_curves.size()); ++c)
+      for (const int p : m_curves[c].patches) m_curves_of[p].push_back(c);
+  }
+
+  /// \returns the edges of the curves that are taken out, sorted
+  std::vector<Edge> run()
+  {
+    std::set<std::pair<double, int>> narrow; // width, patch
+    const auto look_at = [&](int p) {
+      if (m_shapes[p].width() < m_width) narrow.insert({m_shapes[p].width(), p});
+    };
+    for (int p = 0; p < static_cast<int>(m_shapes.size()); ++p) look_at(p);
+    std::vector<Edge> dropped;
+    while (!narrow.empty()) {
+      const int p = narrow.begin()->second;
+      narrow.erase(narrow.begin());
+      const int c = dispensable_curve(p);
+      if (c < 0) continue;
+      const int q = other_side(c, p);
+      narrow.erase({m_shapes[q].width(), q});
+      dropped.insert(dropped.end(), m_curves[c].edges.begin(), m_curves[c].edges.end());
+      look_at(join(p, q, c));
+    }
+    std::sort(dropped.begin(), dropped.end());
+    return dropped;
+  }
+
+private:
+  int root(int p)
+  {
+    while (m_joined_to[p] != p) p = m_joined_to[p] = m_joined_to[m_joined_to[p]];
+    return p;
+  }
+
+  /// `p`: where both sides are one patch.
+  int other_side(int c, int p)
+  {
+    const int a = root(m_curves[c].patches[0]), b = root(m_curves[c].patches[1]);
+    return a == p ? b : a;
+  }
+
+  /// The curve around `p` that is least needed, or -1. Of those at least half as long as the
+  /// longest, which make it narrow: one to a patch that is not narrow rather than to one that is,
+  /// then to the patch of the smallest flat area, then the longest, the first of equal ones.
+  int dispensable_curve(int p)
+  {
+    constexpr double clearly = 1 + 1e-9;
+    double longest = 0;
+    for (const int c : m_curves_of[p])
+      if (other_side(c, p) != p) longest = (std::max)(longest, m_curves[c].length);
+    int best = -1;
+    const auto is_less_needed = [&](int c) {
+      const Patch_shape &now = m_shapes[other_side(best, p)], &then = m_shapes[other_side(c, p)];
+      const bool is_now_narrow = now.width() < m_width, is_then_narrow = then.width() < m_width;
+      if (is_now_narrow != is_then_narrow) return is_now_narrow;
+      if (then.flat_area() * clearly < now.flat_area()) return true;
+      if (now.flat_area() * clearly < then.flat_area()) return false;
+      return m_curves[c].length > m_curves[best].length * clearly;
+    };
+    for (const int c : m_curves_of[p])
+      if (other_side(c, p) != p && m_curves[c].length >= 0.5 * longest &&
+          (best < 0 || is_less_needed(c)))
+        best = c;
+    return best;
+  }
+
+  /// \returns the number of the patch that both become
+  int join(int p, int q, int c)
+  {
+    if (m_curves_of[p].size() < m_curves_of[q].size()) std::swap(p, q);
+    m_joined_to[q] = p;
+    m_shapes[p].area += m_shapes[q].area;
+    m_shapes[p].area_vector += m_shapes[q].area_vector;
+    m_shapes[p].perimeter += m_shapes[q].perimeter - 2 * m_curves[c].length;
+    auto& curves = m_curves_of[p];
+    const auto middle = curves.insert(curves.end(), m_curves_of[q].begin(), m_curves_of[q].end());
+    std::inplace_merge(curves.begin(), middle, curves.end());
+    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+    curves.erase(std::find(curves.begin(), curves.end(), c));
+    return p;
+  }
+
+  std::vector<Patch_shape> m_shapes;
+  std::vector<Crease_curve> m_curves;
+  double m_width;
+  std::vector<int> m_joined_to;              // by patch
+  std::vector<std::vector<int>> m_curves_of; // by patch, increasing
+};
+
 } // namespace internal
 
-/// Joins each patch narrower than `width` (twice its area over its perimeter) to a neighbour: the
-/// longest crease curve around it is taken out of `surface.creases`, the first of equal ones.
+/// Joins each patch narrower than `width` (twice its area over its perimeter) to a neighbour: of the
+/// crease curves around it the one that is least needed is taken out of `surface.creases`. Those of
+/// large flat patches stay: there everybody sees what is not flat.
 inline void join_narrow_patches(Surface& surface, double width)
 {
-  for (bool changed = true; changed && !surface.creases.empty();) {
-    changed = false;
-    const Cut_surface cut = cut_along_creases(surface);
-    const auto& patches = cut.surface.facet_patches;
-    const std::size_t count = *std::max_element(patches.begin(), patches.end()) + 1;
-    std::vector<double> areas(count, 0), perimeters(count, 0);
-    for (std::size_t f = 0; f < patches.size(); ++f) areas[patches[f]] += surface.facet_areas[f];
-    const auto curves = internal::crease_curves(surface, cut, perimeters);
-
-    std::vector<int> longest(count, -1);
-    for (std::size_t c = 0; c < curves.size(); ++c)
-      for (const int p : curves[c].patches)
-        if (curves[c].patches[0] != curves[c].patches[1] &&
-            (longest[p] < 0 || curves[c].length > curves[longest[p]].length * (1 + 1e-9)))
-          longest[p] = static_cast<int>(c);
-    std::vector<Edge> dropped;
-    std::vector<char> is_joined(count, 0); // in this pass
-    for (std::size_t p = 0; p < count; ++p) {
-      if (longest[p] < 0 || !(2 * areas[p] < width * perimeters[p])) continue;
-      const internal::Crease_curve& curve = curves[longest[p]];
-      if (is_joined[curve.patches[0]] || is_joined[curve.patches[1]]) continue;
-      is_joined[curve.patches[0]] = is_joined[curve.patches[1]] = 1;
-      dropped.insert(dropped.end(), curve.edges.begin(), curve.edges.end());
-    }
-    if (dropped.empty()) break;
-    changed = true;
-    std::sort(dropped.begin(), dropped.end());
-    std::vector<Edge> kept;
-    std::set_difference(surface.creases.begin(), surface.creases.end(), dropped.begin(),
-                        dropped.end(), std::back_inserter(kept));
-    surface.creases.swap(kept);
-  }
+  if (surface.creases.empty()) return;
+  internal::Crease_patches patches(surface,
+                                   facet_adjacency(surface.triangles, surface.points.size()));
+  auto curves = internal::crease_curves(surface, patches);
+  const std::vector<Edge> dropped =
+      internal::Patch_joiner(std::move(patches.shapes), std::move(curves), width).run();
+  std::vector<Edge> kept;
+  std::set_difference(surface.creases.begin(), surface.creases.end(), dropped.begin(),
+                      dropped.end(), std::back_inserter(kept));
+  surface.creases.swap(kept);
 }
 
 } // namespace PowerRTF

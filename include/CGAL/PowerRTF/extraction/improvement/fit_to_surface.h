@@ -14,9 +14,11 @@
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/extraction/improvement/Surface_watch.h>
 #include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/surface/flat_patches.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace CGAL
@@ -60,9 +62,11 @@ public:
   using Vertex = Star_mesh::Vertex;
   using Halfedge = Star_mesh::Halfedge;
 
-  /// `limit`: the badness that a move may bring upon a triangle that was better.
-  Surface_fitter(Star_mesh& mesh, const Surface_watch& watch, double limit)
-      : m(mesh), m_watch(watch), m_badness_limit(limit),
+  /// `flat`: of the surface. `limit`: the badness that a move may bring upon a triangle that was
+  /// better.
+  Surface_fitter(Star_mesh& mesh, const Surface_watch& watch, const Flat_patches& flat, double limit)
+      : m(mesh), m_watch(watch), m_flat(flat), m_badness_limit(limit),
+        m_spacing(std::sqrt(mesh.guide().surface().area / double(mesh.size()))),
         m_sideways(is_even(mesh.guide().surface()) ? sideways_even : sideways),
         m_unknowns(mesh.size()), m_coupling(mesh.working().mesh.number_of_edges())
   {
@@ -84,6 +88,9 @@ private:
     Symmetric_matrix matrix;
     Vec3d right{0, 0, 0}, move{0, 0, 0};
     double weight = 0, longest = 0;
+    double around = 0, level = 0; // area of the star, and of what is in the plane of the vertex
+
+    bool is_flat() const { return level > flat_share * around; }
   };
 
   static constexpr int sweeps = 8; // the matrix is like a mass matrix: they converge fast
@@ -91,6 +98,10 @@ private:
   // What moves in the tangent plane cost; more where the samples are to be spaced evenly.
   static constexpr double sideways = 0.05, sideways_even = 0.3;
   static constexpr double upwards = 1e-3; // and those along the normal
+  // Where so much of a star lies in one wide flat patch, its vertex stays there, whatever is next to
+  // it: a flat face that bulges is worse than a round one that is cut short.
+  static constexpr double flat_share = 0.25, upwards_flat = 1e6;
+  static constexpr double level_turn = 0.99999; // cosine of normals of facets in one plane
   static constexpr double alike = 0.5;    // cosine of normals of facets on one sheet
   // The weight of the surface's vertices, with 8 or more for each vertex of the mesh. The fewer
   // there are, the more they are a random choice: it falls with the square of their number.
@@ -118,7 +129,7 @@ private:
     for (const Vertex v : mesh.vertices()) {
       Unknown& u = m_unknowns[v];
       u.matrix.add_identity(m_sideways * u.weight);
-      u.matrix.add(m.normal(v), (upwards - m_sideways) * u.weight);
+      u.matrix.add(normal(v), ((u.is_flat() ? upwards_flat : upwards) - m_sideways) * u.weight);
     }
   }
 
@@ -170,9 +181,30 @@ private:
     n = squared_length(n) > 0 ? normalized(n) : m.normal(guide); // the middle of a feature edge
     const auto place = m.guide().project(p, n, near_facet(mesh.face(edges[0]), p, n, guide));
     if (place.facet < 0) return;
+    for (int k = 0; k < 3; ++k)
+      if (barycentric[k] > 0) note_level(mesh.source(edges[k]), place, weight);
     const double distance = length(place.point - p);
     add(edges, barycentric, distance > 0 ? (place.point - p) * (1 / distance) : n, distance,
         weight);
+  }
+
+  // Whether a place of the surface is in the plane of the facet that carries `v`.
+  void note_level(Vertex v, const Surface_guide::Place& place, double weight)
+  {
+    const auto& normals = m.guide().surface().facet_normals;
+    const Vec3d &n = normals[m.facet(v)], offset = place.point - m.point(v);
+    const double height = dot(offset, n);
+    Unknown& u = m_unknowns[v];
+    u.around += weight;
+    if (m_flat.is_wide(m.facet(v), m_spacing) && dot(normals[place.facet], n) > level_turn &&
+        height * height < (1 - level_turn) * squared_length(offset))
+      u.level += weight;
+  }
+
+  // Of the surface at `v`, as it is there.
+  Vec3d normal(Vertex v) const
+  {
+    return m_unknowns[v].is_flat() ? m.guide().surface().facet_normals[m.facet(v)] : m.normal(v);
   }
 
   // A facet near the point `p` of a face: that of `guide`, or of a point that is watched there, on
@@ -229,7 +261,9 @@ private:
 
   void move(Vertex v)
   {
-    const Vec3d p = m.point(v), q = p + m_unknowns[v].move;
+    const Unknown& u = m_unknowns[v];
+    const Vec3d n = u.is_flat() ? normal(v) : Vec3d{0, 0, 0};
+    const Vec3d p = m.point(v), q = p + u.move - dot(u.move, n) * n;
     for (const Star::Corner& c : m.star(v).corners) {
       const Vec3d before = cross(c.a - p, c.b - p), after = cross(c.a - q, c.b - q);
       if (!(dot(before, after) > largest_turn * length(before) * length(after))) return;
@@ -241,7 +275,8 @@ private:
 
   Star_mesh& m;
   const Surface_watch& m_watch;
-  double m_badness_limit, m_sideways;
+  const Flat_patches& m_flat;
+  double m_badness_limit, m_spacing, m_sideways;
   // the normal equations, and their solution
   std::vector<Unknown> m_unknowns;          // by vertex
   std::vector<Symmetric_matrix> m_coupling; // by edge

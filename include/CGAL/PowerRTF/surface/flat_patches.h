@@ -1,0 +1,72 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The flat parts of a surface.
+#ifndef CGAL_POWER_RTF_SURFACE_FLAT_PATCHES_H
+#define CGAL_POWER_RTF_SURFACE_FLAT_PATCHES_H
+
+#include <CGAL/PowerRTF/surface/facet_adjacency.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// The maximal sets of connected facets whose normals differ from that of their first facet by less
+/// than a tenth of a degree.
+class Flat_patches {
+public:
+  Flat_patches(const Surface& surface, const Facet_adjacency& adjacency)
+      : m_patches(surface.triangles.size(), -1)
+  {
+    for (int f = 0; f < int(surface.triangles.size()); ++f)
+      if (m_patches[f] < 0) grow(surface, adjacency, f);
+    m_perimeters.assign(m_areas.size(), 0);
+    const auto is_boundary = [&](int h) {
+      const int o = adjacency.opposite[h];
+      return o == Facet_adjacency::none || m_patches[o / 3] != m_patches[h / 3];
+    };
+    for (int h = 0; h < int(adjacency.opposite.size()); ++h)
+      if (is_boundary(h))
+        m_perimeters[m_patches[h / 3]] += length(surface.points[halfedge_target(surface.triangles, h)] -
+                                                 surface.points[halfedge_source(surface.triangles, h)]);
+  }
+
+  /// Whether the patch of facet `f` is so wide (twice its area over its perimeter) that samples of
+  /// the spacing `h` make several rows of triangles on it.
+  bool is_wide(int f, double h) const
+  {
+    constexpr double rows = 3;
+    return 2 * m_areas[m_patches[f]] > rows * h * m_perimeters[m_patches[f]];
+  }
+
+private:
+  void grow(const Surface& surface, const Facet_adjacency& adjacency, int seed)
+  {
+    constexpr double flat = 1 - 1.5e-6; // cosine
+    const int patch = int(m_areas.size());
+    double area = 0;
+    std::vector<int> facets(1, seed);
+    m_patches[seed] = patch;
+    for (std::size_t k = 0; k < facets.size(); ++k) {
+      area += surface.facet_areas[facets[k]];
+      for (int h = 3 * facets[k]; h < 3 * facets[k] + 3; ++h) {
+        const int o = adjacency.opposite[h];
+        if (o == Facet_adjacency::none || m_patches[o / 3] >= 0 ||
+            !(dot(surface.facet_normals[o / 3], surface.facet_normals[seed]) > flat))
+          continue;
+        m_patches[o / 3] = patch;
+        facets.push_back(o / 3);
+      }
+    }
+    m_areas.push_back(area);
+  }
+
+  std::vector<int> m_patches; // by facet
+  std::vector<double> m_areas, m_perimeters;
+};
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_SURFACE_FLAT_PATCHES_H
