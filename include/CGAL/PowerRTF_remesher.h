@@ -112,7 +112,9 @@ public:
   /// The current samples, in the order of the output's vertices: those with cells, then those on
   /// creases and borders.
   PowerRTF::Samples samples() const
-  { return PowerRTF::joined(m_engine.samples(), m_patches.features().samples); }
+  {
+    return PowerRTF::joined(m_patches.on_whole(m_engine.samples()), m_patches.features().samples);
+  }
   /// The sites of the cells: the samples that have one, then the copies of those on creases and
   /// borders, one for each patch at them.
   PowerRTF::Samples sites() const

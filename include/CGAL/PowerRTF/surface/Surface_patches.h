@@ -10,9 +10,13 @@
 #include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/output_grid.h>
 #include <CGAL/PowerRTF/surface/smooth_normals.h>
+#include <CGAL/PowerRTF/surface/split_bent_facets.h>
 #include <CGAL/PowerRTF/surface/topology_minimum.h>
 
 #include <cstddef>
+#include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -30,31 +34,61 @@ public:
     require_enough_samples(surface, n);
     set_output_grid(surface, options);
     const Facet_adjacency adjacency = facet_adjacency(surface.triangles, surface.points.size());
-    if (surface.creases.empty() && adjacency.border_edges == 0 &&
-        facet_components(adjacency).second == 1) {
+    const bool is_one_patch = surface.creases.empty() && adjacency.border_edges == 0 &&
+                              facet_components(adjacency).second == 1;
+    if (is_one_patch && !has_long_bent_facets(surface, n)) {
       smooth_normals(surface, n, options.normal_smoothing);
       return;
     }
-    m_cut = cut_along_creases(surface);
-    m_features = sample_features(surface, m_cut, n);
-    smooth_normals(m_cut.surface, n, options.normal_smoothing);
+    std::vector<int> originals; // of the vertices of the patches
+    if (is_one_patch) {
+      m_own = surface;
+      originals.resize(surface.points.size());
+      std::iota(originals.begin(), originals.end(), 0);
+    } else {
+      Cut_surface cut = cut_along_creases(surface);
+      m_features = sample_features(surface, cut, n);
+      m_own = std::move(cut.surface);
+      originals = std::move(cut.originals);
+    }
+    m_parents = split_bent_facets(*m_own, n);
+    place_features();
+    smooth_normals(*m_own, n, options.normal_smoothing);
     surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
-    for (std::size_t v = 0; v < m_cut.originals.size(); ++v)
-      surface.vertex_normals[m_cut.originals[v]] += m_cut.surface.vertex_normals[v];
+    for (std::size_t v = 0; v < originals.size(); ++v)
+      surface.vertex_normals[originals[v]] += m_own->vertex_normals[v];
     internal::mend_vertex_normals(surface);
   }
 
   Surface_patches(const Surface_patches&) = delete;
   Surface_patches& operator=(const Surface_patches&) = delete;
 
-  /// The surface cut along its creases; its facets are those of the whole one.
-  const Surface& surface() const { return m_cut.originals.empty() ? m_whole : m_cut.surface; }
+  /// The surface cut along its creases, its long bent facets split.
+  const Surface& surface() const { return m_own ? *m_own : m_whole; }
   const Feature_samples& features() const { return m_features; }
 
+  /// Samples on `surface()` with the facets of the whole surface.
+  Samples on_whole(Samples samples) const
+  {
+    if (!m_parents.empty())
+      for (int& f : samples.facets) f = m_parents[f];
+    return samples;
+  }
+
 private:
+  /// Gives the features' sites facets that have been split: any part of theirs lies on their patch.
+  void place_features()
+  {
+    if (m_parents.empty()) return;
+    std::vector<int> parts(m_whole.triangles.size());
+    for (std::size_t f = m_parents.size(); f-- > 0;) parts[m_parents[f]] = static_cast<int>(f);
+    for (int& f : m_features.sites.facets) f = parts[f];
+  }
+
   const Surface& m_whole;
-  Cut_surface m_cut; ///< empty: the surface is one patch without boundary
-  Feature_samples m_features;
+  std::optional<Surface> m_own; ///< none: the whole surface is one patch as it is
+  std::vector<int> m_parents;   ///< of the facets of `m_own`; empty: these are the whole one's
+  Feature_samples m_features;   ///< the samples have facets of the whole surface, the sites of `m_own`
 };
 
 } // namespace PowerRTF
