@@ -101,6 +101,7 @@ TEST_CASE("triangle quality: equilateral triangles are perfect")
     CHECK(q.q_avg == Approx(1));
     CHECK(q.theta_min == Approx(60));
     CHECK(q.theta_min_avg == Approx(60));
+    CHECK(q.theta_max == Approx(60));
     CHECK(q.below_30 == 0);
     CHECK(q.above_90 == 0);
   }
@@ -113,6 +114,7 @@ TEST_CASE("triangle quality: known angles")
   Quality_statistics q = triangle_quality(s.points, s.triangles);
   CHECK(q.q_min == Approx(6 / std::sqrt(3.) / 5));
   CHECK(q.theta_min == Approx(std::atan2(3, 4) * 180 / shapes::pi));
+  CHECK(q.theta_max == Approx(90));
   CHECK(q.above_90 == 0);
   CHECK(q.below_30 == 0);
 
@@ -123,6 +125,7 @@ TEST_CASE("triangle quality: known angles")
   s.triangles.insert(s.triangles.end(), {{{3, 4, 5}}, {{3, 4, 6}}});
   q = triangle_quality(s.points, s.triangles);
   CHECK(q.theta_min == Approx(20));
+  CHECK(q.theta_max == Approx(140));
   CHECK(q.theta_min_avg == Approx((20 + 60 + std::atan2(3, 4) * 180 / shapes::pi) / 3));
   CHECK(q.below_30 == Approx(1. / 3));
   CHECK(q.above_90 == Approx(1. / 3));
@@ -132,13 +135,39 @@ TEST_CASE("triangle quality: known angles")
 TEST_CASE("triangle quality: no triangle, no area")
 {
   CHECK(triangle_quality({}, {}).q_avg == 0);
+  CHECK(triangle_quality({}, {}).theta_max == 0);
   const Soup s =
       soup({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 0, 0}}, {{0, 1, 3}}});
   const Quality_statistics q = triangle_quality(s.points, s.triangles);
   CHECK(q.q_min == 0);
   CHECK(q.theta_min == 0);
   CHECK(q.theta_min_avg == Approx(15));
+  CHECK(q.theta_max == 180);
+  CHECK(q.above_90 == 0);
   CHECK(q.below_30 == Approx(2. / 3));
+}
+
+TEST_CASE("edge lengths: every edge once")
+{
+  // a square of side 1 and its diagonal, which is an edge of both triangles
+  const Soup square = shapes::plane_patch(1, 1);
+  const Edge_length_statistics s = edge_lengths(square.points, square.triangles);
+  CHECK(s.mean == Approx((4 + std::sqrt(2.)) / 5));
+  CHECK(s.min == Approx(1));
+  CHECK(s.max == Approx(std::sqrt(2.)));
+
+  // whichever way round their facets are
+  const Soup octahedron = shapes::octahedron();
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    Soup turned = shapes::permuted(octahedron, seed);
+    std::swap(turned.triangles[seed][0], turned.triangles[seed][1]);
+    const Edge_length_statistics o = edge_lengths(turned.points, turned.triangles);
+    CHECK(o.mean == Approx(std::sqrt(2.)));
+    CHECK(o.min == Approx(std::sqrt(2.)));
+    CHECK(o.max == Approx(std::sqrt(2.)));
+  }
+  CHECK(edge_lengths({}, {}).mean == 0);
+  CHECK(edge_lengths({}, {}).min == 0);
 }
 
 TEST_CASE("topology: closed surfaces")
@@ -390,6 +419,9 @@ TEST_CASE("assess: a surface against itself has no distance, and its own topolog
   assess<CGAL::Sequential_tag>(surface, {surface.points, surface.triangles, {}}, report);
   CHECK(report.distance.max < 1e-6);
   CHECK(report.topology.euler_characteristic == 0);
+  CHECK(report.diagonal == Approx(std::sqrt(8. * 8 + 8 * 8 + 2 * 2))); // in the torus's own unit
+  // the shortest edges are chords of 1/20 of the tube
+  CHECK(report.edge_length.min == Approx(2 * std::sin(shapes::pi / 20)));
   CHECK(report.missed_guarantees().empty());
 
   const Soup open = without_last({surface.points, surface.triangles});

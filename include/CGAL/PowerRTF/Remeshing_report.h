@@ -31,7 +31,13 @@ struct Capacity_statistics {
 struct Quality_statistics {
   double q_min = 0, q_avg = 0;             ///< Q_t = 6/sqrt(3) * A_t / (S_t E_t)
   double theta_min = 0, theta_min_avg = 0; ///< degrees
+  double theta_max = 0;                    ///< degrees, the largest angle
   double below_30 = 0, above_90 = 0;       ///< share of triangles with such an angle
+};
+
+/// Lengths of the edges, every one counted once.
+struct Edge_length_statistics {
+  double mean = 0, min = 0, max = 0;
 };
 
 /// Combinatorics of a triangle mesh given as a soup of triangles.
@@ -98,9 +104,14 @@ struct Remeshing_report {
   std::size_t feature_edges = 0;       ///< of the output's creases and borders
   std::size_t lost_feature_edges = 0;  ///< of those, how many the output's triangles lack
   Quality_statistics quality;
+  Edge_length_statistics edge_length; ///< in the input's unit of length
+  double diagonal = 0; ///< of the input's bounding box, in the input's unit of length
   Distance_statistics distance;
   Stage_seconds seconds;
   Device_report device;
+
+  /// A distance in % of the diagonal, in the input's unit of length.
+  double absolute(double percent) const { return percent / 100 * diagonal; }
 
   /// The guarantees that the result misses, in words; empty: all are met.
   std::vector<std::string> missed_guarantees() const;

@@ -51,6 +51,11 @@ void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report
   if (report.self_intersections > 0)
     report.input_self_intersections = self_intersections(surface.points, surface.triangles);
   report.quality = triangle_quality(mesh.points, mesh.triangles);
+  const double unit = 1 / surface.normalization.scale; // of the points, in the input's
+  const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles);
+  report.edge_length = {unit * lengths.mean, unit * lengths.min, unit * lengths.max};
+  const Box3<double> box = internal::bounding_box(surface.points, surface.triangles);
+  report.diagonal = unit * length(box.hi - box.lo);
   report.distance = surface_distance<ConcurrencyTag>(surface.points, surface.triangles, mesh.points,
                                                      mesh.triangles);
 }
