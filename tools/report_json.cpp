@@ -129,11 +129,19 @@ void add_mesh(Json& json, const Run& run)
   json["q_avg"] = r.quality.q_avg;
   json["theta_min"] = r.quality.theta_min;
   json["theta_min_avg"] = r.quality.theta_min_avg;
+  json["theta_max"] = r.quality.theta_max;
   json["below_30"] = r.quality.below_30;
   json["above_90"] = r.quality.above_90;
+  json["edge_length_mean"] = r.edge_length.mean;
+  json["edge_length_min"] = r.edge_length.min;
+  json["edge_length_max"] = r.edge_length.max;
+  json["diagonal"] = r.diagonal;
   json["distance_rms"] = r.distance.rms;
   json["distance_mean"] = r.distance.mean;
   json["distance_max"] = r.distance.max;
+  json["absolute_distance_rms"] = r.absolute(r.distance.rms);
+  json["absolute_distance_mean"] = r.absolute(r.distance.mean);
+  json["absolute_distance_max"] = r.absolute(r.distance.max);
   json["missed_guarantees"] = run.missed;
 }
 

@@ -19,6 +19,14 @@ std::string number(double x, int digits)
   return text;
 }
 
+/// Of any size: a length in the input's unit.
+std::string figure(double x)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.5g", x);
+  return text;
+}
+
 std::string percent(double share) { return number(100 * share, 2) + " %"; }
 
 void row(std::ostream& out, const std::string& name, const std::string& value,
@@ -56,11 +64,19 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
   row(out, "triangle quality, mean", number(q.q_avg, 4));
   row(out, "smallest angle, least", number(q.theta_min, 2));
   row(out, "smallest angle, mean", number(q.theta_min_avg, 2));
+  row(out, "largest angle", number(q.theta_max, 2));
   row(out, "triangles with an angle below 30", percent(q.below_30));
   row(out, "triangles with an angle above 90", percent(q.above_90));
-  row(out, "distance, RMS (% of diagonal)", number(r.distance.rms, 4));
-  row(out, "distance, mean", number(r.distance.mean, 4));
-  row(out, "distance, largest", number(r.distance.max, 4));
+  row(out, "edge length, mean", figure(r.edge_length.mean));
+  row(out, "edge length, least", figure(r.edge_length.min));
+  row(out, "edge length, largest", figure(r.edge_length.max));
+  row(out, "", "% of diagonal", "absolute");
+  const auto distance = [&](const std::string& name, double x) {
+    row(out, "distance to the input, " + name, number(x, 4), figure(r.absolute(x)));
+  };
+  distance("RMS", r.distance.rms);
+  distance("mean", r.distance.mean);
+  distance("largest", r.distance.max);
 }
 
 void print_repairs(std::ostream& out, const Repair_counts& r)

@@ -13,6 +13,27 @@ field() { sed -n "s/^ *\"$1\": \(.*[^,{[]\),\{0,1\}$/\1/p" r.json | head -n 1; }
 # has NAME VALUE: the field has that value
 has() { expect "the report's $1 is '$(field "$1")' instead of '$2'" [ "$(field "$1")" = "$2" ]; }
 
+# measured: mean, least and largest length of the edges of out.off, and its largest angle
+measured() {
+  awk 'BEGIN { n = 0 } NR > 2 && NF == 3 { for (k = 1; k <= 3; ++k) p[n, k] = $k; ++n }
+    NR > 2 && NF == 4 {
+      for (k = 0; k < 3; ++k) {
+        l[k] = 0
+        for (i = 1; i <= 3; ++i) l[k] += (p[$(k + 2), i] - p[$((k + 1) % 3 + 2), i]) ^ 2
+        sum += sqrt(l[k]); ++count
+        if (least == 0 || l[k] < least) least = l[k]
+        if (l[k] > most) most = l[k]
+      }
+      for (k = 0; k < 3; ++k) {
+        a = l[k]; b = l[(k + 1) % 3]; c = l[(k + 2) % 3]
+        cosine = (a + b - c) / 2 / sqrt(a * b)
+        angle = atan2(sqrt(1 - cosine ^ 2), cosine) * 45 / atan2(1, 1)
+        if (angle > theta) theta = angle
+      }
+    }
+    END { printf "%.10g %.10g %.10g %.10g", sum / count, sqrt(least), sqrt(most), theta }' out.off
+}
+
 # vertices FILE.off: its 200 vertices, rounded
 vertices() { grep . "$1" | sed -n 3,202p | rounded; }
 rounded() { awk '{ printf "%.12g %.12g %.12g\n", $1, $2, $3 }'; }
@@ -20,8 +41,10 @@ rounded() { awk '{ printf "%.12g %.12g %.12g\n", $1, $2, $3 }'; }
 # --- the report
 run 0 -- torus.off out.off "${fast[@]}" --report r.json
 for name in vertices faces euler_characteristic input_euler_characteristic components border_edges \
-  self_intersections q_min q_avg theta_min theta_min_avg below_30 above_90 distance_rms \
-  distance_mean distance_max inside_capacity_interval capacity_rms constructions outer_iterations \
+  self_intersections q_min q_avg theta_min theta_min_avg theta_max below_30 above_90 \
+  edge_length_mean edge_length_min edge_length_max diagonal distance_rms distance_mean distance_max \
+  absolute_distance_rms absolute_distance_mean absolute_distance_max \
+  inside_capacity_interval capacity_rms constructions outer_iterations \
   cells ok guarded empty incomplete seconds load surface sampling optimization extraction \
   improvement write total traits preset seed threads missed_guarantees; do
   expect "the report has $name" grep -q "\"$name\": ." r.json
@@ -42,6 +65,22 @@ expect 'the braces of the report match' \
   [ "$(tr -cd '{' <r.json | wc -c)" -eq "$(tr -cd '}' <r.json | wc -c)" ]
 expect 'the table shows the vertices' grep -Eq '^ *vertices +200 +800$' stdout
 expect 'the table shows the quality' grep -q 'triangle quality' stdout
+for row in 'largest angle' 'edge length, mean' 'edge length, least' 'edge length, largest' \
+  'distance to the input, mean' 'distance to the input, largest'; do
+  expect "the table shows the $row" grep -q "^ *$row  " stdout
+done
+# by hand from out.off: the lengths of the edges, each twice, and the largest angle
+expect "the edges and the largest angle are those of the mesh: $(measured)" \
+  awk -v is="$(measured)" -v said="$(for name in edge_length_mean edge_length_min edge_length_max \
+    theta_max; do field $name; done | tr '\n' ' ')" 'BEGIN { split(is, a); n = split(said, b)
+    for (i = 1; i <= 4; ++i) if (a[i] <= 0 || (a[i] / b[i] - 1) ^ 2 > 1e-10) exit 1
+    exit n != 4 }'
+# the torus fills 8 x 8 x 2
+expect 'the diagonal is that of the input' awk -v d="$(field diagonal)" \
+  'BEGIN { exit (d / sqrt(132) - 1) ^ 2 > 1e-6 }'
+expect 'the absolute distance is that share of it' awk -v d="$(field diagonal)" \
+  -v p="$(field distance_max)" -v a="$(field absolute_distance_max)" \
+  'BEGIN { exit !(a > 0 && (a / (p / 100 * d) - 1) ^ 2 < 1e-10) }'
 expect 'no progress bar where there is no terminal' [ ! -s stderr ]
 expect 'the OFF header counts' [ "$(sed -n 2p out.off)" = '200 400 0' ]
 
