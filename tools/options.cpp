@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options.h"
+
+#include "output_file.h"
 #include "parameters.h"
 
 #include <boost/program_options.hpp>
@@ -8,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 #include <type_traits>
 #include <vector>
@@ -155,7 +156,7 @@ public:
     out << all;
     out << "\nExit codes: 0 done, every guarantee met; 1 the input cannot be used; 2 wrong usage;\n"
            "3 written, but a guarantee was missed; 4 written, but a cell is wrong that was certified\n"
-           "(--check); 130 cancelled.\n";
+           "(--check); 5 an output cannot be written; 130 cancelled.\n";
     return out.str();
   }
 
@@ -217,12 +218,6 @@ Remeshing_options remeshing_options(const po::variables_map& values)
   return o;
 }
 
-std::filesystem::path resolved(const std::string& file)
-{
-  std::error_code ignored;
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
-}
-
 void set_files(const po::variables_map& values, Program_options& o)
 {
   std::vector<std::string> files;
@@ -249,7 +244,7 @@ void set_files(const po::variables_map& values, Program_options& o)
     if (written[i].second.empty())
       throw Usage_error(written[i].first + ": the file's name is empty");
     for (std::size_t j = 0; j < i; ++j)
-      if (resolved(written[i].second) == resolved(written[j].second))
+      if (target_of(written[i].second) == target_of(written[j].second))
         throw Usage_error(written[j].first + " and " + written[i].first + " are the same file");
   }
 }

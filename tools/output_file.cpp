@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output_file.h"
 
-#include <CGAL/PowerRTF/internal/errors.h>
-
 #include <cerrno>
 #include <cstring>
 #include <unistd.h>
@@ -17,15 +15,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& file, const std::string& reason)
 {
-  throw CGAL::PowerRTF::Invalid_input_error(file + ": cannot be written: " + reason);
-}
-
-/// The file itself, not a symbolic link to it: the link stays.
-fs::path target_of(const std::string& file)
-{
-  std::error_code error;
-  const fs::path path = fs::weakly_canonical(fs::absolute(file, error), error);
-  return error ? fs::path(file) : path;
+  throw Output_error(file + ": cannot be written: " + reason);
 }
 
 bool is_device_or_pipe(const fs::path& path)
@@ -43,11 +33,28 @@ fs::path temporary_for(const fs::path& target)
 
 } // namespace
 
+fs::path target_of(const std::string& file)
+{
+  std::error_code error;
+  fs::path path = fs::absolute(file, error);
+  if (error) return file;
+  if (fs::exists(path, error)) { // a pipe has no path but this
+    const fs::path canonical = fs::canonical(path, error);
+    return error ? path : canonical;
+  }
+  constexpr int most_links = 40; // as the system follows
+  for (int i = 0; i < most_links && fs::is_symlink(path, error); ++i)
+    path = path.parent_path() / fs::read_symlink(path, error);
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  return error ? path : canonical;
+}
+
 void check_writable(const std::string& file)
 {
   const fs::path target = target_of(file);
   std::error_code ignored;
   if (fs::is_directory(target, ignored)) fail(file, "it is a directory");
+  if (fs::is_symlink(target, ignored)) fail(file, std::strerror(ELOOP));
   if (fs::exists(target, ignored) && ::access(target.c_str(), W_OK) != 0)
     fail(file, std::strerror(errno));
   if (is_device_or_pipe(target)) return;

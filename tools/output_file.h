@@ -7,31 +7,43 @@
 
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 namespace tools
 {
 
+/// An output cannot be written; the program ends with exit code 5.
+class Output_error : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The file that `file` stands for: where symbolic links lead, whether there is one or not. (The
+/// links stay when it is written.)
+std::filesystem::path target_of(const std::string& file);
+
 /// Checks that `file` can be made or replaced, without changing it.
-/// \throws Invalid_input_error naming file and reason
+/// \throws Output_error naming file and reason
 void check_writable(const std::string& file);
 
 /// Writes to a temporary file in the target's folder, which takes the target's place at `commit()`;
 /// until then the target stays as it was, and without it for good. (A device or a pipe is written
-/// directly.)
+/// directly.) The target is where symbolic links lead.
 class Output_file
 {
 public:
-  /// \throws Invalid_input_error when the temporary file cannot be made
+  /// \throws Output_error when the temporary file cannot be made
   explicit Output_file(const std::string& file);
   ~Output_file();
   Output_file(const Output_file&) = delete;
   Output_file& operator=(const Output_file&) = delete;
 
   std::ostream& stream() { return m_stream; }
-  /// Brings all that was written to the disk. \throws Invalid_input_error when that fails
+  /// Brings all that was written to the disk. \throws Output_error when that fails
   void close();
-  /// Replaces the target; after `close()`. \throws Invalid_input_error when that fails
+  /// Replaces the target; after `close()`. \throws Output_error when that fails
   void commit();
 
 private:

@@ -46,6 +46,7 @@ enum Exit_code {
   wrong_usage = 2,
   missed_guarantee = 3,
   wrong_cell = 4,
+  unwritable_output = 5,
   cancelled = 130
 };
 
@@ -64,17 +65,15 @@ void check_number_of_samples(const Program_options& options)
                               " fit into the memory of this machine");
 }
 
-/// \throws Invalid_input_error when one of the files cannot be written in the end
+/// \throws Output_error when one of the files cannot be written in the end
 void check_outputs(const Program_options& o)
 {
   if (o.write_mesh && format_of(o.output) == Format::unknown)
-    throw Invalid_input_error(o.output +
-                              ": cannot be written: its name does not end in .off, .obj, "
-                              ".ply, .stl or .vtp");
+    throw Output_error(o.output + ": cannot be written: its name does not end in .off, .obj, .ply, "
+                                  ".stl or .vtp");
   for (const std::string& file : {o.cells_file, o.samples_file})
     if (!file.empty() && format_of(file) != Format::ply && format_of(file) != Format::vtp)
-      throw Invalid_input_error(file +
-                                ": cannot be written: its name does not end in .ply or .vtp");
+      throw Output_error(file + ": cannot be written: its name does not end in .ply or .vtp");
   for (const std::string& file :
        {o.write_mesh ? o.output : "", o.cells_file, o.samples_file, o.report_file})
     if (!file.empty()) check_writable(file);
@@ -118,7 +117,11 @@ public:
   {
     if (file.empty()) return;
     m_files.emplace_back(file);
-    write(m_files.back().stream());
+    try {
+      write(m_files.back().stream());
+    } catch (const Output_error& e) {
+      throw Output_error(file + ": cannot be written: " + e.what());
+    }
     m_files.back().close();
   }
   void commit()
@@ -288,6 +291,8 @@ int main(int argc, char** argv)
     return fail(unusable_input, input + ": cannot be remeshed: the memory does not suffice");
   } catch (const Invalid_input_error& e) {
     return fail(unusable_input, e.what());
+  } catch (const Output_error& e) {
+    return fail(unwritable_output, e.what());
   } catch (const std::exception& e) {
     return fail(unusable_input, input + ": cannot be remeshed: " + e.what());
   }

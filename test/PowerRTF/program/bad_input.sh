@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Input that cannot be used: a message that names file and reason, exit code 1, the output untouched.
+# Outputs that cannot be written: the same with exit code 5.
 . "$(dirname "${BASH_SOURCE[0]}")/check.bash"
 
 # bad FILE REASON...: as above
@@ -117,27 +118,31 @@ done
 
 # --- outputs that cannot be written: said before the work, so a missing input does not matter
 mkdir folder
-run 1 nowhere/o.off 'no directory' -- torus.off nowhere/o.off
-run 1 folder.off 'is a directory' -- torus.off folder.off
-run 1 torus.off/o.off 'cannot be written' -- torus.off torus.off/o.off
-run 1 /proc/o.off 'cannot be written' -- torus.off /proc/o.off
-run 1 o.xyz 'does not end in' -- torus.off o.xyz
-run 1 folder/ 'does not end in' -- torus.off folder/
-run 1 nowhere/r.json 'no directory' -- torus.off out.off --report nowhere/r.json
-run 1 nowhere/c.ply 'no directory' -- torus.off out.off --cells nowhere/c.ply
-run 1 nowhere/s.ply 'no directory' -- torus.off out.off --samples-out nowhere/s.ply
-run 1 c.off 'does not end in' -- torus.off out.off --cells c.off
-run 1 s.xyz 'does not end in' -- torus.off out.off --samples-out s.xyz
+run 5 nowhere/o.off 'no directory' -- torus.off nowhere/o.off
+run 5 folder.off 'is a directory' -- torus.off folder.off
+run 5 torus.off/o.off 'cannot be written' -- torus.off torus.off/o.off
+run 5 /proc/o.off 'cannot be written' -- torus.off /proc/o.off
+run 5 o.xyz 'does not end in' -- torus.off o.xyz
+run 5 folder/ 'does not end in' -- torus.off folder/
+run 5 nowhere/o.off 'no directory' -- missing.off nowhere/o.off
+ln -s nowhere/o.off lost.off && run 5 lost.off 'no directory' -- torus.off lost.off
+ln -s loop.off loop.off && run 5 loop.off 'symbolic links' -- torus.off loop.off
+expect 'a link that leads nowhere stays' [ -L lost.off ]
+run 5 nowhere/r.json 'no directory' -- torus.off out.off --report nowhere/r.json
+run 5 nowhere/c.ply 'no directory' -- torus.off out.off --cells nowhere/c.ply
+run 5 nowhere/s.ply 'no directory' -- torus.off out.off --samples-out nowhere/s.ply
+run 5 c.off 'does not end in' -- torus.off out.off --cells c.off
+run 5 s.xyz 'does not end in' -- torus.off out.off --samples-out s.xyz
 if [ "$(id -u)" -ne 0 ]; then
   mkdir locked && chmod a-w locked
-  run 1 locked/o.off 'denied' -- torus.off locked/o.off
+  run 5 locked/o.off 'denied' -- torus.off locked/o.off
   echo old >fixed.off && chmod a-w fixed.off
-  run 1 fixed.off 'denied' -- torus.off fixed.off
+  run 5 fixed.off 'denied' -- torus.off fixed.off
   cp torus.off secret.off && chmod a-r secret.off && bad secret.off 'denied'
 fi
 # the disk is full when the report is written: the mesh does not appear either
 if [ -e /dev/full ]; then
-  run 1 /dev/full 'cannot be written' -- torus.off out.off -n 100 --iterations 2 --report /dev/full
+  run 5 /dev/full 'cannot be written' -- torus.off out.off -n 100 --iterations 2 --report /dev/full
 fi
 
 finish

@@ -175,6 +175,16 @@ echo old >target.off && ln -s target.off link.off
 run 0 -- torus.off link.off "${fast[@]}" --quiet
 expect 'a symbolic link stays one' [ -L link.off ]
 expect 'its target is written' cmp target.off first.off
+ln -s new.off dangling.off
+run 0 -- torus.off dangling.off "${fast[@]}" --quiet
+expect 'a symbolic link to nothing yet stays one' [ -L dangling.off ]
+expect 'its target is made' cmp new.off first.off
+mkdir sub && ln -s ../chain.off sub/link.off && ln -s sub/link.off chain_link.off
+run 0 -- torus.off chain_link.off "${fast[@]}" --quiet
+expect 'a chain of links is followed' cmp chain.off first.off
+expect 'its links stay' [ -L chain_link.off -a -L sub/link.off ]
+ln -s later.off other_link.off
+run 2 'same file' -- torus.off other_link.off --report later.off
 chmod 640 target.off
 run 0 -- torus.off target.off "${fast[@]}" --quiet
 expect 'the mode of a replaced file stays' [ "$(stat -c %a target.off)" = 640 ]
