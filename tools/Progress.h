@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The progress bar and Ctrl-C: the program's visitor of a remeshing run.
+// The progress bar and the signals that end a run: the program's visitor of a remeshing run.
 #ifndef POWER_RTF_TOOLS_PROGRESS_H
 #define POWER_RTF_TOOLS_PROGRESS_H
 
@@ -16,20 +16,21 @@
 namespace tools
 {
 
-/// Set by Ctrl-C; the run ends at the next chance.
+/// The signal that came, SIGINT (Ctrl-C) or SIGTERM, or 0; the run ends at the next chance.
 inline volatile std::sig_atomic_t interrupted = 0;
 
-/// The user cancelled the run; the program ends with exit code 130.
+/// The user cancelled the run; the program ends with exit code 128 + `interrupted`, as shells have
+/// it.
 struct Cancelled {
 };
 
-/// Lets the first Ctrl-C set `interrupted` and the second end the program at once.
+/// Lets the first of each signal set `interrupted` and the second end the program at once.
 inline void handle_interrupts()
 {
   struct sigaction action = {};
-  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_handler = [](int signal) { interrupted = signal; };
   action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
 
 inline void stop_if_interrupted()

@@ -156,7 +156,7 @@ public:
     out << all;
     out << "\nExit codes: 0 done, every guarantee met; 1 the input cannot be used; 2 wrong usage;\n"
            "3 written, but a guarantee was missed; 4 written, but a cell is wrong that was certified\n"
-           "(--check); 5 an output cannot be written; 130 cancelled.\n";
+           "(--check); 5 an output cannot be written; 130 cancelled by Ctrl-C, 143 by SIGTERM.\n";
     return out.str();
   }
 

@@ -47,7 +47,7 @@ enum Exit_code {
   missed_guarantee = 3,
   wrong_cell = 4,
   unwritable_output = 5,
-  cancelled = 130
+  cancelled = 128 // and the number of the signal
 };
 
 /// \throws Invalid_input_error when n is too small, or too large for this machine
@@ -286,7 +286,7 @@ int main(int argc, char** argv)
   } catch (const Usage_error& e) {
     return fail(wrong_usage, e.what() + std::string("\npower_rtf_remesh --help shows the options"));
   } catch (const Cancelled&) {
-    return fail(cancelled, "cancelled; nothing was written");
+    return fail(Exit_code(cancelled + interrupted), "cancelled; nothing was written");
   } catch (const std::bad_alloc&) {
     return fail(unusable_input, input + ": cannot be remeshed: the memory does not suffice");
   } catch (const Invalid_input_error& e) {

@@ -126,14 +126,13 @@ expect 'restricted Delaunay is reported' grep -q '"extraction": "restricted-dela
 run 0 -- -n100 --iterations=2 -q torus.off out.off
 run 0 -- --quiet torus.off --iterations 2 -n 100 -- out.off
 
-# --- Ctrl-C: exit code 130, the output untouched
-echo untouched >out.off
+# --- Ctrl-C and SIGTERM: exit code 128 + the signal's number, the output untouched
 torus 100 >large.off
-"$program" large.off out.off -n 4000 --iterations 2000000000 --weight-method none 2>stderr &
-pid=$!
-catches_interrupts() {
+# catches NUMBER: the program has a handler for the signal
+catches() {
   local mask
-  mask=$(awk '/^SigCgt/ { print $2 }' "/proc/$pid/status" 2>/dev/null) && [ $((0x${mask: -1} & 2)) -ne 0 ]
+  mask=$(awk '/^SigCgt/ { print $2 }' "/proc/$pid/status" 2>/dev/null) &&
+    [ $((0x${mask: -8} & 1 << ($1 - 1))) -ne 0 ]
 }
 # waits 60 s at most for a command to succeed
 await() {
@@ -144,19 +143,28 @@ await() {
   return 1
 }
 has_ended() { ! kill -0 $pid; }
-if [ -e "/proc/$pid/status" ]; then
-  expect 'Ctrl-C can be caught' await catches_interrupts
+# ends_by NAME NUMBER: the signal cancels a run
+ends_by() {
+  local status
+  echo untouched >out.off
+  "$program" large.off out.off -n 4000 --iterations 2000000000 --weight-method none 2>stderr &
+  pid=$!
+  if [ ! -e "/proc/$pid/status" ]; then
+    kill -KILL $pid
+    return
+  fi
+  expect "$1 can be caught" await catches "$2"
   sleep 1
-  kill -INT $pid
+  kill -"$1" $pid
   await has_ended || kill -KILL $pid
   wait $pid
   status=$?
-  expect "Ctrl-C ends with $status instead of 130" [ $status -eq 130 ]
-  expect 'Ctrl-C is said' grep -q cancelled stderr
-  expect 'Ctrl-C leaves the output' [ "$(cat out.off)" = untouched ]
-  expect 'Ctrl-C leaves no temporary file' [ -z "$(find . -name '.power_rtf_*')" ]
-else
-  kill -KILL $pid
-fi
+  expect "$1 ends with $status instead of $((128 + $2))" [ $status -eq $((128 + $2)) ]
+  expect "$1 is said" grep -q cancelled stderr
+  expect "$1 leaves the output" [ "$(cat out.off)" = untouched ]
+  expect "$1 leaves no temporary file" [ -z "$(find . -name '.power_rtf_*')" ]
+}
+ends_by INT 2
+ends_by TERM 15
 
 finish
