@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cells_io.h"
 
-#include "dataset.h"
-
 #include <numeric>
 
 namespace tools
@@ -15,9 +13,9 @@ using CGAL::PowerRTF::Cell_polygon;
 using CGAL::PowerRTF::Normalization;
 using CGAL::PowerRTF::Samples;
 
-void write(std::ostream& out, Format format, const Dataset& data)
+void write(std::ostream& out, Format format, Encoding encoding, const Dataset& data)
 {
-  format == Format::ply ? write_ply(out, data) : write_vtp(out, data);
+  format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
 }
 
 /// Of areas and of squared lengths.
@@ -28,8 +26,8 @@ double outside_square(const Normalization& normalization)
 
 } // namespace
 
-void write_cells(std::ostream& out, Format format, const std::vector<Cell_polygon>& cells,
-                 const Normalization& normalization)
+void write_cells(std::ostream& out, Format format, Encoding encoding,
+                 const std::vector<Cell_polygon>& cells, const Normalization& normalization)
 {
   const double square = outside_square(normalization);
   Dataset data;
@@ -49,10 +47,10 @@ void write_cells(std::ostream& out, Format format, const std::vector<Cell_polygo
     density.values.push_back(cell.density);
   }
   data.polygon_fields = {sample, weight, mass, density, status};
-  write(out, format, data);
+  write(out, format, encoding, data);
 }
 
-void write_samples(std::ostream& out, Format format, const Samples& samples,
+void write_samples(std::ostream& out, Format format, Encoding encoding, const Samples& samples,
                    const Normalization& normalization)
 {
   Dataset data;
@@ -61,7 +59,7 @@ void write_samples(std::ostream& out, Format format, const Samples& samples,
   Field weight{"weight", samples.weights, {}};
   for (double& w : weight.values) w *= outside_square(normalization);
   data.point_fields = {weight, {"density", samples.density, {}}};
-  write(out, format, data);
+  write(out, format, encoding, data);
 }
 
 } // namespace tools

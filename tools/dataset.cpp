@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dataset.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <ostream>
+#include <string_view>
 
 namespace tools
 {
@@ -12,27 +16,27 @@ namespace
 
 using CGAL::PowerRTF::Vec3d;
 
-/// Collects text; numbers in their shortest form that reads back the same.
+/// Collects what is written; numbers in their shortest form that reads back the same.
 class Text
 {
 public:
   explicit Text(std::ostream& out) : m_out(out) {}
   ~Text() { flush(); }
 
-  Text& operator<<(const char* s) { return *this << std::string(s); }
-  Text& operator<<(const std::string& s)
+  Text& operator<<(std::string_view s)
   {
     m_text += s;
     if (m_text.size() > 1 << 16) flush();
     return *this;
   }
+  Text& operator<<(const char* s) { return *this << std::string_view(s); }
+  Text& operator<<(const std::string& s) { return *this << std::string_view(s); }
   template <class Number>
   Text& operator<<(Number x)
   {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof(digits), x).ptr;
-    m_text.append(digits, end);
-    return *this;
+    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
   }
   Text& operator<<(const Vec3d& p) { return *this << p.x << " " << p.y << " " << p.z; }
 
@@ -47,16 +51,114 @@ private:
   std::string m_text;
 };
 
+/// Rows of numbers in words.
+class Text_rows
+{
+public:
+  explicit Text_rows(Text& text) : m_text(text) {}
+
+  template <class Number>
+  void add(Number x)
+  {
+    if (!m_at_begin) m_text << " ";
+    m_text << x;
+    m_at_begin = false;
+  }
+  void end_row()
+  {
+    m_text << "\n";
+    m_at_begin = true;
+  }
+
+private:
+  Text& m_text;
+  bool m_at_begin = true;
+};
+
+/// Numbers in bytes, that of least weight first.
+class Binary_rows
+{
+public:
+  explicit Binary_rows(Text& text) : m_text(text) {}
+
+  void add(std::uint8_t x) { add_bytes(x, 1); }
+  void add(int x) { add_bytes(static_cast<std::uint32_t>(x), 4); }
+  void add(double x)
+  {
+    std::uint64_t bits;
+    static_assert(sizeof(bits) == sizeof(x));
+    std::memcpy(&bits, &x, sizeof(x));
+    add_bytes(bits, 8);
+  }
+  void end_row() {}
+
+private:
+  void add_bytes(std::uint64_t bits, std::size_t count)
+  {
+    char bytes[8];
+    for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<char>(bits >> 8 * i);
+    m_text << std::string_view(bytes, count);
+  }
+
+  Text& m_text;
+};
+
 void ply_properties(Text& text, const std::vector<Field>& fields)
 {
   for (const Field& f : fields)
     text << "property " << (f.integers.empty() ? "double " : "int ") << f.name << "\n";
 }
 
-void ply_values(Text& text, const std::vector<Field>& fields, std::size_t i)
+template <class Rows>
+void ply_fields(Rows& rows, const std::vector<Field>& fields, std::size_t i)
 {
   for (const Field& f : fields)
-    f.integers.empty() ? text << " " << f.values[i] : text << " " << f.integers[i];
+    f.integers.empty() ? rows.add(f.values[i]) : rows.add(f.integers[i]);
+}
+
+/// Whether a byte holds the number of vertices of every polygon.
+bool has_small_polygons(const Dataset& data)
+{
+  return std::all_of(data.polygons.begin(), data.polygons.end(),
+                     [](const std::vector<int>& polygon) { return polygon.size() < 256; });
+}
+
+void ply_header(Text& text, const Dataset& data, Encoding encoding)
+{
+  text << "ply\nformat " << (encoding == Encoding::text ? "ascii" : "binary_little_endian")
+       << " 1.0\nelement vertex " << data.points.size()
+       << "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (!data.normals.empty()) text << "property double nx\nproperty double ny\nproperty double nz\n";
+  ply_properties(text, data.point_fields);
+  if (!data.polygons.empty()) {
+    text << "element face " << data.polygons.size() << "\nproperty list "
+         << (has_small_polygons(data) ? "uchar" : "int") << " int vertex_indices\n";
+    ply_properties(text, data.polygon_fields);
+  }
+  text << "end_header\n";
+}
+
+template <class Rows>
+void ply_body(Rows rows, const Dataset& data)
+{
+  const bool small_polygons = has_small_polygons(data);
+  const auto add = [&rows](const Vec3d& p) {
+    for (const double x : {p.x, p.y, p.z}) rows.add(x);
+  };
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    add(data.points[i]);
+    if (!data.normals.empty()) add(data.normals[i]);
+    ply_fields(rows, data.point_fields, i);
+    rows.end_row();
+  }
+  for (std::size_t i = 0; i < data.polygons.size(); ++i) {
+    const std::vector<int>& polygon = data.polygons[i];
+    small_polygons ? rows.add(static_cast<std::uint8_t>(polygon.size()))
+                   : rows.add(static_cast<int>(polygon.size()));
+    for (const int v : polygon) rows.add(v);
+    ply_fields(rows, data.polygon_fields, i);
+    rows.end_row();
+  }
 }
 
 void vtp_array_begin(Text& text, const char* type, const std::string& name, int components = 1)
@@ -103,30 +205,11 @@ void vtp_cells(Text& text, const char* section, const std::vector<std::vector<in
 
 } // namespace
 
-void write_ply(std::ostream& out, const Dataset& data)
+void write_ply(std::ostream& out, const Dataset& data, Encoding encoding)
 {
   Text text(out);
-  text << "ply\nformat ascii 1.0\nelement vertex " << data.points.size()
-       << "\nproperty double x\nproperty double y\nproperty double z\n";
-  if (!data.normals.empty()) text << "property double nx\nproperty double ny\nproperty double nz\n";
-  ply_properties(text, data.point_fields);
-  if (!data.polygons.empty()) {
-    text << "element face " << data.polygons.size() << "\nproperty list uchar int vertex_indices\n";
-    ply_properties(text, data.polygon_fields);
-  }
-  text << "end_header\n";
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    text << data.points[i];
-    if (!data.normals.empty()) text << " " << data.normals[i];
-    ply_values(text, data.point_fields, i);
-    text << "\n";
-  }
-  for (std::size_t i = 0; i < data.polygons.size(); ++i) {
-    text << data.polygons[i].size();
-    for (const int v : data.polygons[i]) text << " " << v;
-    ply_values(text, data.polygon_fields, i);
-    text << "\n";
-  }
+  ply_header(text, data, encoding);
+  encoding == Encoding::text ? ply_body(Text_rows(text), data) : ply_body(Binary_rows(text), data);
 }
 
 void write_vtp(std::ostream& out, const Dataset& data)

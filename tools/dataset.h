@@ -28,9 +28,11 @@ struct Dataset {
   std::vector<Field> point_fields, polygon_fields;
 };
 
-/// Text with as many digits as bring every double back.
-void write_ply(std::ostream& out, const Dataset& data);
-void write_vtp(std::ostream& out, const Dataset& data);
+enum class Encoding { binary, text };
+
+/// Text has as many digits as bring every double back.
+void write_ply(std::ostream& out, const Dataset& data, Encoding encoding);
+void write_vtp(std::ostream& out, const Dataset& data); ///< as text
 
 } // namespace tools
 

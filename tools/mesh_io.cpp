@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_io.h"
 
-#include "dataset.h"
 #include "mesh_diagnosis.h"
+#include "output_file.h"
 #include "text_mesh.h"
 
 #include <CGAL/PowerRTF/internal/errors.h>
@@ -21,6 +21,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace tools
 {
@@ -96,6 +97,16 @@ void check(const Polygon_mesh& mesh)
             " refers to a vertex that does not exist: the index is out of range");
 }
 
+/// \throws Output_error a coordinate is too large for a float
+void check_single_precision(const std::vector<Vec3d>& points)
+{
+  const double largest = std::numeric_limits<float>::max();
+  for (const Vec3d& p : points)
+    for (const double x : {p.x, p.y, p.z})
+      if (std::abs(x) > largest)
+        throw Output_error("binary STL holds no number as large as its coordinates (--ascii does)");
+}
+
 } // namespace
 
 Format format_of(const std::string& file)
@@ -129,14 +140,14 @@ Polygon_mesh read_mesh(const std::string& file)
   }
 }
 
-void write_mesh(std::ostream& out, Format format, const std::vector<Vec3d>& points,
-                const std::vector<Triangle>& triangles)
+void write_mesh(std::ostream& out, Format format, Encoding encoding,
+                const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
 {
   if (format == Format::ply || format == Format::vtp) {
     Dataset data;
     data.points = points;
     for (const Triangle& t : triangles) data.polygons.emplace_back(t.begin(), t.end());
-    return format == Format::ply ? write_ply(out, data) : write_vtp(out, data);
+    return format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
   }
   std::vector<Point> copies;
   copies.reserve(points.size());
@@ -144,7 +155,12 @@ void write_mesh(std::ostream& out, Format format, const std::vector<Vec3d>& poin
   const auto exact = CGAL::parameters::stream_precision(17);
   if (format == Format::off) CGAL::IO::write_OFF(out, copies, triangles, exact);
   if (format == Format::obj) CGAL::IO::write_OBJ(out, copies, triangles, exact);
-  if (format == Format::stl) CGAL::IO::write_STL(out, copies, triangles, exact);
+  if (format != Format::stl) return;
+  if (encoding == Encoding::binary) {
+    check_single_precision(points);
+    CGAL::IO::set_binary_mode(out);
+  }
+  CGAL::IO::write_STL(out, copies, triangles, exact);
 }
 
 } // namespace tools

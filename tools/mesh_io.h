@@ -5,6 +5,8 @@
 #ifndef POWER_RTF_TOOLS_MESH_IO_H
 #define POWER_RTF_TOOLS_MESH_IO_H
 
+#include "dataset.h"
+
 #include <CGAL/PowerRTF/surface/Surface.h>
 
 #include <iosfwd>
@@ -28,8 +30,11 @@ struct Polygon_mesh {
 /// \throws Invalid_input_error naming file and reason
 Polygon_mesh read_mesh(const std::string& file);
 
-/// Writes triangles as any of the formats, with coordinates that read back the same.
-void write_mesh(std::ostream& out, Format format, const std::vector<CGAL::PowerRTF::Vec3d>& points,
+/// Writes triangles as any of the formats; `encoding` is that of PLY and STL. The coordinates read
+/// back the same, but for binary STL, which is in single precision.
+/// \throws Output_error a coordinate is too large for that
+void write_mesh(std::ostream& out, Format format, Encoding encoding,
+                const std::vector<CGAL::PowerRTF::Vec3d>& points,
                 const std::vector<CGAL::PowerRTF::Triangle>& triangles);
 
 } // namespace tools

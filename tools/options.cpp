@@ -132,6 +132,7 @@ public:
         "cells", text("FILE"),
         "write the polygons F_i with weight, mass, density, status (PLY, VTP)")(
         "samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")(
+        "ascii", "write PLY and STL as text, not as binary data")(
         "no-mesh", "stop at the samples: OUTPUT is not needed and not written");
     group("Comparison with exact arithmetic").add_options()(
         "check", "compare the cells with the exact ones")(
@@ -223,6 +224,7 @@ void set_files(const po::variables_map& values, Program_options& o)
   std::vector<std::string> files;
   if (values.count("file")) files = values["file"].as<std::vector<std::string>>();
   o.write_mesh = !values.count("no-mesh");
+  if (values.count("ascii")) o.encoding = Encoding::text;
   if (files.empty()) throw Usage_error("INPUT is missing");
   if (files.size() == 1 && o.write_mesh) throw Usage_error("OUTPUT is missing");
   if (files.size() > 2) throw Usage_error("one argument too many: '" + files[2] + "'");

@@ -5,6 +5,8 @@
 #ifndef POWER_RTF_TOOLS_OPTIONS_H
 #define POWER_RTF_TOOLS_OPTIONS_H
 
+#include "dataset.h"
+
 #include <CGAL/PowerRTF/Remeshing_options.h>
 
 #include <stdexcept>
@@ -29,6 +31,7 @@ struct Program_options {
   int check_every = 0; ///< and every so many iterations; 0: only at the end
   int threads = 0;    ///< 0: all
   bool write_mesh = true;
+  Encoding encoding = Encoding::binary; ///< of PLY and STL
   bool quiet = false;
 };
 

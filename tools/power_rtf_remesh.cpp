@@ -223,13 +223,15 @@ Exit_code remesh_with(Program_options options)
     for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
     if (options.write_mesh)
       outputs.add(options.output, [&](std::ostream& out) {
-        write_mesh(out, format_of(options.output), mesh.points, mesh.triangles);
+        write_mesh(out, format_of(options.output), options.encoding, mesh.points, mesh.triangles);
       });
     outputs.add(options.cells_file, [&](std::ostream& out) {
-      write_cells(out, format_of(options.cells_file), remesher.cells(), normalization);
+      write_cells(out, format_of(options.cells_file), options.encoding, remesher.cells(),
+                  normalization);
     });
     outputs.add(options.samples_file, [&](std::ostream& out) {
-      write_samples(out, format_of(options.samples_file), remesher.samples(), normalization);
+      write_samples(out, format_of(options.samples_file), options.encoding, remesher.samples(),
+                    normalization);
     });
   }
   total.reset();

@@ -140,6 +140,11 @@ if [ "$(id -u)" -ne 0 ]; then
   run 5 fixed.off 'denied' -- torus.off fixed.off
   cp torus.off secret.off && chmod a-r secret.off && bad secret.off 'denied'
 fi
+# numbers that the format has not; as text it has
+awk 'NR > 2 && NR <= 802 { print $1 * 1e60, $2 * 1e60, $3 * 1e60; next } 1' torus.off >huge.off
+run 5 huge.stl '--ascii' -- huge.off huge.stl -n 100 --iterations 2
+expect 'nothing is written' [ ! -e huge.stl ]
+run 0 -- huge.off huge.stl -n 100 --iterations 2 --ascii
 # the disk is full when the report is written: the mesh does not appear either
 if [ -e /dev/full ]; then
   run 5 /dev/full 'cannot be written' -- torus.off out.off -n 100 --iterations 2 --report /dev/full

@@ -74,7 +74,7 @@ for word in --samples --density --density-power --gradation --sampling --oversam
   --normal-angle --position-method --iterations --lbfgs-memory --projection --projection-neighbors \
   --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
   --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
-  --samples-out --check --check-every --certified-combinatorics --no-mesh --quiet 'paper: 60' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
+  --samples-out --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 60' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
   expect "--help shows $word" grep -qF -- "$word" stdout
 done
 run 0 -- --version

@@ -96,6 +96,23 @@ for end in obj ply stl OFF; do
   has input_euler_characteristic 0
 done
 expect 'OFF and .OFF are the same' cmp first.off m.OFF
+expect 'PLY is binary' grep -aq '^format binary_little_endian 1.0$' m.ply
+expect 'STL is binary' [ "$(wc -c <m.stl)" -eq $((84 + 50 * 400)) ]
+for end in ply stl; do
+  run 0 -- torus.off "t.$end" "${fast[@]}" --ascii --quiet
+  run 0 -- "t.$end" again.off -n 50 --iterations 2 --report r.json
+  has input_vertices 200
+  has input_faces 400
+done
+expect '--ascii writes PLY as text' [ "$(sed -n 2p t.ply)" = 'format ascii 1.0' ]
+expect '--ascii writes STL as text' [ "$(tail -n 1 t.stl)" = endsolid ]
+# the coordinates that binary PLY and text hold are the same: so is what is made of them
+for end in ply off; do
+  run 0 -- "$([ $end = ply ] && echo m.ply || echo first.off)" "from_$end.off" -n 100 --iterations 2
+done
+run 0 -- t.ply from_text.off -n 100 --iterations 2
+expect 'binary PLY holds the coordinates of the OFF' cmp from_ply.off from_off.off
+expect 'text PLY holds the coordinates of the OFF' cmp from_text.off from_off.off
 expect 'an OBJ has the vertices of the OFF' cmp \
   <(sed -n 's/^v //p' m.obj | rounded) <(vertices first.off)
 run 0 -- torus.off m.vtp "${fast[@]}" --quiet
@@ -107,7 +124,7 @@ expect 'a VTP has 200 points' [ "$(awk '/<Points>/ { on = 1; next } /<\/Points>/
 # --- cells and samples
 for end in ply vtp; do
   run 0 -- torus.off out.off "${fast[@]}" --improvement no --cells "c.$end" \
-    --samples-out "s.$end" --quiet
+    --samples-out "s.$end" --ascii --quiet
   for name in weight mass density status sample; do
     expect "the cells' .$end has $name" grep -qE "(property (int|double) $name|Name=\"$name\")" "c.$end"
   done
@@ -125,10 +142,20 @@ expect 'the samples are the vertices' cmp \
   <(sed '1,/end_header/d' s.ply | rounded) <(vertices out.off)
 expect 'there are samples to compare' [ "$(sed '1,/end_header/d' s.ply | wc -l)" -eq 200 ]
 # the masses are those of the input's units: their sum is near the torus's area, 4 pi^2 * 3
-run 0 -- torus.off --no-mesh "${fast[@]}" --density uniform --cells c.ply --quiet
+run 0 -- torus.off --no-mesh "${fast[@]}" --density uniform --cells c.ply --ascii --quiet
 expect 'the masses of uniform cells add up to the area' awk '/end_header/ { on = 1; next }
   on && $1 > 2 && NF == $1 + 6 { sum += $($1 + 4); ++n }
   END { exit !(n == 200 && sum > 110 && sum < 125) }' c.ply
+run 0 -- torus.off --no-mesh "${fast[@]}" --density uniform --cells b.ply --samples-out s.ply --quiet
+expect 'the cells are binary' [ "$(sed -n 2p b.ply)" = 'format binary_little_endian 1.0' ]
+expect 'the samples are binary' [ "$(sed -n 2p s.ply)" = 'format binary_little_endian 1.0' ]
+# a header; a sample has 3 + 3 + 2 doubles
+expect 'binary samples have their size' \
+  [ "$(sed '1,/end_header/d' s.ply | wc -c)" -eq $((200 * 8 * 8)) ]
+# a cell's vertex has 3 doubles; a cell a byte, its corners, 3 doubles and 2 integers
+corners=$(sed '1,/end_header/d' c.ply | awk 'NF > 3 { sum += $1 } END { print sum }')
+expect 'binary cells have their size' \
+  [ "$(sed '1,/end_header/d' b.ply | wc -c)" -eq $((corners * (24 + 4) + 200 * (1 + 24 + 8))) ]
 echo untouched >out.off
 run 0 -- torus.off out.off --no-mesh "${fast[@]}" --samples-out s.ply --report r.json
 expect '--no-mesh leaves the output' [ "$(cat out.off)" = untouched ]
