@@ -18,11 +18,21 @@
 namespace tools
 {
 
-/// Walks over the words of a text, which has to outlive it. '#' begins a comment.
+/// The beginning of a text from a file, fit for a message.
+inline std::string printable(std::string_view text)
+{
+  std::string shown(text.substr(0, 24));
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return shown;
+}
+
+/// Walks over the words of a text, which has to outlive it.
 class Words
 {
 public:
-  explicit Words(std::string_view text) : m_text(text) {}
+  /// \param comment what begins a comment that ends with its line; '\n': nothing does
+  explicit Words(std::string_view text, char comment = '#') : m_text(text), m_comment(comment) {}
 
   /// Goes to the next word; `false` at the end of the text.
   bool next()
@@ -38,7 +48,7 @@ public:
   bool next_in_line()
   {
     while (m_at < m_text.size() && is_blank(m_text[m_at])) ++m_at;
-    if (m_at < m_text.size() && m_text[m_at] == '#') skip_line();
+    if (m_at < m_text.size() && m_text[m_at] == m_comment) skip_line();
     const std::size_t begin = m_at;
     while (m_at < m_text.size() && !is_blank(m_text[m_at]) && m_text[m_at] != '\n') ++m_at;
     m_word = m_text.substr(begin, m_at - begin);
@@ -47,6 +57,8 @@ public:
   void skip_line() { m_at = std::min(m_text.find('\n', m_at), m_text.size()); }
 
   std::string_view word() const { return m_word; }
+  /// What follows the word.
+  std::string_view rest() const { return m_text.substr(m_at); }
 
   /// The word as a finite number.
   double number() const
@@ -79,10 +91,7 @@ public:
   /// \throws Invalid_input_error always: the word `is` what it must not be
   [[noreturn]] void reject(const std::string& is) const
   {
-    std::string shown(m_word.substr(0, 24));
-    for (char& c : shown)
-      if (c < ' ' || c > '~') c = '?';
-    throw CGAL::PowerRTF::Invalid_input_error(at() + "'" + shown + "' " + is);
+    throw CGAL::PowerRTF::Invalid_input_error(at() + "'" + printable(m_word) + "' " + is);
   }
   /// "line 7: "
   std::string at() const { return "line " + std::to_string(m_line) + ": "; }
@@ -91,6 +100,7 @@ private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
   std::string_view m_text, m_word;
+  char m_comment;
   std::size_t m_at = 0, m_line = 1;
 };
 

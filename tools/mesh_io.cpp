@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_io.h"
 
-#include "mesh_diagnosis.h"
+#include "foreign_file.h"
 #include "output_file.h"
+#include "ply_mesh.h"
+#include "stl_mesh.h"
 #include "text_mesh.h"
 
 #include <CGAL/PowerRTF/internal/errors.h>
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 
@@ -50,34 +51,26 @@ std::string file_error(const std::string& file)
   return {};
 }
 
-/// \throws Invalid_input_error the reason
-Polygon_mesh read_off_or_obj(const std::string& file, Format format)
+/// The first bytes of the file, as many as there are.
+std::string read_bytes(const std::string& file, std::uintmax_t count)
 {
   std::ifstream in(file, std::ios::binary);
-  std::string text(static_cast<std::size_t>(fs::file_size(file)), ' ');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  return format == Format::off ? parse_off(text) : parse_obj(text);
+  std::string data(static_cast<std::size_t>(count), '\0');
+  in.read(data.data(), static_cast<std::streamsize>(count));
+  data.resize(static_cast<std::size_t>(in.gcount()));
+  return data;
 }
 
-/// \throws Invalid_input_error the reason
-Polygon_mesh read_ply_or_stl(const std::string& file, Format format)
+/// What keeps a file that can be opened from being a mesh of the `format`, or nothing.
+std::string kind_error(const std::string& file, Format format)
 {
-  const std::string reason = header_error(file, format);
-  if (!reason.empty()) throw Invalid_input_error(reason);
-  std::ifstream in(file, std::ios::binary);
-  const auto quiet = CGAL::parameters::verbose(false);
-  std::vector<Point> points;
-  Polygon_mesh mesh;
-  bool done = false;
-  try {
-    done = format == Format::ply ? CGAL::IO::read_PLY(in, points, mesh.polygons, quiet)
-                                 : CGAL::IO::read_STL(in, points, mesh.polygons, quiet);
-  } catch (const std::logic_error&) { // absurd sizes and CGAL's failed assertions
-  }
-  if (!done) throw Invalid_input_error(content_error(file, format));
-  mesh.points.reserve(points.size());
-  for (const Point& p : points) mesh.points.push_back({p.x(), p.y(), p.z()});
-  return mesh;
+  const std::string beginning = read_bytes(file, 256);
+  if (format == Format::stl && is_binary_stl(beginning, fs::file_size(file))) return {};
+  const std::string foreign = foreign_kind(beginning, format);
+  if (!foreign.empty()) return foreign;
+  if (format == Format::unknown || format == Format::vtp)
+    return "its name does not end in .off, .obj, .ply or .stl";
+  return {};
 }
 
 /// \throws Invalid_input_error there is no facet, a coordinate is not finite, an index out of range
@@ -127,17 +120,26 @@ Polygon_mesh read_mesh(const std::string& file)
   const Format format = format_of(file);
   try {
     std::string reason = file_error(file);
-    if (reason.empty() && (format == Format::unknown || format == Format::vtp))
-      reason = "its name does not end in .off, .obj, .ply or .stl";
+    if (reason.empty()) reason = kind_error(file, format);
     if (!reason.empty()) throw Invalid_input_error(reason);
-    Polygon_mesh mesh = format == Format::off || format == Format::obj
-                            ? read_off_or_obj(file, format)
-                            : read_ply_or_stl(file, format);
-    check(mesh);
-    return mesh;
+    return parse_mesh(format, read_bytes(file, fs::file_size(file)));
   } catch (const Invalid_input_error& e) {
     throw Invalid_input_error(file + ": cannot be read: " + e.what());
   }
+}
+
+Polygon_mesh parse_mesh(Format format, std::string_view data)
+{
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // as some editors begin UTF-8
+  const bool is_text = format != Format::stl || !is_binary_stl(data, data.size());
+  if (is_text && data.substr(0, byte_order_mark.size()) == byte_order_mark)
+    data.remove_prefix(byte_order_mark.size());
+  Polygon_mesh mesh = format == Format::off   ? parse_off(data)
+                      : format == Format::obj ? parse_obj(data)
+                      : format == Format::ply ? parse_ply(data)
+                                              : parse_stl(data);
+  check(mesh);
+  return mesh;
 }
 
 void write_mesh(std::ostream& out, Format format, Encoding encoding,

@@ -10,7 +10,9 @@
 #include <CGAL/PowerRTF/surface/Surface.h>
 
 #include <iosfwd>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tools
@@ -24,11 +26,16 @@ Format format_of(const std::string& file);
 struct Polygon_mesh {
   std::vector<CGAL::PowerRTF::Vec3d> points;
   std::vector<std::vector<std::size_t>> polygons; ///< indices into `points`
+  std::set<std::string> attributes;               ///< what else the file had, in words: "normals"
 };
 
 /// Reads OFF, OBJ, PLY or STL. All coordinates are finite, all indices in range, there is a facet.
 /// \throws Invalid_input_error naming file and reason
 Polygon_mesh read_mesh(const std::string& file);
+
+/// The same, from the content of a file of the `format`, which is one of these.
+/// \throws Invalid_input_error the reason
+Polygon_mesh parse_mesh(Format format, std::string_view data);
 
 /// Writes triangles as any of the formats; `encoding` is that of PLY and STL. The coordinates read
 /// back the same, but for binary STL, which is in single precision.

@@ -4,6 +4,9 @@
 
 #include "Words.h"
 
+#include <array>
+#include <iterator>
+
 namespace tools
 {
 namespace
@@ -21,9 +24,20 @@ std::string out_of_range(const Words& words, std::size_t facet, long long vertex
          std::to_string(count) + " vertices";
 }
 
+/// Statements of OBJ that say more than points and facets.
+struct Obj_attribute {
+  std::string_view keyword;
+  const char* meaning;
+  std::size_t meaningless = 0; ///< so many of them say nothing
+};
+constexpr Obj_attribute obj_attributes[] = {
+    {"vt", "texture coordinates"}, {"vn", "normals"}, {"usemtl", "materials"}, {"g", "groups", 1},
+    {"o", "objects", 1},           {"l", "lines"},    {"p", "points"},
+};
+
 } // namespace
 
-Polygon_mesh parse_off(const std::string& text)
+Polygon_mesh parse_off(std::string_view text)
 {
   Words words(text);
   // OFF, with prefixes for more values per vertex: ST (texture), C (colour), N (normal)
@@ -33,6 +47,10 @@ Polygon_mesh parse_off(const std::string& text)
   const std::string_view prefixes = words.word().substr(0, words.word().size() - 3);
   if (prefixes.find_first_not_of("STCN") != std::string_view::npos)
     words.reject("is a kind of OFF that is not read");
+  Polygon_mesh mesh;
+  for (const auto& [letter, meaning] :
+       {std::pair{'S', "texture coordinates"}, {'C', "colors"}, {'N', "normals"}})
+    if (prefixes.find(letter) != std::string_view::npos) mesh.attributes.insert(meaning);
 
   std::size_t counts[2]; // vertices, facets
   for (std::size_t& count : counts) {
@@ -50,7 +68,6 @@ Polygon_mesh parse_off(const std::string& text)
     reject("the file is truncated: it has only " + std::to_string(text.size()) + " bytes" +
            announced);
 
-  Polygon_mesh mesh;
   mesh.points.resize(counts[0]);
   mesh.polygons.resize(counts[1]);
   for (std::size_t i = 0; i < counts[0]; ++i) {
@@ -62,6 +79,7 @@ Polygon_mesh parse_off(const std::string& text)
     }
     if (!prefixes.empty()) words.skip_line();
   }
+  bool has_colors = false;
   for (std::size_t i = 0; i < counts[1]; ++i) {
     const auto next = [&] {
       if (!words.next())
@@ -76,18 +94,21 @@ Polygon_mesh parse_off(const std::string& text)
         reject(out_of_range(words, i, v, counts[0]));
       mesh.polygons[i].push_back(static_cast<std::size_t>(v));
     }
-    words.skip_line(); // its colour
+    has_colors = has_colors || words.next_in_line();
+    words.skip_line();
   }
+  if (has_colors) mesh.attributes.insert("colors");
   return mesh;
 }
 
-Polygon_mesh parse_obj(const std::string& text)
+Polygon_mesh parse_obj(std::string_view text)
 {
   Words words(text);
   Polygon_mesh mesh;
   long long largest = 0; // index of all facets, and where it is
   Words at_largest = words;
   std::size_t facet_of_largest = 0;
+  std::array<std::size_t, std::size(obj_attributes)> counts{};
   while (words.next()) {
     if (words.word() == "v") {
       Vec3d p{0, 0, 0};
@@ -97,6 +118,9 @@ Polygon_mesh parse_obj(const std::string& text)
         *x = words.number();
       }
       mesh.points.push_back(p);
+      int more = 0; // a weight, or a color of three numbers
+      while (words.next_in_line()) ++more;
+      if (more >= 3) mesh.attributes.insert("colors");
     } else if (words.word() == "f") {
       std::vector<std::size_t> polygon;
       const long long n = static_cast<long long>(mesh.points.size());
@@ -114,12 +138,20 @@ Polygon_mesh parse_obj(const std::string& text)
       if (polygon.size() < 3)
         reject(words.at() + "a facet with fewer than three vertices (a truncated file?)");
       mesh.polygons.push_back(std::move(polygon));
+    } else if (words.word() == "s" && words.next_in_line()) {
+      if (words.word() != "off" && words.word() != "0") mesh.attributes.insert("smoothing groups");
+    } else {
+      for (std::size_t k = 0; k < counts.size(); ++k)
+        counts[k] += words.word() == obj_attributes[k].keyword;
     }
     words.skip_line();
   }
   if (mesh.points.empty()) reject("it is not an OBJ file: it has no vertices");
   if (largest > static_cast<long long>(mesh.points.size()))
     reject(out_of_range(at_largest, facet_of_largest, largest, mesh.points.size()));
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (counts[k] > obj_attributes[k].meaningless)
+      mesh.attributes.insert(obj_attributes[k].meaning);
   return mesh;
 }
 

@@ -8,14 +8,14 @@
 
 #include "mesh_io.h"
 
-#include <string>
+#include <string_view>
 
 namespace tools
 {
 
 /// \throws Invalid_input_error the reason, with the line where it has one
-Polygon_mesh parse_off(const std::string& text);
-Polygon_mesh parse_obj(const std::string& text);
+Polygon_mesh parse_off(std::string_view text);
+Polygon_mesh parse_obj(std::string_view text);
 
 } // namespace tools
 

@@ -26,13 +26,27 @@ for end in off obj ply stl; do
   : >"empty.$end" && bad "empty.$end" 'is empty'
   echo 'Dear Sir or Madam, this is a letter.' >"letter.$end" && bad "letter.$end" 'not a'
   printf '\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90wS\xde' >"png.$end"
-  bad "png.$end" 'not a'
-  head -c 20000 "$program" >"binary.$end" && bad "binary.$end" 'not a'
+  bad "png.$end" 'a PNG image'
+  head -c 20000 "$program" >"program.$end" && bad "program.$end" 'a program'
+  tail -c 20000 "$program" >"binary.$end" && bad "binary.$end" 'not a'
+  printf '\x1f\x8b\x08\0\0\0\0\0' >"gzip.$end" && bad "gzip.$end" 'a gzip archive: unpack it first'
+  printf 'PK\3\4\24\0\0\0\x08\0' >"zip.$end" && bad "zip.$end" 'a zip archive: unpack it first'
+  printf '\xff\xfeO\0F\0F\0\n\0' >"utf16.$end" && bad "utf16.$end" 'UTF-16'
+  printf '\n <!DOCTYPE HTML>\n<html>404</html>\n' >"page.$end" && bad "page.$end" 'an HTML page'
+  printf 'version https://git-lfs.github.com/spec/v1\noid sha256:00\n' >"lfs.$end"
+  bad "lfs.$end" 'Git LFS'
   printf '\n\n   \n' >"blank.$end" && bad "blank.$end"
 done
 cp torus.off torus.xyz && bad torus.xyz 'does not end in'
 cp torus.off torus && bad torus 'does not end in'
 cp torus.off torus.vtp && bad torus.vtp 'does not end in'
+cp gzip.off torus.off.gz && bad torus.off.gz 'a gzip archive'
+for is in off ply stl; do
+  for named in off obj ply stl; do
+    [ "$is" = "$named" ] && continue
+    cp "torus.$is" "other.$named" && bad "other.$named" "does not end in .$is"
+  done
+done
 
 # --- truncated: in the header, in the vertices, in the facets
 head -c 3 torus.off >t1.off && bad t1.off 'truncated'
@@ -56,14 +70,21 @@ printf 'OFF\n-4 4 0\n0 0 0\n' >c2.off && bad c2.off "'-4'"
 printf 'OFF\n4 x 0\n0 0 0\n' >c3.off && bad c3.off "'x'"
 sed 's/element vertex .*/element vertex 900000000000/' torus.ply >c1.ply && bad c1.ply 'truncated'
 sed 's/element face .*/element face -1/' torus.ply >c2.ply && bad c2.ply 'number of elements'
-sed 's/property double x/property int x/' torus.ply >c3.ply && bad c3.ply 'no coordinates'
-sed 's/uchar int vertex_indices/uchar short vertex_indices/' torus.ply >c4.ply && bad c4.ply 'no facets'
+sed 's/property double x/property double u/' torus.ply >c3.ply && bad c3.ply 'no coordinates'
+sed 's/uchar int vertex_indices/uchar float vertex_indices/' torus.ply >c4.ply
+bad c4.ply 'line 8' "'vertex_indices' is no list of whole numbers"
+sed '2a property float x' torus.ply >c5.ply && bad c5.ply 'line 3' 'before the first element'
+{ printf 'ply\nformat binary_little_endian 1.0\nelement vertex 3\n'
+  printf 'property float %s\n' x y z
+  printf 'element face 1\nproperty list uint int vertex_indices\nend_header\n'
+  head -c 36 /dev/zero; printf '\x00\x65\xcd\x1d'; head -c 12 /dev/zero; } >c6.ply
+bad c6.ply 'truncated' 'face 1 of 1' # its list has 5e8 entries
 
 # --- coordinates
 for x in nan NaN -nan inf -inf 1e400 abc; do
   sed "10s/^[^ ]*/$x/" torus.off >x.off && bad x.off 'line 10' "'$x'"
   sed "10s/^v [^ ]*/v $x/" torus.obj >x.obj && bad x.obj 'line 10' "'$x'"
-  sed "10s/^[^ ]*/$x/" torus.ply >x.ply && bad x.ply "'$x'"
+  sed "10s/^[^ ]*/$x/" torus.ply >x.ply && bad x.ply 'line 10' "'$x'"
   sed "11s/^vertex [^ ]*/vertex $x/" torus.stl >x.stl && bad x.stl "'$x'"
 done
 { head -c 80 /dev/zero; printf '\x01\0\0\0'; head -c 12 /dev/zero; printf '\0\0\xc0\x7f'

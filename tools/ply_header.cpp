@@ -1,0 +1,181 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ply_header.h"
+
+#include <iterator>
+#include <map>
+
+namespace tools
+{
+namespace ply
+{
+namespace
+{
+
+using CGAL::PowerRTF::Invalid_input_error;
+
+bool is_real(Type type) { return type == Type::float32 || type == Type::float64; }
+
+Role role_of(const Element& element, const Property& property)
+{
+  const std::string& name = property.name;
+  if (element.is_face() && property.length && (name == "vertex_indices" || name == "vertex_index"))
+    return Role::corners;
+  if (!element.is_vertex() || property.length) return Role::none;
+  return name == "x" ? Role::x : name == "y" ? Role::y : name == "z" ? Role::z : Role::none;
+}
+
+/// Reads the header from `words`, which stay at its last word.
+class Header_reader
+{
+public:
+  explicit Header_reader(Words& words) : m_words(words) {}
+
+  Header read()
+  {
+    if (!m_words.next() || m_words.word() != "ply")
+      throw Invalid_input_error("it is not a PLY file: it does not begin with ply");
+    while (next_line() != "end_header") {
+      const std::string_view keyword = m_words.word();
+      if (keyword == "format")
+        m_header.body = body();
+      else if (keyword == "element")
+        add_element();
+      else if (keyword == "property")
+        add_property();
+      else if (keyword != "comment" && keyword != "obj_info")
+        m_words.reject("is not known in the header of a PLY file");
+    }
+    check();
+    return std::move(m_header);
+  }
+
+private:
+  /// Its first word.
+  std::string_view next_line()
+  {
+    m_words.skip_line();
+    if (!m_words.next()) throw Invalid_input_error("the file is truncated in its header");
+    return m_words.word();
+  }
+
+  /// The next word of the line.
+  std::string_view next(const char* what)
+  {
+    if (!m_words.next_in_line()) throw Invalid_input_error(m_words.at() + what + " is missing");
+    return m_words.word();
+  }
+
+  Body body()
+  {
+    const std::string_view word = next("the format");
+    if (word == "ascii") return Body::text;
+    if (word == "binary_little_endian") return Body::little_endian;
+    if (word == "binary_big_endian") return Body::big_endian;
+    m_words.reject("is not a format of PLY");
+  }
+
+  /// The type that the word is.
+  Type type() const
+  {
+    constexpr const char* names[][2] = {
+        {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
+        {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
+    for (std::size_t i = 0; i < std::size(names); ++i)
+      if (m_words.word() == names[i][0] || m_words.word() == names[i][1])
+        return static_cast<Type>(i);
+    m_words.reject("is not a type of PLY");
+  }
+
+  void add_element()
+  {
+    Element element;
+    element.name = next("the element's name");
+    next("the number of elements");
+    const long long count = m_words.whole_number();
+    if (count < 0) m_words.reject("is not a number of elements");
+    element.count = static_cast<std::size_t>(count);
+    m_header.elements.push_back(std::move(element));
+  }
+
+  void add_property()
+  {
+    if (m_header.elements.empty())
+      throw Invalid_input_error(m_words.at() + "a property stands before the first element");
+    Element& element = m_header.elements.back();
+    Property property;
+    if (next("the property's type") == "list") {
+      next("the type of the list's length");
+      property.length = type();
+      if (is_real(*property.length)) m_words.reject("is not a type of whole numbers");
+      next("the type of the list's entries");
+    }
+    property.type = type();
+    property.name = next("the property's name");
+    property.role = role_of(element, property);
+    if (property.role != Role::none && element.has(property.role)) m_words.reject("occurs twice");
+    if (property.role == Role::corners && is_real(property.type))
+      m_words.reject("is no list of whole numbers");
+    element.properties.push_back(std::move(property));
+  }
+
+  /// All vertices have coordinates, all facets have corners, and there are some.
+  void check() const
+  {
+    if (!m_header.body) throw Invalid_input_error("its header names no format");
+    std::size_t facets = 0;
+    for (const Element& e : m_header.elements) {
+      if (e.is_vertex() && !(e.has(Role::x) && e.has(Role::y) && e.has(Role::z)))
+        throw Invalid_input_error("its vertices have no coordinates x, y, z");
+      if (e.is_face() && !e.has(Role::corners))
+        throw Invalid_input_error("its facets have no list vertex_indices");
+      if (e.is_face()) facets += e.count;
+    }
+    if (facets == 0) throw Invalid_input_error("it has no facets");
+  }
+
+  Words& m_words;
+  Header m_header;
+};
+
+} // namespace
+
+Header read_header(Words& words) { return Header_reader(words).read(); }
+
+std::set<std::string> attributes(const Header& header)
+{
+  static const std::map<std::string, const char*> meanings = {{"nx", "normals"},
+                                                              {"ny", "normals"},
+                                                              {"nz", "normals"},
+                                                              {"red", "colors"},
+                                                              {"green", "colors"},
+                                                              {"blue", "colors"},
+                                                              {"alpha", "colors"},
+                                                              {"s", "texture coordinates"},
+                                                              {"t", "texture coordinates"},
+                                                              {"u", "texture coordinates"},
+                                                              {"v", "texture coordinates"},
+                                                              {"texture_u", "texture coordinates"},
+                                                              {"texture_v", "texture coordinates"},
+                                                              {"texcoord", "texture coordinates"},
+                                                              {"texnumber", "texture coordinates"}};
+  std::set<std::string> found;
+  for (const Element& e : header.elements) {
+    if (!e.is_vertex() && !e.is_face()) {
+      found.insert("elements " + printable(e.name));
+      continue;
+    }
+    for (const Property& p : e.properties) {
+      if (p.role != Role::none) continue;
+      const auto known = meanings.find(p.name);
+      found.insert(known != meanings.end()
+                       ? known->second
+                       : (e.is_vertex() ? "vertex property " : "facet property ") +
+                             printable(p.name));
+    }
+  }
+  return found;
+}
+
+} // namespace ply
+} // namespace tools

@@ -1,0 +1,63 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The header of a PLY file.
+#ifndef POWER_RTF_TOOLS_PLY_HEADER_H
+#define POWER_RTF_TOOLS_PLY_HEADER_H
+
+#include "Words.h"
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tools
+{
+namespace ply
+{
+
+enum class Body { text, little_endian, big_endian };
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+/// What a property is read as.
+enum class Role { none, x, y, z, corners };
+
+struct Property {
+  std::string name;
+  Type type = Type::int8;
+  std::optional<Type> length; ///< of a list: the type of the number of its entries
+  Role role = Role::none;
+};
+
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+
+  bool is_vertex() const { return name == "vertex" || name == "vertices"; }
+  bool is_face() const { return name == "face" || name == "faces"; }
+  bool has(Role role) const
+  {
+    for (const Property& p : properties)
+      if (p.role == role) return true;
+    return false;
+  }
+};
+
+struct Header {
+  std::optional<Body> body;
+  std::vector<Element> elements;
+};
+
+/// Reads the header of `words`, the body of which follows after the line of their last word: all
+/// vertices have coordinates, all facets have corners, and there are some.
+/// \throws Invalid_input_error the reason, with the line where it has one
+Header read_header(Words& words);
+
+/// What the file holds beside points and facets, in words: "normals".
+std::set<std::string> attributes(const Header& header);
+
+} // namespace ply
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_PLY_HEADER_H

@@ -1,0 +1,154 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stl_mesh.h"
+
+#include "Words.h"
+
+#include <boost/functional/hash.hpp>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <unordered_map>
+
+namespace tools
+{
+namespace
+{
+
+using CGAL::PowerRTF::Invalid_input_error;
+
+constexpr std::size_t header_size = 84, facet_size = 50; // bytes, of a binary file
+
+/// The mesh of triangles that come one by one.
+class Triangle_collector
+{
+public:
+  using Corner = std::array<double, 3>;
+
+  void add(const std::array<Corner, 3>& corners)
+  {
+    std::vector<std::size_t> polygon;
+    polygon.reserve(3);
+    for (const Corner& c : corners) {
+      const auto [place, is_new] = m_indices.try_emplace(c, m_mesh.points.size());
+      if (is_new) m_mesh.points.push_back({c[0], c[1], c[2]});
+      polygon.push_back(place->second);
+    }
+    m_mesh.polygons.push_back(std::move(polygon));
+  }
+  Polygon_mesh& mesh() { return m_mesh; }
+
+private:
+  Polygon_mesh m_mesh;
+  std::unordered_map<Corner, std::size_t, boost::hash<Corner>> m_indices;
+};
+
+/// A number of the file, in which the byte of least weight comes first.
+std::uint32_t load_bits(const char* bytes)
+{
+  std::uint32_t bits = 0;
+  for (int i = 3; i >= 0; --i) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
+  return bits;
+}
+
+float load_float(const char* bytes)
+{
+  const std::uint32_t bits = load_bits(bytes);
+  float x;
+  std::memcpy(&x, &bits, sizeof(x));
+  return x;
+}
+
+Polygon_mesh parse_binary(std::string_view data)
+{
+  if (data.size() < header_size)
+    throw Invalid_input_error("it is not an STL file, or truncated in its header");
+  if (!is_binary_stl(data, data.size()))
+    throw Invalid_input_error("it is not an STL file, or truncated: its header announces " +
+                              std::to_string(load_bits(data.data() + 80)) +
+                              " facets, the file has room for " +
+                              std::to_string((data.size() - header_size) / facet_size));
+  Triangle_collector triangles;
+  bool same_attributes = true; // the last two bytes of all facets, often a color
+  const std::string_view facets = data.substr(header_size);
+  for (std::size_t f = 0; f < facets.size() / facet_size; ++f) {
+    const char* const facet = facets.data() + f * facet_size; // a normal, three corners, two bytes
+    std::array<Triangle_collector::Corner, 3> corners;
+    for (std::size_t k = 0; k < 9; ++k) corners[k / 3][k % 3] = load_float(facet + 12 + 4 * k);
+    triangles.add(corners);
+    same_attributes = same_attributes && std::memcmp(facet + 48, facets.data() + 48, 2) == 0;
+  }
+  if (!same_attributes) triangles.mesh().attributes.insert("facet attributes");
+  return std::move(triangles.mesh());
+}
+
+/// Reads what follows the word "facet" up to "endfacet".
+std::array<Triangle_collector::Corner, 3> read_facet(Words& words)
+{
+  std::array<Triangle_collector::Corner, 3> corners{};
+  std::size_t count = 0;
+  const auto next = [&words] {
+    if (!words.next()) throw Invalid_input_error("the file is truncated: it ends in a facet");
+    return words.word();
+  };
+  while (next() != "endfacet") { // what else stands there says nothing more
+    if (words.word() != "vertex") continue;
+    if (count == 3) throw Invalid_input_error(words.at() + "a facet with more than three vertices");
+    for (double& x : corners[count]) {
+      next();
+      x = words.number();
+    }
+    ++count;
+  }
+  if (count < 3) throw Invalid_input_error(words.at() + "a facet with fewer than three vertices");
+  return corners;
+}
+
+/// Goes past the words of a name, which may be any but those of a solid's parts.
+void skip_name(Words& words)
+{
+  for (Words ahead = words;
+       ahead.next_in_line() && ahead.word() != "facet" && ahead.word() != "endsolid";)
+    words = ahead;
+}
+
+Polygon_mesh parse_text(std::string_view data)
+{
+  Triangle_collector triangles;
+  Words words(data, '\n');
+  std::size_t solids = 0;
+  bool ended = false;
+  while (words.next()) {
+    if (words.word() == "facet")
+      triangles.add(read_facet(words));
+    else if (words.word() == "vertex" || words.word() == "endfacet")
+      words.reject("stands outside of a facet");
+    else if (words.word() == "solid" || words.word() == "endsolid") {
+      ended = words.word() == "endsolid";
+      solids += !ended;
+      skip_name(words);
+    }
+  }
+  if (!ended) throw Invalid_input_error("the file is truncated: it does not end with endsolid");
+  if (solids > 1) triangles.mesh().attributes.insert("groups");
+  return std::move(triangles.mesh());
+}
+
+} // namespace
+
+bool is_binary_stl(std::string_view beginning, std::uintmax_t size)
+{
+  return beginning.size() >= header_size &&
+         (size - header_size) / facet_size == load_bits(beginning.data() + 80);
+}
+
+Polygon_mesh parse_stl(std::string_view data)
+{
+  if (is_binary_stl(data, data.size())) return parse_binary(data);
+  Words words(data);
+  const bool is_text = words.next() && words.word().substr(0, 5) == "solid";
+  return is_text ? parse_text(data) : parse_binary(data);
+}
+
+} // namespace tools
