@@ -90,13 +90,16 @@ auto about_input(const Program_options& options, const Make& make)
   }
 }
 
-Surface load(const Program_options& options, Remeshing_report& report)
+/// The surface of the input; `run` receives what it took and what is lost.
+Surface load(const Program_options& options, Run& run)
 {
+  Remeshing_report& report = run.report;
   Polygon_mesh mesh;
   {
     Stopwatch watch(report.seconds.load);
     mesh = read_mesh(options.input);
   }
+  run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   stop_if_interrupted();
   Stopwatch watch(report.seconds.surface);
   return about_input(options, [&] {
@@ -137,6 +140,16 @@ Exit_code fail(Exit_code code, const std::string& message)
 {
   std::cerr << "power_rtf_remesh: " << message << '\n';
   return code;
+}
+
+/// Says what the input has and the mesh has not.
+void print_losses(const Run& run)
+{
+  if (!run.options.write_mesh || run.not_carried_over.empty()) return;
+  std::string list;
+  for (const std::string& name : run.not_carried_over) list += (list.empty() ? "" : ", ") + name;
+  std::cerr << "power_rtf_remesh: " << run.options.input << ": not carried over to the output: "
+            << list << '\n';
 }
 
 /// The cells of a remesher against the oracle (--check).
@@ -196,7 +209,7 @@ Exit_code remesh_with(Program_options options)
   check_outputs(options);
 
   Progress(options.quiet).on_stage("surface");
-  Surface surface = load(options, run.report);
+  Surface surface = load(options, run);
   Remesher remesher = about_input(
       options, [&] { return Remesher(std::move(surface), options.remeshing); });
   Checking_progress<Remesher> progress(options, remesher, run.checks);
@@ -239,7 +252,10 @@ Exit_code remesh_with(Program_options options)
   stop_if_interrupted();
   outputs.commit();
 
-  if (!options.quiet) print_table(std::cout, run);
+  if (!options.quiet) {
+    print_table(std::cout, run);
+    print_losses(run);
+  }
   for (const std::string& missed : run.missed)
     std::cerr << "power_rtf_remesh: " << options.output << ": a guarantee is missed: " << missed
               << '\n';

@@ -142,6 +142,7 @@ void add_mesh(Json& json, const Run& run)
   json["absolute_distance_rms"] = r.absolute(r.distance.rms);
   json["absolute_distance_mean"] = r.absolute(r.distance.mean);
   json["absolute_distance_max"] = r.absolute(r.distance.max);
+  json["not_carried_over"] = run.not_carried_over;
   json["missed_guarantees"] = run.missed;
 }
 

@@ -27,9 +27,10 @@ struct Check {
 struct Run {
   Program_options options;
   CGAL::PowerRTF::Remeshing_report report;
-  int threads = 1;                 ///< used
-  std::vector<std::string> missed; ///< guarantees
-  std::vector<Check> checks;       ///< the last one: of the final cells
+  std::vector<std::string> not_carried_over; ///< to the output: "normals"
+  int threads = 1;                           ///< used
+  std::vector<std::string> missed;           ///< guarantees
+  std::vector<Check> checks;                 ///< the last one: of the final cells
 };
 
 /// Everything, for programs. Without a mesh (--no-mesh) the fields about it are left out.

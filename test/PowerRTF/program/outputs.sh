@@ -43,8 +43,7 @@ run 0 -- torus.off out.off "${fast[@]}" --report r.json
 for name in vertices faces euler_characteristic input_euler_characteristic components border_edges \
   self_intersections q_min q_avg theta_min theta_min_avg theta_max below_30 above_90 \
   edge_length_mean edge_length_min edge_length_max diagonal distance_rms distance_mean distance_max \
-  absolute_distance_rms absolute_distance_mean absolute_distance_max \
-  inside_capacity_interval capacity_rms constructions outer_iterations \
+  absolute_distance_rms absolute_distance_mean absolute_distance_max not_carried_over inside_capacity_interval capacity_rms constructions outer_iterations \
   cells ok guarded empty incomplete seconds load surface sampling optimization extraction \
   improvement write total traits preset seed threads missed_guarantees; do
   expect "the report has $name" grep -q "\"$name\": ." r.json
@@ -58,6 +57,7 @@ has components 1
 has border_edges 0
 has self_intersections 0
 has missed_guarantees '[]'
+has not_carried_over '[]'
 has traits '"cpu"'
 has preset '"quality"'
 has seed 0
@@ -193,6 +193,16 @@ awk 'NR == 2 { print 800, 800, 0; next } NR > 802 && NR % 2 { a = $2; c = $3; d 
 run 0 -- quads.off out.off "${fast[@]}" --report r.json
 has triangulated_polygons 800
 has input_euler_characteristic 0
+
+# --- what the output has not
+off_to_obj <torus.off | sed '1i mtllib a.mtl' | sed '$ a vt 0 0\nusemtl m' >textured.obj
+run 0 'textured.obj: not carried over to the output: materials, texture coordinates' -- \
+  textured.obj out.off "${fast[@]}" --report r.json
+expect 'it is said once' [ "$(grep -c 'not carried over' stderr)" -eq 1 ]
+expect 'the report lists it' grep -q '^    "materials",$' r.json
+run 0 -- textured.obj out.off "${fast[@]}" --quiet --report r.json
+expect '--quiet does not say it' [ ! -s stderr ]
+expect 'the report lists it nevertheless' grep -q '^    "texture coordinates"$' r.json
 
 # --- places to write to
 cp torus.off same.off
