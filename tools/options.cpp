@@ -266,16 +266,13 @@ Program_options parse_command_line(int argc, const char* const* argv, std::strin
 
   o.remeshing = remeshing_options(values);
   const std::string traits = values.count("traits") ? values["traits"].as<std::string>() : "auto";
-#ifdef CGAL_POWER_RTF_WITH_CUDA
-  const bool has_cuda = true;
-#else
-  const bool has_cuda = false;
+#ifndef CGAL_POWER_RTF_WITH_CUDA
+  if (traits == "cuda")
+    throw Usage_error("--traits cuda: these traits are not built into this program");
 #endif
-  if (traits == "cuda" && !has_cuda)
-    throw Usage_error("--traits " + traits + ": these traits are not built into this program");
   if (traits != "auto" && traits != "cpu" && traits != "exact" && traits != "cuda")
     reject("traits", traits, "one of auto|cpu|exact|cuda");
-  o.traits = traits == "auto" && !has_cuda ? "cpu" : traits;
+  o.traits = traits;
   if (values.count("check-every"))
     o.check_every = parse_value<int>("check-every", values["check-every"].as<std::string>(),
                                      {0, double(std::numeric_limits<int>::max())});

@@ -191,13 +191,15 @@ private:
   std::vector<Check>& m_checks;
 };
 
+/// \param gpu_not_used why any traits will do, but not those for a GPU
 template <class Traits>
-Exit_code remesh_with(Program_options options)
+Exit_code remesh_with(Program_options options, const std::string& gpu_not_used = {})
 {
   using Remesher = CGAL::PowerRTF_remesher<Traits>;
   options.traits = Traits::name();
   Run run;
   run.options = options;
+  run.gpu_not_used = gpu_not_used;
   Outputs outputs;
   std::optional<Stopwatch> total(run.report.seconds.total);
 #ifdef CGAL_LINKED_WITH_TBB
@@ -271,22 +273,24 @@ Exit_code remesh_with(Program_options options)
 /// will do.
 Exit_code remesh(const Program_options& options)
 {
+  using Cpu_traits = CGAL::PowerRTF_traits_3<Kernel, Concurrency>;
   if (options.traits == "exact")
     return remesh_with<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(options);
+  if (options.traits == "cpu") return remesh_with<Cpu_traits>(options);
 #ifdef CGAL_POWER_RTF_WITH_CUDA
-  if (options.traits != "cpu") {
-    try {
-      cuda_devices(); // before any work is done
-      return remesh_with<CGAL::PowerRTF_cuda_traits_3<Kernel>>(options);
-    } catch (const Cuda_error& e) {
-      if (options.traits == "cuda")
-        throw Cuda_error(std::string("--traits cuda cannot be used: ") + e.what());
-      if (!options.quiet)
-        std::cerr << "power_rtf_remesh: the CPU is used: " << e.what() << '\n';
-    }
+  std::string gpu_not_used;
+  try {
+    cuda_devices(); // before any work is done
+    return remesh_with<CGAL::PowerRTF_cuda_traits_3<Kernel>>(options);
+  } catch (const Cuda_error& e) {
+    if (options.traits == "cuda")
+      throw Cuda_error(std::string("--traits cuda cannot be used: ") + e.what());
+    gpu_not_used = e.what();
   }
+#else
+  const std::string gpu_not_used = "the CUDA traits are not built into this program";
 #endif
-  return remesh_with<CGAL::PowerRTF_traits_3<Kernel, Concurrency>>(options);
+  return remesh_with<Cpu_traits>(options, gpu_not_used);
 }
 
 } // namespace

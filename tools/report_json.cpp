@@ -157,6 +157,7 @@ void write_json(std::ostream& out, const Run& run)
   if (run.options.write_mesh) json["output"] = run.options.output;
   json["samples"] = r.samples_asked;
   json["traits"] = run.options.traits;
+  if (!run.gpu_not_used.empty()) json["gpu_not_used"] = run.gpu_not_used;
   json["preset"] = name_of(run.options.remeshing.preset);
   json["seed"] = run.options.remeshing.random_seed;
   json["threads"] = run.threads;

@@ -27,6 +27,7 @@ struct Check {
 struct Run {
   Program_options options;
   CGAL::PowerRTF::Remeshing_report report;
+  std::string gpu_not_used;                  ///< why --traits auto took the CPU
   std::vector<std::string> not_carried_over; ///< to the output: "normals"
   int threads = 1;                           ///< used
   std::vector<std::string> missed;           ///< guarantees

@@ -59,10 +59,13 @@ case $? in # a program without the engine; a machine without a GPU; a machine wi
 2) run 2 cuda 'not built' -- torus.off out.off --traits cuda ;;
 1)
   run 1 'GPU' -- torus.off out.off "${fast[@]}" --traits cuda
-  run 0 -- torus.off out.off "${fast[@]}" --traits auto
+  run 0 -- torus.off out.off "${fast[@]}" --traits auto --report r.json
+  expect 'the report says why there is no GPU' grep -q '"gpu_not_used": ".*GPU' r.json
   ;;
 *) expect "--traits cuda: $said" test -s cuda.off ;;
 esac
+run 0 -- torus.off out.off -n 100 --iterations 2 --relaxation-iterations 2
+expect 'who asks for no GPU hears of none' [ ! -s stderr ]
 refuse device -1 'at least 0'
 refuse check-every -1 'at least 0'
 refuse check-every x 'not a whole number'
@@ -93,7 +96,9 @@ accept '"seed": 4294967295' --seed 4294967295
 accept '"threads": 1' --threads 1
 accept '"threads": 2' --threads=2
 accept '"traits": "cpu"' --traits auto
+accept '"gpu_not_used": "' --traits auto
 accept '"traits": "cpu"' --traits cpu
+expect 'who asks for the CPU needs no reason' [ "$(grep -c gpu_not_used r.json)" -eq 0 ]
 accept '"traits": "exact"' --traits exact
 accept '"certified-combinatorics": true' --certified-combinatorics
 accept '"certified-combinatorics": false'
