@@ -97,7 +97,7 @@ void check_single_precision(const std::vector<Vec3d>& points)
   for (const Vec3d& p : points)
     for (const double x : {p.x, p.y, p.z})
       if (std::abs(x) > largest)
-        throw Output_error("binary STL holds no number as large as its coordinates (--ascii does)");
+        throw Output_error("a coordinate is too large for binary STL (--ascii writes text)");
 }
 
 } // namespace

@@ -161,6 +161,7 @@ std::set<std::string> attributes(const Header& header)
                                                               {"texnumber", "texture coordinates"}};
   std::set<std::string> found;
   for (const Element& e : header.elements) {
+    if (e.count == 0 || e.properties.empty()) continue;
     if (!e.is_vertex() && !e.is_face()) {
       found.insert("elements " + printable(e.name));
       continue;

@@ -143,7 +143,7 @@ inline std::string ply(const std::string& body, const Type& coordinate, const Ty
     facets();
     return ply.data();
   }
-  ply.line("element nothing 1000000000000");
+  ply.line("element nothing 1000000000000").line("element none 0").line("property int number");
   facet_header();
   ply.line("element edge 1").line("property int vertex1").line("property int vertex2");
   vertex_header();

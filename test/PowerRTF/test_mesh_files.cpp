@@ -189,7 +189,7 @@ TEST_CASE("attributes beside points and facets are told")
   for (const char* const body : bodies) {
     CHECK(of(Format::ply, ply(body, float32, uchar, int32, false)).empty());
     CHECK(of(Format::ply, ply(body, float32, uchar, int32, true)) ==
-          Names{"colors", "elements edge", "elements nothing", "facet property quality", "normals",
+          Names{"colors", "elements edge", "facet property quality", "normals",
                 "texture coordinates", "vertex property weights"});
   }
 
