@@ -130,8 +130,8 @@ public:
     if (smallest == 0) return;
     const std::size_t most = m_values.bytes_left() / smallest;
     if (element.count > most) reject("the file is truncated: it has no room for", element, most);
-    if (element.is_vertex()) m_mesh.points.reserve(m_mesh.points.size() + element.count);
-    if (element.is_face()) m_mesh.polygons.reserve(m_mesh.polygons.size() + element.count);
+    if (element.is_vertex() && m_mesh.points.empty()) m_mesh.points.reserve(element.count);
+    if (element.is_face() && m_mesh.polygons.empty()) m_mesh.polygons.reserve(element.count);
     for (std::size_t i = 0; i < element.count; ++i) read_item(element, i);
   }
 

@@ -128,6 +128,13 @@ TEST_CASE("STL: what is malformed is told")
 TEST_CASE("memory stays in proportion to the size of the data")
 {
   const std::string zeros(36, '\0'), digits(2000, '9'), large = "1152921504606846975";
+  std::string many = "ply\nformat ascii 1.0\nelement face 1\nproperty list char int vertex_index\n",
+              values = "1 5000\n"; // out of range; then points, each an element of its own
+  for (int i = 0; i < 5000; ++i) {
+    many += std::string("element vertex 1\n") + xyz;
+    values += "1 2 3\n";
+  }
+  many += "end_header\n" + values;
   struct Case {
     Format format;
     std::string data;
@@ -151,6 +158,7 @@ TEST_CASE("memory stays in proportion to the size of the data")
                              "element face 1\nproperty list uchar int "
                              "vertex_indices\nend_header\n" +
                              std::string(1000, '\x7f')},
+           {Format::ply, many},
            {Format::off, "OFF\n" + large + " " + large + " 0\n"},
            {Format::off, "OFF\n1 1 0\n0 0 0\n" + large + " 0\n"},
            {Format::obj, "v 0 0 0\nf " + large + " 1 1\n"},

@@ -73,6 +73,20 @@ TEST_CASE("PLY: line ends of other systems, a byte order mark, data after the en
   CHECK(equal(mesh.points, points));
 }
 
+TEST_CASE("PLY: points and facets may be in any number of elements")
+{
+  const std::size_t count = 3;
+  std::string header = "ply\nformat ascii 1.0\n", body;
+  for (std::size_t i = 0; i < count; ++i) {
+    header += std::string("element vertex 1\n") + xyz;
+    header += "element face 1\nproperty list uchar int vertex_index\n";
+    body += "1 2 3\n2 0 1\n";
+  }
+  const Polygon_mesh mesh = parse_mesh(Format::ply, header + "end_header\n" + body);
+  CHECK(mesh.points.size() == count);
+  CHECK(mesh.polygons.size() == count);
+}
+
 TEST_CASE("PLY: what is malformed is told")
 {
   const std::string text = ply_header("ascii"), little = ply_header("binary_little_endian"),
