@@ -27,38 +27,54 @@ inline Soup merged(const Soup& s)
   return result;
 }
 
+/// The surface of the unit cubes at the whole numbers `(x, y, z)` from 0 to below `size` for which
+/// `is_solid(x, y, z)`: `divisions` squares along each unit edge.
+template <class Is_solid>
+Soup voxels(const std::array<int, 3>& size, int divisions, const Is_solid& is_solid)
+{
+  const auto is_inside = [&](const std::array<int, 3>& p) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (p[axis] < 0 || p[axis] >= size[axis]) return false;
+    return is_solid(p[0], p[1], p[2]);
+  };
+  Soup s;
+  const auto add_side = [&](const std::array<int, 3>& cube, int axis, bool upper) {
+    const auto point = [&](int i, int j) {
+      double p[3] = {double(cube[0]), double(cube[1]), double(cube[2])};
+      p[axis] += upper;
+      p[(axis + 1) % 3] += double(i) / divisions;
+      p[(axis + 2) % 3] += double(j) / divisions;
+      s.points.push_back({p[0], p[1], p[2]});
+      return static_cast<int>(s.points.size()) - 1;
+    };
+    for (int i = 0; i < divisions; ++i)
+      for (int j = 0; j < divisions; ++j) {
+        const int a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1),
+                  d = point(i, j + 1);
+        upper ? add_quad(s, a, b, c, d) : add_quad(s, a, d, c, b);
+      }
+  };
+  for (int x = 0; x < size[0]; ++x)
+    for (int y = 0; y < size[1]; ++y)
+      for (int z = 0; z < size[2]; ++z) {
+        const std::array<int, 3> cube = {x, y, z};
+        if (!is_inside(cube)) continue;
+        for (int axis = 0; axis < 3; ++axis)
+          for (const bool upper : {false, true}) {
+            std::array<int, 3> neighbor = cube;
+            neighbor[axis] += upper ? 1 : -1;
+            if (!is_inside(neighbor)) add_side(cube, axis, upper);
+          }
+      }
+  return merged(s);
+}
+
 /// A plate of 2 * `holes` + 1 by 3 by 1 unit cubes with `holes` square holes through it: a closed
 /// surface of genus `holes`. `divisions` squares along each unit edge.
 inline Soup plate_with_holes(int holes, int divisions)
 {
-  const auto is_solid = [holes](int x, int y, int z)
-  { return x >= 0 && x <= 2 * holes && y >= 0 && y < 3 && z == 0 && !(x % 2 == 1 && y == 1); };
-  Soup s;
-  for (int x = 0; x <= 2 * holes; ++x)
-    for (int y = 0; y < 3; ++y) {
-      if (!is_solid(x, y, 0)) continue;
-      for (int axis = 0; axis < 3; ++axis)
-        for (const int side : {-1, 1}) {
-          int n[3] = {x, y, 0};
-          n[axis] += side;
-          if (is_solid(n[0], n[1], n[2])) continue;
-          const auto point = [&](int i, int j) {
-            double p[3] = {double(x), double(y), 0};
-            p[axis] += side == 1;
-            p[(axis + 1) % 3] += double(i) / divisions;
-            p[(axis + 2) % 3] += double(j) / divisions;
-            s.points.push_back({p[0], p[1], p[2]});
-            return static_cast<int>(s.points.size()) - 1;
-          };
-          for (int i = 0; i < divisions; ++i)
-            for (int j = 0; j < divisions; ++j) {
-              const int a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1),
-                        d = point(i, j + 1);
-              side == 1 ? add_quad(s, a, b, c, d) : add_quad(s, a, d, c, b);
-            }
-        }
-    }
-  return merged(s);
+  return voxels({2 * holes + 1, 3, 1}, divisions,
+                [](int x, int y, int) { return !(x % 2 == 1 && y == 1); });
 }
 
 /// Two cubes that share what their places have in common: `shift` of 0s and 1s says along which
