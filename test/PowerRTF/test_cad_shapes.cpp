@@ -1,0 +1,139 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The program on mechanical parts: flat faces stay flat, tips and corners stay where they are.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include "cad_shapes.h"
+#include "flat_faces.h"
+#include "judged_run.h"
+
+#include <doctest/doctest.h>
+
+using judged_run::Run;
+
+namespace
+{
+
+/// A run that must meet every guarantee.
+Run met_run(const judged_run::Scratch_folder& folder, const shapes::Soup& soup,
+            const judged_run::Settings& settings)
+{
+  const Run run = judged_run::run(folder, "part", soup, settings);
+  CHECK(run.exit_code == 0);
+  CHECK(judged_run::failure(run) == "");
+  REQUIRE(std::filesystem::exists(run.output));
+  return run;
+}
+
+CGAL::Bbox_3 box_of(const judge::Mesh& mesh)
+{
+  return CGAL::bbox_3(mesh.points.begin(), mesh.points.end());
+}
+
+double area(const judge::Mesh& mesh)
+{
+  double sum = 0;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f)
+    sum += std::sqrt(mesh.triangle(f).squared_area());
+  return sum;
+}
+
+/// Over the faces of the part that are wider than `least_width`, and than the spacing of the
+/// samples, at most 1 % of their area is tilted, over that of the part itself. Where a part is
+/// rounded, facets lie across the border of the flat face: `sharp` says that there are none.
+void check_flat_faces(const shapes::Soup& soup, bool sharp, double least_width = 0)
+{
+  const judged_run::Scratch_folder folder;
+  for (const std::size_t samples : {1500, 4000})
+    for (const std::string density : {"uniform", "curvature"}) {
+      CAPTURE(samples);
+      CAPTURE(density);
+      const Run run = met_run(folder, soup, {samples, density});
+      const judge::Mesh input = judge::merged(judge::read(run.input)),
+                        output = judge::read(run.output);
+      const double spacing = std::sqrt(area(input) / double(samples));
+      const judge::Flat_faces faces(input, std::max(least_width, spacing));
+      const auto own = faces.tilted_area(input), is = faces.tilted_area(output);
+      const double most = 0.01 * faces.area();
+      MESSAGE("flat faces " << faces.area() << ", tilted " << is.inside << " inside, " << is.over
+                            << " in all");
+      CHECK(is.inside <= own.inside + most);
+      if (sharp) CHECK(is.over <= own.over + most);
+      // Nothing stands out at the top or the bottom.
+      const CGAL::Bbox_3 box = box_of(output), asked = box_of(input);
+      const double rounding = 1e-9 * asked.zmax();
+      CHECK(box.zmin() >= asked.zmin() - rounding);
+      CHECK(box.zmax() <= asked.zmax() + rounding);
+    }
+}
+
+/// In per cent of the diagonal.
+double largest_distance(const shapes::Soup& soup, std::size_t samples)
+{
+  const judged_run::Scratch_folder folder;
+  const Run run = met_run(folder, soup, {samples});
+  return run.report["distance_max"];
+}
+
+} // namespace
+
+TEST_CASE("the tilted area is what it says")
+{
+  using judged_run::mesh_of;
+  const judge::Mesh cube = mesh_of(shapes::box(2));
+  const judge::Flat_faces faces(cube, 0.9);
+  CHECK(faces.area() == doctest::Approx(24));
+  CHECK(faces.tilted_area(cube).over == 0);
+  CHECK(judge::Flat_faces(cube, 1.1).area() == 0); // squares of side 2 are 1 wide
+  const auto turned = [&](double degrees) // the cube: four sides are tilted, two turn in themselves
+  {
+    return mesh_of(shapes::rotated(shapes::box(2), degrees * shapes::pi / 180, {0, 0, 1}));
+  };
+  CHECK(faces.tilted_area(turned(0.4)).over == 0);
+  CHECK(faces.tilted_area(turned(0.6)).over == doctest::Approx(16).epsilon(0.02));
+  shapes::Soup raised = shapes::plane_patch(10, 10);
+  raised.points[5 * 11 + 5].z = 0.01; // six facets around it, of 1/200 each
+  const judge::Flat_faces plane(mesh_of(shapes::plane_patch(10, 10)), 0.1);
+  CHECK(plane.tilted_area(mesh_of(raised)).inside == doctest::Approx(0.03).epsilon(0.01));
+  // the cube's edges cut off: those facets lie over two faces each
+  const judge::Flat_faces large(mesh_of(shapes::box(1)), 0.9);
+  const auto cut = large.tilted_area(mesh_of(shapes::scaled(shapes::octahedron(), 2)));
+  CHECK(cut.over > 0);
+  CHECK(cut.inside == 0);
+}
+
+TEST_CASE("a gear with narrow chamfers keeps its flat faces")
+{
+  check_flat_faces(shapes::gear(0.5), false);
+}
+
+TEST_CASE("a gear's top and bottom end at their rims, chamfered or not")
+{
+  for (const double chamfer : {0., 0.5}) {
+    CAPTURE(chamfer);
+    check_flat_faces(shapes::gear(chamfer), true, 5); // the teeth's sides are narrower
+  }
+}
+
+TEST_CASE("a bracket with fillets keeps its flat faces")
+{
+  check_flat_faces(shapes::bracket(3, 16), false);
+}
+
+TEST_CASE("a cone keeps its tip, in few long facets and in many")
+{
+  for (const int rows : {1, 40})
+    for (const std::size_t samples : {1000, 3000, 10000}) {
+      CAPTURE(rows);
+      CAPTURE(samples);
+      CHECK(largest_distance(shapes::cone(64, 1, 3, rows), samples) <= 1);
+    }
+}
+
+TEST_CASE("a cube on 8 samples is that cube")
+{
+  CHECK(largest_distance(shapes::box(1), 8) < 1e-6);
+  CHECK(largest_distance(shapes::rotated(shapes::box(1), 1), 8) < 1e-6);
+}
+
+int main(int argc, char** argv) { return judged_run::run_tests(argc, argv); }
