@@ -142,6 +142,11 @@ Polygon_mesh parse_mesh(Format format, std::string_view data)
   return mesh;
 }
 
+bool holds_floats(Format format, Encoding encoding)
+{
+  return format == Format::stl && encoding == Encoding::binary;
+}
+
 void write_mesh(std::ostream& out, Format format, Encoding encoding,
                 const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
 {

@@ -37,6 +37,9 @@ Polygon_mesh read_mesh(const std::string& file);
 /// \throws Invalid_input_error the reason
 Polygon_mesh parse_mesh(Format format, std::string_view data);
 
+/// Whether a mesh is written with coordinates of single precision: as binary STL.
+bool holds_floats(Format format, Encoding encoding);
+
 /// Writes triangles as any of the formats; `encoding` is that of PLY and STL. The coordinates read
 /// back the same, but for binary STL, which is in single precision.
 /// \throws Output_error a coordinate is too large for that

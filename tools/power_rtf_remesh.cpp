@@ -197,6 +197,8 @@ Exit_code remesh_with(Program_options options, const std::string& gpu_not_used =
 {
   using Remesher = CGAL::PowerRTF_remesher<Traits>;
   options.traits = Traits::name();
+  if (options.write_mesh && holds_floats(format_of(options.output), options.encoding))
+    options.remeshing.coordinates = Coordinates::single_precision;
   Run run;
   run.options = options;
   run.gpu_not_used = gpu_not_used;
