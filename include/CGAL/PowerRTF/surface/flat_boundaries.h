@@ -131,16 +131,15 @@ private:
 
 } // namespace internal
 
-/// The edges between a flat patch that is wide for samples of the spacing `h` and facets of narrower
-/// ones that are turned by a degree or more; but no chain of them that would make bad triangles
-/// beside another feature.
+/// The edges between a flat patch that is wider than `3 h` and facets of narrower ones that are turned
+/// by a degree or more; but no chain of them that would make bad triangles beside another feature.
 /// \param creases edges, smaller vertex first, sorted; these are not among the result
 /// \returns edges, smaller vertex first, sorted
 inline std::vector<Edge> flat_patch_boundaries(const Surface& surface,
                                                const Facet_adjacency& adjacency,
                                                const std::vector<Edge>& creases, double h)
 {
-  constexpr double cos_turned = 0.99985, nearest = 0.7;
+  constexpr double cos_turned = 0.99985, wide = 3, nearest = 0.7;
   const auto& triangles = surface.triangles;
   const Flat_patches patches(surface, adjacency);
   std::vector<Edge> features = creases, edges;
@@ -151,7 +150,7 @@ inline std::vector<Edge> flat_patch_boundaries(const Surface& surface,
       features.push_back(edge);
       continue;
     }
-    if (patches.is_wide(e / 3, h) && !patches.is_wide(o / 3, h) &&
+    if (patches.width(e / 3) > wide * h && !(patches.width(o / 3) > wide * h) &&
         dot(surface.facet_normals[e / 3], surface.facet_normals[o / 3]) < cos_turned &&
         !std::binary_search(creases.begin(), creases.end(), edge))
       edges.push_back(edge);

@@ -32,13 +32,8 @@ public:
                                                  surface.points[halfedge_source(surface.triangles, h)]);
   }
 
-  /// Whether the patch of facet `f` is so wide (twice its area over its perimeter) that samples of
-  /// the spacing `h` make several rows of triangles on it.
-  bool is_wide(int f, double h) const
-  {
-    constexpr double rows = 3;
-    return 2 * m_areas[m_patches[f]] > rows * h * m_perimeters[m_patches[f]];
-  }
+  /// The width of the patch of facet `f`: twice its area over its perimeter.
+  double width(int f) const { return 2 * m_areas[m_patches[f]] / m_perimeters[m_patches[f]]; }
 
 private:
   void grow(const Surface& surface, const Facet_adjacency& adjacency, int seed)

@@ -98,9 +98,10 @@ private:
   // What moves in the tangent plane cost; more where the samples are to be spaced evenly.
   static constexpr double sideways = 0.05, sideways_even = 0.3;
   static constexpr double upwards = 1e-3; // and those along the normal
-  // Where so much of a star lies in one wide flat patch, its vertex stays there, whatever is next to
-  // it: a flat face that bulges is worse than a round one that is cut short.
-  static constexpr double flat_share = 0.25, upwards_flat = 1e6;
+  // Where so much of a star lies in a flat patch that is wide (in units of the spacing), its vertex
+  // stays there, whatever is next to it: a flat face that bulges is worse than a round one that is cut
+  // short.
+  static constexpr double flat_width = 1.2, flat_share = 0.25, upwards_flat = 1e6;
   static constexpr double level_turn = 0.99999; // cosine of normals of facets in one plane
   static constexpr double alike = 0.5;    // cosine of normals of facets on one sheet
   // The weight of the surface's vertices, with 8 or more for each vertex of the mesh. The fewer
@@ -196,7 +197,8 @@ private:
     const double height = dot(offset, n);
     Unknown& u = m_unknowns[v];
     u.around += weight;
-    if (m_flat.is_wide(m.facet(v), m_spacing) && dot(normals[place.facet], n) > level_turn &&
+    if (m_flat.width(m.facet(v)) > flat_width * m_spacing &&
+        dot(normals[place.facet], n) > level_turn &&
         height * height < (1 - level_turn) * squared_length(offset))
       u.level += weight;
   }
