@@ -130,7 +130,10 @@ TEST_CASE("no run on a hard shape fails silently")
     const judged_run::Run run =
         judged_run::run(folder, name, shape.second, {300, "uniform", format});
     CHECK(judged_run::failure(run) == "");
-    if (run.exit_code == 1) CHECK_FALSE(judge::is_clean(judge::merged(judge::read(run.input))));
+    // Only what is no clean surface may be refused, and what coordinates cannot hold.
+    const bool is_too_far = run.message.find("coordinates") != std::string::npos;
+    if (run.exit_code == 1 && !is_too_far)
+      CHECK_FALSE(judge::is_clean(judge::merged(judge::read(run.input))));
   }
 }
 

@@ -233,8 +233,9 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
 }
 
 /// Sets the creases that `options` asks for. Of those closer together than h / 2, h = sqrt(area / n),
-/// only one is kept. They are left out when they need more than half of the
-/// samples: so few samples show the shape better without.
+/// only one is kept. They are left out when they need more than half of the samples: so few samples
+/// show the shape better without; but not where nothing else is needed, as all that they bound is
+/// flat.
 inline void set_creases(Surface& surface, const Remeshing_options& options)
 {
   if (!(options.feature_angle > 0 && options.feature_angle <= 180))
@@ -249,8 +250,8 @@ inline void set_creases(Surface& surface, const Remeshing_options& options)
                         surface.creases.end());
   const double h = std::sqrt(surface.area / static_cast<double>(options.number_of_samples));
   join_narrow_patches(surface, 0.5 * h);
-  if (2 * min_feature_samples(surface) > options.number_of_samples)
-    surface.creases = surface.seams;
+  const std::size_t needed = min_feature_samples(surface), n = options.number_of_samples;
+  if (2 * needed > n && !(needed <= n && is_polyhedral(surface))) surface.creases = surface.seams;
 }
 
 } // namespace PowerRTF

@@ -199,6 +199,15 @@ private:
 
 } // namespace internal
 
+/// Whether all patches between the creases and borders are flat.
+inline bool is_polyhedral(const Surface& surface)
+{
+  const internal::Crease_patches patches(
+      surface, facet_adjacency(surface.triangles, surface.points.size()));
+  return std::all_of(patches.shapes.begin(), patches.shapes.end(),
+                     [](const internal::Patch_shape& p) { return p.flat_area() > 0; });
+}
+
 /// Joins each patch narrower than `width` (twice its area over its perimeter) to a neighbour: of the
 /// crease curves around it the one that is least needed is taken out of `surface.creases`. Those of
 /// large flat patches stay: there everybody sees what is not flat.
