@@ -217,9 +217,9 @@ Exit_code remesh_with(Program_options options, const std::string& gpu_not_used =
   Remesher remesher = about_input(
       options, [&] { return Remesher(std::move(surface), options.remeshing); });
   Checking_progress<Remesher> progress(options, remesher, run.checks);
-  if (!remesher.optimize(progress)) throw Cancelled();
+  if (!about_input(options, [&] { return remesher.optimize(progress); })) throw Cancelled();
   Extracted_mesh mesh;
-  if (options.write_mesh) mesh = remesher.extract(progress);
+  if (options.write_mesh) mesh = about_input(options, [&] { return remesher.extract(progress); });
   stop_if_interrupted();
   if (options.check) {
     progress.on_stage("check");

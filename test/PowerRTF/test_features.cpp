@@ -221,7 +221,8 @@ TEST_CASE("too few samples for the borders are refused, for found creases these 
 {
   const Surface plane = shapes::make_surface(shapes::plane_patch(4, 4));
   CHECK_THROWS_AS(sample_features(plane, cut_along_creases(plane), 2), Invalid_input_error);
-  CHECK(with_creases(shapes::box(5), 15).creases.empty());
+  CHECK(!with_creases(shapes::box(5), 8).creases.empty()); // all is flat: the corners suffice
+  CHECK(with_creases(shapes::box(5), 7).creases.empty());
   CHECK(with_creases(shapes::box(5), 16).creases.size() == 60);
   Remeshing_options options;
   Surface box = shapes::make_surface(shapes::box(3));
@@ -273,7 +274,7 @@ TEST_CASE("the extraction keeps creases and borders, wherever the other samples 
       const Samples free = sample_surface(patches.surface(), options, patches.features());
       CHECK(free.size() + patches.features().size() == 400);
       const Extracted_mesh mesh = extract_by_insertion(
-          surface, joined(free, patches.features().samples), patches.features());
+          surface, joined(patches.on_whole(free), patches.features().samples), patches.features());
       CHECK(mesh.points.size() == 400);
       CHECK(mesh.feature_edges.size() == patches.features().edges.size());
       Remeshing_report report;
@@ -283,6 +284,38 @@ TEST_CASE("the extraction keeps creases and borders, wherever the other samples 
       CHECK(report.lost_feature_edges == 0);
       CHECK(report.topology.border_loops == report.input_topology.border_loops);
     }
+}
+
+TEST_CASE("a crease that is one edge keeps all its samples")
+{
+  for (const std::size_t n : {20, 100, 1000}) {
+    CAPTURE(n);
+    Surface surface = shapes::make_surface(shapes::icosahedron());
+    const Triangle& t = surface.triangles[7];
+    surface.creases = {sorted_edge(t[0], t[1])};
+    Remeshing_options options;
+    options.number_of_samples = n;
+    const Surface_patches patches(surface, options);
+    const Feature_samples& features = patches.features();
+    CHECK(features.edges.size() + 1 == features.size());
+    CHECK(features.size() >= (n == 20 ? 2u : 4u));
+    for (std::size_t k = 0; k < features.size(); ++k) {
+      REQUIRE(features.samples.facets[k] >= 0);
+      const Triangle& u = surface.triangles[features.samples.facets[k]];
+      const Vec3d& p = features.samples.points[k];
+      const Vec3d q = nearest_point_on_triangle(p, surface.points[u[0]], surface.points[u[1]],
+                                                surface.points[u[2]]);
+      CHECK(length(q - p) < 1e-12);
+      CHECK(length(features.samples.normals[k]) == doctest::Approx(1));
+    }
+    const Samples free = sample_surface(patches.surface(), options, features);
+    const Extracted_mesh mesh = extract_by_insertion(
+        surface, joined(patches.on_whole(free), features.samples), features);
+    Remeshing_report report;
+    report.samples_asked = n;
+    assess<CGAL::Sequential_tag>(surface, mesh, report);
+    CHECK(report.missed_guarantees().empty());
+  }
 }
 
 TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
@@ -310,7 +343,7 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
       const Surface_patches patches(surface, options);
       CHECK(topology(patches.surface().triangles).oriented);
       const Samples free = sample_surface(patches.surface(), options, patches.features());
-      const Opened_surface opened(surface, joined(free, patches.features().samples),
+      const Opened_surface opened(surface, joined(patches.on_whole(free), patches.features().samples),
                                   patches.features());
       Extracted_mesh mesh =
           extract_by_insertion(opened.surface(), opened.samples(), opened.features(), true);

@@ -162,17 +162,19 @@ private:
       samples.patches[s] = m_result.sites.patches[k];
     }
     // A crease of one edge that ends at both ends inside a patch bounds nothing: it has no sites.
-    std::map<Edge, int> lonely;
+    std::multimap<Edge, int> lonely; // by the edge, or twice the vertex
     for (std::size_t s = 0; s < samples.points.size(); ++s)
-      if (samples.facets[s] < 0) lonely[{m_result.places[s].from, m_result.places[s].to}] = static_cast<int>(s);
+      if (samples.facets[s] < 0)
+        lonely.insert({sorted_edge(m_result.places[s].from, m_result.places[s].to), int(s)});
     for (std::size_t f = 0; f < m_surface.triangles.size() && !lonely.empty(); ++f)
       for (const int a : m_surface.triangles[f])
         for (const int b : m_surface.triangles[f]) {
-          const auto found = lonely.find({a, b});
-          if (found == lonely.end()) continue;
-          samples.facets[found->second] = static_cast<int>(f);
-          samples.patches[found->second] = m_cut.surface.facet_patches[f];
-          lonely.erase(found);
+          const auto [first, last] = lonely.equal_range({a, b});
+          for (auto it = first; it != last; ++it) {
+            samples.facets[it->second] = static_cast<int>(f);
+            samples.patches[it->second] = m_cut.surface.facet_patches[f];
+          }
+          lonely.erase(first, last);
         }
     for (std::size_t s = 0; s < samples.points.size(); ++s) {
       const Vec3d n = normalized(samples.normals[s]);
