@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options.h"
 
+#include "option_names.h"
 #include "output_file.h"
-#include "parameters.h"
 
 #include <boost/program_options.hpp>
 
@@ -20,41 +20,12 @@ namespace
 {
 
 namespace po = boost::program_options;
-using CGAL::PowerRTF::Preset;
-using CGAL::PowerRTF::Remeshing_options;
+using namespace CGAL::PowerRTF;
 
 [[noreturn]] void reject(const std::string& option, const std::string& value,
                          const std::string& expected)
 {
   throw Usage_error("--" + option + ": '" + value + "' is not " + expected);
-}
-
-template <class T>
-std::string show(const T& value)
-{
-  if constexpr (std::is_enum<T>::value) return name_of(value);
-  std::ostringstream text;
-  text.precision(10);
-  if constexpr (!std::is_enum<T>::value) text << value;
-  return text.str();
-}
-
-template <class E>
-std::string choices(E)
-{
-  std::string text;
-  for (const auto& [value, name] : names(E()))
-    text += (text.empty() ? "" : "|") + std::string(name);
-  return text;
-}
-
-std::string show(const Range& range)
-{
-  const std::string lowest = range.lowest == std::numeric_limits<double>::min()
-                                 ? "above 0"
-                                 : "at least " + show(range.lowest);
-  if (range.highest == std::numeric_limits<double>::max()) return lowest;
-  return lowest + " and at most " + show(range.highest);
 }
 
 /// The number that `text` is, as a whole; beyond what `T` can hold: its nearest value.
@@ -75,25 +46,20 @@ T parse_number(const std::string& option, const std::string& text)
 }
 
 template <class T>
-T parse_value(const std::string& option, const std::string& text, const Range& range)
+T parse_value(const std::string& option, const std::string& text, const Option_range& range)
 {
   if constexpr (std::is_enum<T>::value) {
-    for (const auto& [value, name] : names(T()))
+    for (const auto& [value, name] : value_names(T()))
       if (text == name) return value;
-    reject(option, text, "one of " + choices(T()));
   } else {
     using Number = std::conditional_t<std::is_integral<T>::value, long long, double>;
     const Number value = parse_number<Number>(option, text);
-    if constexpr (std::is_same<T, std::size_t>::value) // n: see parameters.h
-      return value < 0 ? 0 : static_cast<T>(value);
-    if (!(double(value) >= range.lowest && double(value) <= range.highest))
-      reject(option, text, show(range));
-    return static_cast<T>(value);
+    // n: what is too little or too much is said about the input, not the usage.
+    if constexpr (std::is_same<T, std::size_t>::value) return value < 0 ? 0 : T(value);
+    if (is_allowed(value, range)) return static_cast<T>(value);
   }
+  reject(option, text, allowed_values<T>(range));
 }
-
-/// "samples,n" -> "samples"
-std::string long_name(const std::string& name) { return name.substr(0, name.find(',')); }
 
 po::typed_value<std::string>* text(const std::string& value_name)
 {
@@ -110,22 +76,25 @@ public:
                                 "quality|paper: this package's choice of all parameters, or the "
                                 "paper's; the other options change single ones (quality)");
     const Remeshing_options quality, paper = Remeshing_options::paper_preset();
-    for_each_parameter([&](const Parameter& p, auto member) {
+    for_each_option([&](const Option& option, auto member) {
       const auto value = quality.*member, of_paper = paper.*member;
       using T = std::decay_t<decltype(value)>;
-      std::string argument = std::is_integral<T>::value ? "N" : "X", help = p.help;
+      constexpr bool is_switch = std::is_same<T, bool>::value; // off by default
+      std::string argument, help = option.meaning;
       if constexpr (std::is_enum<T>::value) {
         argument = "NAME";
         help = choices(value) + ": " + help;
+      } else if constexpr (!is_switch) {
+        argument = std::is_integral<T>::value ? "N" : "X";
+        help += " {" + to_text(option.range) + "}";
       }
-      if (*p.symbol) help += " [" + std::string(p.symbol) + "]";
-      if constexpr (std::is_same<T, bool>::value) { // a switch, off by default
-        group(p.group).add_options()(p.name, help.c_str());
-        return;
-      }
-      help += " (" + show(value) + (value == of_paper ? "" : "; paper: " + show(of_paper)) + ")";
-      group(p.group).add_options()(p.name, text(argument), help.c_str());
-      if (*p.other_name) m_hidden.add_options()(p.other_name, text(argument));
+      if (*option.symbol) help += " [" + std::string(option.symbol) + "]";
+      if (!is_switch)
+        help += " (" + to_text(value) +
+                (value == of_paper ? "" : "; paper: " + to_text(of_paper)) + ")";
+      const std::string name = option_name(option), other_name = member_name(option);
+      add(group(option.group), name == "samples" ? "samples,n" : name, argument, help);
+      if (other_name != name) add(m_hidden, other_name, argument, "");
     });
     group("Files").add_options()("report", text("FILE.json"),
                                  "write what was done and what the result is worth")(
@@ -151,7 +120,8 @@ public:
     out << "power_rtf_remesh INPUT OUTPUT [options]\n"
            "Remeshes a surface by power diagrams restricted to tangent planes (PowerRTF).\n"
            "Reads OFF, OBJ, PLY, STL; writes OFF, OBJ, PLY, STL, VTP, as the file's name ends.\n"
-           "In [brackets]: the paper's symbol; in (parentheses): the default.\n";
+           "In {braces}: what is allowed; in [brackets]: the paper's symbol; in (parentheses): the "
+           "default.\n";
     po::options_description all(line_length, description_length);
     for (const po::options_description& g : m_groups) all.add(g); // together, so that they align
     out << all;
@@ -181,6 +151,14 @@ public:
   }
 
 private:
+  /// Without an `argument`: a switch.
+  static void add(po::options_description& options, const std::string& name,
+                  const std::string& argument, const std::string& help)
+  {
+    if (argument.empty()) options.add_options()(name.c_str(), help.c_str());
+    else options.add_options()(name.c_str(), text(argument), help.c_str());
+  }
+
   po::options_description& group(const std::string& name)
   {
     if (m_names.empty() || m_names.back() != name) {
@@ -203,18 +181,15 @@ Remeshing_options remeshing_options(const po::variables_map& values)
   if (values.count("preset") &&
       parse_value<Preset>("preset", values["preset"].as<std::string>(), {}) == Preset::paper)
     o = Remeshing_options::paper_preset();
-  for_each_parameter([&](const Parameter& p, auto member) {
-    const std::string name = long_name(p.name);
-    if (values.count(name) && values.count(p.other_name))
-      throw Usage_error("--" + name + " and --" + p.other_name + " are the same option");
-    if constexpr (std::is_same<std::decay_t<decltype(o.*member)>, bool>::value) {
-      o.*member = values.count(name) > 0;
-      return;
-    }
-    for (const std::string& option : {name, std::string(p.other_name)})
-      if (values.count(option))
-        o.*member = parse_value<std::decay_t<decltype(o.*member)>>(
-            option, values[option].as<std::string>(), p.range);
+  for_each_option([&](const Option& option, auto member) {
+    using T = std::decay_t<decltype(o.*member)>;
+    const std::string name = option_name(option), other_name = member_name(option);
+    if (name != other_name && values.count(name) && values.count(other_name))
+      throw Usage_error("--" + name + " and --" + other_name + " are the same option");
+    const std::string& given = values.count(other_name) ? other_name : name;
+    if (!values.count(given)) return;
+    if constexpr (std::is_same<T, bool>::value) o.*member = true;
+    else o.*member = parse_value<T>(given, values[given].as<std::string>(), option.range);
   });
   return o;
 }

@@ -50,21 +50,6 @@ enum Exit_code {
   cancelled = 128 // and the number of the signal
 };
 
-/// \throws Invalid_input_error when n is too small, or too large for this machine
-void check_number_of_samples(const Program_options& options)
-{
-  const std::size_t n = options.remeshing.number_of_samples;
-  const std::string what =
-      options.input + ": cannot be remeshed with the asked number of samples (--samples): ";
-  if (n < 4) throw Invalid_input_error(what + "at least 4 are needed");
-  const double bytes_per_sample = 1000; // a low estimate: refuses only what surely does not fit
-  const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
-  const double most = std::min(memory / bytes_per_sample, 3e8); // halfedges are numbered by int
-  if (double(n) > most)
-    throw Invalid_input_error(what + "at most " + std::to_string(std::size_t(most)) +
-                              " fit into the memory of this machine");
-}
-
 /// \throws Output_error when one of the files cannot be written in the end
 void check_outputs(const Program_options& o)
 {
@@ -88,6 +73,19 @@ auto about_input(const Program_options& options, const Make& make)
   } catch (const Invalid_input_error& e) {
     throw Invalid_input_error(options.input + ": cannot be remeshed: " + e.what());
   }
+}
+
+/// \throws Invalid_input_error when n is too small, or too large for this machine
+void check_number_of_samples(const Program_options& options)
+{
+  about_input(options, [&] { return validate(options.remeshing); }); // the rest has been checked
+  const double bytes_per_sample = 1000; // a low estimate: refuses only what surely does not fit
+  const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
+  const double most = memory / bytes_per_sample;
+  if (double(options.remeshing.number_of_samples) > most)
+    throw Invalid_input_error(options.input + ": cannot be remeshed: at most " +
+                              std::to_string(std::size_t(most)) +
+                              " samples fit into the memory of this machine");
 }
 
 /// The surface of the input; `run` receives what it took and what is lost.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report_json.h"
 
-#include "parameters.h"
+#include "option_names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -50,10 +50,10 @@ Json to_json(const Repair_counts& r)
 Json parameters(const Remeshing_options& o)
 {
   Json json;
-  for_each_parameter([&](const Parameter& p, auto member) {
-    const std::string names = p.name, name = names.substr(0, names.find(','));
+  for_each_option([&](const Option& option, auto member) {
+    const std::string name = option_name(option);
     if constexpr (std::is_enum<std::decay_t<decltype(o.*member)>>::value)
-      json[name] = name_of(o.*member);
+      json[name] = to_text(o.*member);
     else
       json[name] = o.*member;
   });
@@ -158,7 +158,7 @@ void write_json(std::ostream& out, const Run& run)
   json["samples"] = r.samples_asked;
   json["traits"] = run.options.traits;
   if (!run.gpu_not_used.empty()) json["gpu_not_used"] = run.gpu_not_used;
-  json["preset"] = name_of(run.options.remeshing.preset);
+  json["preset"] = to_text(run.options.remeshing.preset);
   json["seed"] = run.options.remeshing.random_seed;
   json["threads"] = run.threads;
   if (run.options.write_mesh) add_mesh(json, run);

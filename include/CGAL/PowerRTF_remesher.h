@@ -15,6 +15,7 @@
 #include <CGAL/PowerRTF/extraction/improve_mesh.h>
 #include <CGAL/PowerRTF/extraction/one_sided.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
+#include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/surface/initial_sampling.h>
 #include <CGAL/PowerRTF/surface/Surface_patches.h>
@@ -48,10 +49,10 @@ public:
   using Engine = typename Traits::Engine;
 
   /// `surface`: from `import_surface()`, its density set. \throws Invalid_input_error when an
-  /// option has no meaning for it.
+  /// option has a value that is not allowed, or the samples are too few for the surface.
   PowerRTF_remesher(PowerRTF::Surface surface, const Options& options)
-      : m_surface(std::move(surface)), m_options(options), m_patches(m_surface, options),
-        m_engine(m_patches.surface(), m_options)
+      : m_surface(std::move(surface)), m_options(PowerRTF::validate(options)),
+        m_patches(m_surface, m_options), m_engine(m_patches.surface(), m_options)
   {
     m_report.samples_asked = options.number_of_samples;
     m_report.feature_samples = m_patches.features().size();

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/extraction/export_mesh.h>
 #include <CGAL/PowerRTF/named_parameters.h>
+#include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/surface/density.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/import_surface.h>
@@ -37,6 +38,7 @@ struct Has_float_coordinates<Point, std::void_t<decltype(std::declval<const Poin
 
 /// What named parameters say about the options; a parameter of its own wins over `options`.
 /// \tparam Point of the output
+/// \throws Invalid_input_error an option has a value that is not allowed
 template <class Point, class NamedParameters>
 Remeshing_options options_of(std::size_t number_of_samples, const NamedParameters& np)
 {
@@ -47,14 +49,12 @@ Remeshing_options options_of(std::size_t number_of_samples, const NamedParameter
   options.number_of_samples = number_of_samples;
   if (Has_float_coordinates<Point>::value)
     options.coordinates = Coordinates::single_precision;
-  options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair == Repair::yes)
-                       ? Repair::yes
-                       : Repair::no;
+  options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair);
   options.random_seed =
       choose_parameter(get_parameter(np, internal_np::random_seed), options.random_seed);
   options.max_iterations =
       choose_parameter(get_parameter(np, internal_np::number_of_iterations), options.max_iterations);
-  return options;
+  return validate(options);
 }
 
 /// Makes creases of the edges of `surface` that `is_constrained` names among those of `mesh`.
@@ -130,7 +130,7 @@ Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
  * \param input the surface: a 2-manifold, with or without borders, of one or several components.
  *              Facets with more than three sides are triangulated; facets without area and
  *              isolated vertices are ignored.
- * \param number_of_samples the number of vertices asked for, at least 4
+ * \param number_of_samples the number of vertices asked for, from 4 to 3e8
  * \param output the result. What it held before is removed; property maps added to a
  *               `Surface_mesh` stay. Its vertices come in the order of the samples; should the
  *               samples' triangles form no 2-manifold, some appear again after that. It may be the
@@ -233,8 +233,9 @@ Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
  *          stopped the run, `cancelled` is `true` and `output` is as it was.
  *
  * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not
- *         finite or is no 2-manifold; a density is not a positive, finite number; fewer than 4
- *         samples are asked for; an option has no meaning. `output` is as it was.
+ *         finite or is no 2-manifold; a density is not a positive, finite number; the
+ *         samples are too few for the surface; `number_of_samples` or an option has a value that is
+ *         not allowed (the message says what is). `output` is as it was.
  */
 template <class ConcurrencyTag = Parallel_if_available_tag, class InputMesh, class OutputMesh,
           class NamedParametersIn = parameters::Default_named_parameters,

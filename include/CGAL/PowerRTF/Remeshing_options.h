@@ -25,7 +25,7 @@ enum class Coordinates { double_precision, single_precision };
 
 /// Parameters of `PowerRTF_remesher`. The defaults are those of the preset `quality`;
 /// `paper_preset()` gives those of the paper. Lengths are relative, so no parameter depends on the
-/// input's size or position.
+/// input's size or position. The ranges that values are allowed in stand in `option_table.h`.
 struct Remeshing_options {
   Preset preset = Preset::quality;
   std::size_t number_of_samples = 3000; ///< n

@@ -130,12 +130,13 @@ run 0 -- m3.off good.off -n 200
 
 # --- the number of samples
 run 1 torus.off 'at least 7' 'genus 1' -- torus.off out.off -n 6
-run 1 torus.off 'at least 4' -- torus.off out.off -n 3
-run 1 torus.off 'at least 4' -- torus.off out.off -n 0
-run 1 torus.off 'at least 4' -- torus.off out.off --samples -7
-for n in 3000000000 1000000000000 99999999999999999999999; do
-  run 1 torus.off 'memory' -- torus.off out.off -n $n
+for n in 3 0 -7 300000001 3000000000 1000000000000 99999999999999999999999; do
+  run 1 torus.off 'from 4 to 300000000' -- torus.off out.off --samples $n
 done
+run 1 torus.off 'times oversampling' -- torus.off out.off -n 300000000
+if [ "$(awk '/^MemTotal/ { print $2 }' /proc/meminfo)" -lt 290000000 ]; then
+  run 1 torus.off 'memory' -- torus.off out.off -n 300000000 --oversampling 1
+fi
 
 # --- outputs that cannot be written: said before the work, so a missing input does not matter
 mkdir folder

@@ -36,23 +36,45 @@ for name in density preset sampling attributes projection position-method weight
   weight-operator extraction traits; do
   refuse $name nonsense 'not one of'
 done
-refuse capacity-tolerance -0.1 'at least 0'
-refuse capacity-tolerance 1.5 'at most 1'
-refuse normal-angle 0 'above 0'
-refuse normal-angle 180.5 'at most 180'
-refuse normal-angle -60 'above 0'
-refuse gradation -1 'at least 0'
-refuse normal-smoothing -1 'at least 0'
-refuse density-power -1 'at least 0'
-refuse oversampling 0.5 'at least 1'
-refuse weight-step 0 'above 0'
-refuse centroid-density-power -1 'at least 0'
-for name in normal-neighbors density-neighbors neighbors lbfgs-memory projection-neighbors; do
-  refuse $name 0 'at least 1'
+
+# bounds OPTION LOWEST HIGHEST BELOW ABOVE: the bounds are understood (what is missing is the input,
+# exit code 1), the values beyond them are refused with the range
+bounds() {
+  local range="a number from $2 to $3"
+  run 1 missing.off -- missing.off out.off "--$1" "$2"
+  run 1 missing.off -- missing.off out.off "--$1" "$3"
+  refuse "$1" "$4" "$range"
+  refuse "$1" "$5" "$range"
+}
+bounds seed 0 4294967295 -1 4294967296
+bounds density-power 0 100 -1e-9 100.001
+bounds gradation 0 1000 -1e-300 1001
+bounds oversampling 1 32 0.999 32.001
+for name in relaxation-iterations iterations max-weight-iterations; do
+  bounds $name 0 1000000 -1 1000001
 done
-for name in relaxation-iterations iterations max-weight-iterations seed threads; do
-  refuse $name -1 'at least 0'
-  refuse $name 99999999999999999999 'at most'
+for name in normal-neighbors density-neighbors projection-neighbors; do bounds $name 1 64 0 65; done
+bounds normal-smoothing 0 100 -1 101
+bounds neighbors 1 1000 0 1001
+bounds guard-factor 1 1000 0.99 1000.5
+bounds lbfgs-memory 1 1000 0 1001
+bounds centroid-density-power 0 100 -1 101
+bounds capacity-tolerance 0 1 -0.1 1.5
+bounds device 0 2147483647 -1 2147483648
+bounds check-every 0 2147483647 -1 2147483648
+bounds threads 0 4096 -1 4097
+refuse neighbors 99999999999999999999 'to 1000'
+refuse seed -99999999999999999999 'from 0'
+for name in features normal-angle; do
+  run 1 missing.off -- missing.off out.off --$name 1e-300
+  run 1 missing.off -- missing.off out.off --$name 180
+  for value in 0 -60 180.5; do refuse $name $value 'above 0, at most 180'; done
+done
+run 1 missing.off -- missing.off out.off --weight-step 1000
+for value in 0 -1 1000.1; do refuse weight-step $value 'above 0, at most 1000'; done
+for name in features density-power oversampling normal-smoothing normal-angle guard-factor \
+  centroid-density-power capacity-tolerance weight-step; do
+  for value in nan inf -inf 1e400; do refuse $name $value 'not a number'; done
 done
 said=$("$program" torus.off cuda.off "${fast[@]}" --traits cuda 2>&1)
 case $? in # a program without the engine; a machine without a GPU; a machine with one
@@ -66,8 +88,6 @@ case $? in # a program without the engine; a machine without a GPU; a machine wi
 esac
 run 0 -- torus.off out.off -n 100 --iterations 2 --relaxation-iterations 2
 expect 'who asks for no GPU hears of none' [ ! -s stderr ]
-refuse device -1 'at least 0'
-refuse check-every -1 'at least 0'
 refuse check-every x 'not a whole number'
 
 # --- understood
@@ -77,7 +97,8 @@ for word in --samples --density --density-power --gradation --sampling --oversam
   --normal-angle --position-method --iterations --lbfgs-memory --projection --projection-neighbors \
   --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
   --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
-  --samples-out --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 60' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
+  --samples-out --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 60' \
+  '{above 0, at most 180}' '{from 1 to 64}' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
   expect "--help shows $word" grep -qF -- "$word" stdout
 done
 run 0 -- --version
@@ -152,7 +173,7 @@ has_ended() { ! kill -0 $pid; }
 ends_by() {
   local status
   echo untouched >out.off
-  "$program" large.off out.off -n 4000 --iterations 2000000000 --weight-method none 2>stderr &
+  "$program" large.off out.off -n 4000 --iterations 1000000 --weight-method none 2>stderr &
   pid=$!
   if [ ! -e "/proc/$pid/status" ]; then
     kill -KILL $pid

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/surface/curvature.h>
 #include <CGAL/PowerRTF/surface/cut_surface.h>
 #include <CGAL/PowerRTF/surface/gradation.h>
@@ -36,12 +37,10 @@ inline void normalize_density(std::vector<double>& density)
 
 /// Sets `surface.vertex_density` as `options` asks: 1, or kappa^`density_power` with its growth
 /// limited by `gradation`. Only ratios of densities matter to any later stage.
-/// \throws Invalid_input_error `density_power` is not in [-100, 100] or `gradation` is negative
+/// \throws Invalid_input_error an option has a value that is not allowed
 inline void set_density(Surface& surface, const Remeshing_options& options)
 {
-  if (!(std::abs(options.density_power) <= 100))
-    throw Invalid_input_error("the density's power must lie between -100 and 100");
-  if (!(options.gradation >= 0)) throw Invalid_input_error("the gradation must not be negative");
+  validate(options);
   surface.vertex_density.assign(surface.points.size(), 1);
   if (options.density == Density::uniform) return;
   const Surface_edges edges = surface_edges(surface);
@@ -66,12 +65,12 @@ inline void set_density(Surface& surface, const Remeshing_options& options)
 /// `options.gradation`.
 /// \param densities one per vertex of the *input* (see `Surface::input_vertices`); those of
 ///   vertices that the surface does not use are ignored
-/// \throws Invalid_input_error a density is missing, not positive or not finite, or `gradation` is
-///   negative
+/// \throws Invalid_input_error a density is missing, not positive or not finite, or an option has a
+///   value that is not allowed
 inline void set_density(Surface& surface, const Remeshing_options& options,
                         const std::vector<double>& densities)
 {
-  if (!(options.gradation >= 0)) throw Invalid_input_error("the gradation must not be negative");
+  validate(options);
   surface.vertex_density.resize(surface.points.size());
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
     const std::size_t input = surface.input_vertices[v];

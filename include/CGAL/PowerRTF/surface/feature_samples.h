@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/surface/curve_samples.h>
 #include <CGAL/PowerRTF/surface/cut_surface.h>
 #include <CGAL/PowerRTF/surface/feature_curves.h>
@@ -238,10 +239,10 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
 /// only one is kept. They are left out when they need more than half of the samples: so few samples
 /// show the shape better without; but not where nothing else is needed, as all that they bound is
 /// flat.
+/// \throws Invalid_input_error an option has a value that is not allowed
 inline void set_creases(Surface& surface, const Remeshing_options& options)
 {
-  if (!(options.feature_angle > 0 && options.feature_angle <= 180))
-    throw Invalid_input_error("the angle of features must lie between 0 and 180 degrees");
+  validate(options);
   surface.creases = surface.seams;
   if (options.feature_angle == 180) return;
   const std::vector<Edge> found =

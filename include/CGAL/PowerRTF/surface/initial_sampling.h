@@ -7,7 +7,7 @@
 #define CGAL_POWER_RTF_SURFACE_INITIAL_SAMPLING_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
-#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/surface/facet_adjacency.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/random_source.h>
@@ -20,16 +20,12 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace PowerRTF {
 namespace internal {
-
-/// Fewest samples of a component: a closed surface needs the corners of a tetrahedron.
-constexpr std::size_t min_samples_per_component = 4;
 
 /// The facets sorted by component, with running sums of what the candidates are proportional to.
 struct Facet_distribution {
@@ -207,20 +203,14 @@ inline std::vector<int> draw_by_elimination(Samples candidates, const Feature_sa
 /// least 4 samples when n allows it; components are sampled one after another.
 /// \returns the samples with their facets; normals and density are interpolated over the facet,
 ///   weights are 0. The same seed gives the same samples, also for a scaled surface.
-/// \throws Invalid_input_error fewer than 4 samples, or more candidates than an `int` can count
+/// \throws Invalid_input_error an option has a value that is not allowed
 ///
 /// `features`: samples that are there already, on the patches' boundaries; they count among the n.
 inline Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                               const Feature_samples& features = {})
 {
-  if (options.number_of_samples < internal::min_samples_per_component)
-    throw Invalid_input_error("at least 4 samples are needed, not " +
-                              std::to_string(options.number_of_samples));
+  validate(options);
   const std::size_t n = options.number_of_samples - features.size();
-  if (!(options.oversampling >= 1))
-    throw Invalid_input_error("there must be at least one candidate per sample");
-  if (!(static_cast<double>(n) * options.oversampling < 1e9))
-    throw Invalid_input_error(std::to_string(n) + " samples are too many");
 
   const auto& rho = surface.vertex_density;
   const auto density_mass = [&](int f)

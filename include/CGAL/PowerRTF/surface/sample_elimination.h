@@ -22,7 +22,8 @@ namespace internal {
 /// The neighbours of `i` are `neighbor[first[i]] .. neighbor[first[i + 1] - 1]`, with how much they
 /// crowd each other: Yuksel's weight, from 0 (radii touch) to 1 (same place).
 struct Candidate_graph {
-  std::vector<int> first, neighbor;
+  std::vector<std::size_t> first;
+  std::vector<int> neighbor;
   std::vector<double> crowding;
 };
 
@@ -72,7 +73,7 @@ inline Candidate_graph candidate_graph(const std::vector<Vec3d>& points,
   for (int i = 0; i < n; ++i) graph.first[i + 1] += graph.first[i];
   graph.neighbor.resize(2 * pairs.size());
   graph.crowding.resize(2 * pairs.size());
-  std::vector<int> end(graph.first.begin(), graph.first.end() - 1);
+  std::vector<std::size_t> end(graph.first.begin(), graph.first.end() - 1);
   for (const auto& [i, j] : pairs) {
     const double free = 1 - length(points[i] - points[j]) / (radii[i] + radii[j]);
     const double free_2 = free * free, free_4 = free_2 * free_2;
@@ -106,7 +107,7 @@ inline std::vector<int> eliminate_samples(const std::vector<Vec3d>& points,
   const auto weight = [&](int i)
   {
     double sum = 0;
-    for (int e = graph.first[i]; e < graph.first[i + 1]; ++e)
+    for (std::size_t e = graph.first[i]; e < graph.first[i + 1]; ++e)
       if (is_alive[graph.neighbor[e]]) sum += graph.crowding[e];
     return sum;
   };
@@ -132,7 +133,8 @@ inline std::vector<int> eliminate_samples(const std::vector<Vec3d>& points,
     }
     heap.pop_back();
     is_alive[i] = 0;
-    for (int e = graph.first[i]; e < graph.first[i + 1]; ++e) is_outdated[graph.neighbor[e]] = 1;
+    for (std::size_t e = graph.first[i]; e < graph.first[i + 1]; ++e)
+      is_outdated[graph.neighbor[e]] = 1;
   }
 
   std::vector<int> chosen;

@@ -1,0 +1,295 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// All parameters of the remesher in one table: name, symbol in the paper, meaning and allowed
+// values. Options are validated by it; the program's command line, --help and report are made
+// from it.
+#ifndef CGAL_POWER_RTF_OPTION_TABLE_H
+#define CGAL_POWER_RTF_OPTION_TABLE_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/internal/errors.h>
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace CGAL
+{
+namespace PowerRTF
+{
+
+/// The values of an enumeration and their names.
+template <class E, std::size_t N>
+using Value_names = std::array<std::pair<E, const char*>, N>;
+
+// One overload per enumeration, found by the type of its unused argument.
+inline auto value_names(Preset)
+{
+  using E = Preset;
+  return Value_names<E, 2>{{{E::quality, "quality"}, {E::paper, "paper"}}};
+}
+inline auto value_names(Density)
+{
+  using E = Density;
+  return Value_names<E, 2>{{{E::uniform, "uniform"}, {E::curvature, "curvature"}}};
+}
+inline auto value_names(Sampling)
+{
+  using E = Sampling;
+  return Value_names<E, 2>{{{E::elimination, "elimination"}, {E::random, "random"}}};
+}
+inline auto value_names(Attributes)
+{
+  using E = Attributes;
+  return Value_names<E, 2>{{{E::facet, "facet"}, {E::nearest_vertices, "nearest-vertices"}}};
+}
+inline auto value_names(Projection)
+{
+  using E = Projection;
+  return Value_names<E, 2>{
+      {{E::nearest_facet, "nearest-facet"}, {E::nearest_vertices, "nearest-vertices"}}};
+}
+inline auto value_names(Position_method)
+{
+  using E = Position_method;
+  return Value_names<E, 2>{{{E::lbfgs, "lbfgs"}, {E::lloyd, "lloyd"}}};
+}
+inline auto value_names(Weight_method)
+{
+  using E = Weight_method;
+  return Value_names<E, 3>{
+      {{E::none, "none"}, {E::multiplicative, "multiplicative"}, {E::newton, "newton"}}};
+}
+inline auto value_names(Weight_operator)
+{
+  using E = Weight_operator;
+  return Value_names<E, 2>{{{E::ceiling, "ceiling"}, {E::floor, "floor"}}};
+}
+inline auto value_names(Extraction_method)
+{
+  using E = Extraction_method;
+  return Value_names<E, 2>{
+      {{E::insertion, "insertion"}, {E::restricted_delaunay, "restricted-delaunay"}}};
+}
+inline auto value_names(Improvement)
+{
+  using E = Improvement;
+  return Value_names<E, 2>{{{E::no, "no"}, {E::yes, "yes"}}};
+}
+inline auto value_names(Repair)
+{
+  using E = Repair;
+  return Value_names<E, 2>{{{E::no, "no"}, {E::yes, "yes"}}};
+}
+inline auto value_names(Coordinates)
+{
+  using E = Coordinates;
+  return Value_names<E, 2>{{{E::double_precision, "double"}, {E::single_precision, "single"}}};
+}
+
+/// Empty when `value` is none of the enumeration's.
+template <class E>
+std::string name_of(E value)
+{
+  for (const auto& [v, name] : value_names(value))
+    if (v == value) return name;
+  return {};
+}
+
+/// The values allowed for a number, both ends included.
+struct Option_range {
+  double lowest, highest;
+
+  /// The lowest of a range that excludes 0 and nothing above it.
+  static constexpr double above_zero = std::numeric_limits<double>::min();
+};
+
+/// A row of the table.
+struct Option {
+  const char* group;  ///< heading of this and the following rows
+  const char* name;   ///< of the member of `Remeshing_options`
+  const char* symbol; ///< in the paper; empty: it has none
+  const char* meaning;
+  Option_range range; ///< of a number
+};
+
+/// Calls `visit(option, member)` for every member of `Remeshing_options` but the preset; `member`
+/// is a pointer to member.
+template <class Visitor>
+void for_each_option(Visitor&& visit)
+{
+  using O = Remeshing_options;
+  constexpr double above_zero = Option_range::above_zero;
+  const Option_range no_number{0, 0}, share{0, 1}, angle{above_zero, 180}, power{0, 100},
+      iterations{0, 1e6}, nearest_vertices{1, 64};
+  const char* group = "Main";
+  const auto add = [&](const char* name, auto member, const char* symbol, const char* meaning,
+                       const Option_range& range) {
+    visit(Option{group, name, symbol, meaning, range}, member);
+  };
+  // Halfedges are numbered by int: 6 n and those of the input.
+  add("number_of_samples", &O::number_of_samples, "n", "samples: the vertices of the output",
+      {4, 3e8});
+  add("density", &O::density, "rho", "even samples, or more of them where the surface is curved",
+      no_number);
+  add("random_seed", &O::random_seed, "", "seed of all random choices",
+      {0, std::numeric_limits<unsigned>::max()});
+  add("feature_angle", &O::feature_angle, "",
+      "degrees: sharper edges are kept as creases where they make clean curves; 180: none", angle);
+  add("repair", &O::repair, "",
+      "input that is no 2-manifold is made one, its shape kept; no: it is refused", no_number);
+
+  group = "Density (Section 4.3)";
+  add("density_power", &O::density_power, "p", "rho = kappa^p: 1, 2, 3 are the paper's f, f^2, f^3",
+      power);
+  add("gradation", &O::gradation, "", "largest growth of the spacing per unit of length; 0: any",
+      {0, 1000});
+
+  group = "Initial sampling (Section 4.3)";
+  add("sampling", &O::sampling, "", "weighted sample elimination, or the paper's random choice",
+      no_number);
+  // The elimination's time and memory are proportional to n m^2.
+  add("oversampling", &O::oversampling, "m", "candidates per sample", {1, 32});
+  add("relaxation_iterations", &O::relaxation_iterations, "",
+      "first steps, by Lloyd's method without weights", iterations);
+
+  group = "Normals and density of a sample (Section 4.1)";
+  add("attributes", &O::attributes, "", "from its facet, or means over the nearest vertices",
+      no_number);
+  add("normal_neighbors", &O::normal_neighbors, "k_n", "vertices averaged for a normal",
+      nearest_vertices);
+  add("density_neighbors", &O::density_neighbors, "k_d", "vertices averaged for a density",
+      nearest_vertices);
+  add("normal_smoothing", &O::normal_smoothing, "",
+      "normals are smoothed over this many times the local spacing; 0: not at all", {0, 100});
+
+  group = "Cells (Algorithm 1)";
+  add("neighbors", &O::neighbors, "k", "samples in the first neighbor search", {1, 1000});
+  add("normal_angle", &O::normal_angle, "Theta",
+      "degrees: a larger angle between their normals parts two samples", angle);
+  add("guard_factor", &O::guard_factor, "",
+      "cells reaching this many distances to the 6th neighbor take all neighbors", {1, 1000});
+  add("certified_combinatorics", &O::certified_combinatorics, "",
+      "CPU: the cells' neighbors are those of the exact traits", no_number);
+
+  group = "Positions (Algorithm 3)";
+  add("position_method", &O::position_method, "", "how samples move to their cells' centroids",
+      no_number);
+  add("max_iterations", &O::max_iterations, "N_m", "position steps at most", iterations);
+  add("lbfgs_memory", &O::lbfgs_memory, "", "pairs kept by L-BFGS", {1, 1000});
+  add("projection", &O::projection, "",
+      "onto the nearest facet, or on those at the nearest vertices", no_number);
+  add("projection_neighbors", &O::projection_neighbors, "", "vertices whose facets are tried",
+      nearest_vertices);
+  add("centroid_density_power", &O::centroid_density_power, "",
+      "centroids are weighted by rho to this power", power);
+
+  group = "Weights (Algorithm 2)";
+  add("weight_method", &O::weight_method, "", "none (RTF), the paper's rule, or Newton's method",
+      no_number);
+  add("capacity_tolerance", &O::capacity_tolerance, "gamma",
+      "half-width of the capacity interval; 0: CCCPD", share);
+  add("max_weight_iterations", &O::max_weight_iterations, "N_m^w",
+      "weight steps at most per position step", iterations);
+  add("weight_step", &O::weight_step, "tau",
+      "step of the paper's rule: Delta s = tau gamma D_i / 4", {above_zero, 1000});
+  add("weight_operator", &O::weight_operator, "alpha",
+      "rounding in the paper's rule; floor: as printed", no_number);
+
+  group = "Extraction";
+  add("extraction", &O::extraction, "", "how the triangles are made", no_number);
+  add("improvement", &O::improvement, "",
+      "rounder triangles, nearer to the surface; no: triangles on the samples", no_number);
+  add("coordinates", &O::coordinates, "", "precision of what will hold the result's points",
+      no_number);
+
+  group = "GPU";
+  add("device", &O::device, "", "the number of the GPU of the CUDA traits",
+      {0, std::numeric_limits<int>::max()});
+}
+
+/// A value of an option as a user writes it.
+template <class T>
+std::string to_text(const T& value)
+{
+  if constexpr (std::is_enum<T>::value) {
+    const std::string name = name_of(value);
+    return name.empty() ? std::to_string(static_cast<int>(value)) : name;
+  } else {
+    std::ostringstream text;
+    text.precision(10);
+    text << value;
+    return text.str();
+  }
+}
+
+/// "uniform|curvature"
+template <class E>
+std::string choices(E)
+{
+  std::string text;
+  for (const auto& [value, name] : value_names(E()))
+    text += (text.empty() ? "" : "|") + std::string(name);
+  return text;
+}
+
+inline std::string to_text(const Option_range& range)
+{
+  return (range.lowest == Option_range::above_zero ? "above 0, at most "
+                                                   : "from " + to_text(range.lowest) + " to ") +
+         to_text(range.highest);
+}
+
+/// What a value of type `T` has to be, for messages.
+template <class T>
+std::string allowed_values(const Option_range& range)
+{
+  if constexpr (std::is_enum<T>::value)
+    return "one of " + choices(T());
+  else
+    return "a number " + to_text(range);
+}
+
+/// Whether an option may have that value; NaN is in no range.
+template <class T>
+bool is_allowed(const T& value, const Option_range& range)
+{
+  if constexpr (std::is_same<T, bool>::value)
+    return true;
+  else if constexpr (std::is_enum<T>::value)
+    return !name_of(value).empty();
+  else
+    return double(value) >= range.lowest && double(value) <= range.highest;
+}
+
+/// Returns `options`.
+/// \throws Invalid_input_error an option has a value that is not allowed, or `number_of_samples`
+///   times `oversampling` is more than 1e9; the message names the option, its value and what is
+///   allowed
+inline const Remeshing_options& validate(const Remeshing_options& options)
+{
+  for_each_option([&](const Option& option, auto member) {
+    const auto& value = options.*member;
+    if (!is_allowed(value, option.range))
+      throw Invalid_input_error(std::string(option.name) + " is " + to_text(value) +
+                                ", but must be " +
+                                allowed_values<std::decay_t<decltype(value)>>(option.range));
+  });
+  constexpr double most_candidates = 1e9; // they are numbered by int
+  const double n = static_cast<double>(options.number_of_samples);
+  if (n * options.oversampling > most_candidates)
+    throw Invalid_input_error("number_of_samples times oversampling is " +
+                              to_text(n * options.oversampling) + ", but must be at most " +
+                              to_text(most_candidates));
+  return options;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_OPTION_TABLE_H
