@@ -136,8 +136,10 @@ Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
  *               samples' triangles form no 2-manifold, some appear again after that. It may be the
  *               same object as `input`.
  * \param np_in an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones
- *              listed below. Those of this package, in the namespace `PowerRTF::parameters`, come
- *              first in a sequence: `PowerRTF::parameters::density_map(map).random_seed(3)`.
+ *              listed below, in any order. The namespace `PowerRTF::parameters` has them all:
+ *              `PowerRTF::parameters::random_seed(3).density_map(map)`. To a sequence from
+ *              `CGAL::parameters`, which knows \cgal's only, `PowerRTF::parameters::combine()` adds
+ *              those of this package.
  *
  * \cgalNamedParamsBegin
  *   \cgalParamNBegin{vertex_point_map}
@@ -245,6 +247,10 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
                     const NamedParametersIn& np_in = parameters::default_values(),
                     const NamedParametersOut& np_out = parameters::default_values())
 {
+  static_assert(!PowerRTF::internal::has_own_parameter<NamedParametersOut>(),
+                "density_map, remeshing_options and repair belong into the first chain of named "
+                "parameters; one that began in CGAL::parameters takes them by "
+                "PowerRTF::parameters::combine(chain, density_map(map))");
   using parameters::choose_parameter;
   using parameters::get_parameter_reference;
   using PowerRTF::internal::Stopwatch;

@@ -413,10 +413,15 @@ TEST_CASE("the user's own density")
   check_guarantees(report);
   const Soup expected = soup_of(output);
 
-  // Any order of our own parameters, any number type, and only ratios matter.
-  CGAL::power_rtf_remeshing(
-      mesh, 500, output, params::remeshing_options(options).density_map(density).random_seed(1));
-  CHECK(are_equal(soup_of(output), expected));
+  // Any order of the parameters, any number type, and only ratios matter.
+  const auto check_same = [&](const auto& np) {
+    CGAL::power_rtf_remeshing(mesh, 500, output, np);
+    CHECK(are_equal(soup_of(output), expected));
+  };
+  check_same(params::remeshing_options(options).density_map(density).random_seed(1));
+  check_same(params::random_seed(1).remeshing_options(options).density_map(density));
+  check_same(params::combine(CGAL::parameters::random_seed(1),
+                             params::density_map(density).remeshing_options(options)));
   auto exact = mesh.add_property_map<Mesh::Vertex_index, Exact_kernel::FT>("v:exact").first;
   for (const auto v : mesh.vertices()) exact[v] = 1024 * density[v];
   CGAL::power_rtf_remeshing(

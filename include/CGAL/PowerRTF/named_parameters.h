@@ -1,15 +1,17 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The named parameters that CGAL does not have. CGAL's list of chainable parameters is closed, so
-// these start a chain, and CGAL's follow:
-// `PowerRTF::parameters::density_map(m).remeshing_options(o).random_seed(3)`.
+// The named parameters of this package, and those of CGAL's that it takes, in chains of any order:
+// `PowerRTF::parameters::random_seed(3).density_map(map).number_of_iterations(50)`. CGAL's own
+// chains are closed to parameters that CGAL does not have; `combine()` adds these.
 #ifndef CGAL_POWER_RTF_NAMED_PARAMETERS_H
 #define CGAL_POWER_RTF_NAMED_PARAMETERS_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 
 #include <CGAL/Named_function_parameters.h>
+
+#include <type_traits>
 
 namespace CGAL
 {
@@ -23,56 +25,152 @@ enum density_map_t { density_map };
 enum remeshing_options_t { remeshing_options };
 enum repair_t { repair };
 
-/// A chain of named parameters that also goes on with our own.
+/// A chain of named parameters that goes on with our own and with those of CGAL's that we take.
 template <class T, class Tag, class Base = internal_np::No_property>
 struct Named_parameters : Named_function_parameters<T, Tag, Base> {
   using Named_function_parameters<T, Tag, Base>::Named_function_parameters;
 
-  template <class DensityMap>
-  Named_parameters<DensityMap, density_map_t, Named_parameters>
-  density_map(const DensityMap& map) const
+  /// The chain with one more parameter.
+  template <class Other_tag, class Value>
+  Named_parameters<Value, Other_tag, Named_parameters> with(const Value& value) const
   {
-    return {map, *this};
+    return {value, *this};
   }
 
-  Named_parameters<Remeshing_options, remeshing_options_t, Named_parameters>
-  remeshing_options(const Remeshing_options& options) const
+  template <class Map>
+  auto density_map(const Map& map) const
   {
-    return {options, *this};
+    return with<density_map_t>(map);
   }
+  auto remeshing_options(const Remeshing_options& options) const
+  {
+    return with<remeshing_options_t>(options);
+  }
+  auto repair(bool wanted) const { return with<repair_t>(wanted ? Repair::yes : Repair::no); }
 
-  Named_parameters<bool, repair_t, Named_parameters> repair(bool wanted) const
+  template <class Map>
+  auto vertex_point_map(const Map& map) const
   {
-    return {wanted, *this};
+    return with<internal_np::vertex_point_t>(map);
   }
+  template <class Map>
+  auto edge_is_constrained_map(const Map& map) const
+  {
+    return with<internal_np::edge_is_constrained_t>(map);
+  }
+  template <class Traits>
+  auto geom_traits(const Traits& traits) const
+  {
+    return with<internal_np::geom_traits_t>(traits);
+  }
+  template <class Visitor>
+  auto visitor(const Visitor& visitor) const
+  {
+    return with<internal_np::visitor_t>(visitor);
+  }
+  auto random_seed(unsigned seed) const { return with<internal_np::random_seed_t>(seed); }
+  auto number_of_iterations(int n) const { return with<internal_np::number_of_iterations_t>(n); }
 };
+
+/// A chain of one parameter.
+template <class Tag, class Value>
+Named_parameters<Value, Tag> named_parameter(const Value& value)
+{
+  return {value};
+}
+
+/// Whether a chain has one of our own parameters.
+template <class NamedParameters>
+constexpr bool has_own_parameter()
+{
+  using Base = typename NamedParameters::base;
+  const auto has = [](auto tag) {
+    return !std::is_same<typename internal_np::Get_param<Base, decltype(tag)>::type,
+                         internal_np::Param_not_found>::value;
+  };
+  return has(density_map_t()) || has(remeshing_options_t()) || has(repair_t());
+}
 
 } // namespace internal
 
-/// CGAL's named parameters, and those of this package.
+/// The named parameters of `power_rtf_remeshing()`. Each begins a chain, in which the others may
+/// follow in any order.
 namespace parameters
 {
 
-using namespace CGAL::parameters;
+using CGAL::parameters::default_values;
 
 /// The user's own density: a readable property map from the input's vertices to numbers > 0.
 template <class DensityMap>
-internal::Named_parameters<DensityMap, internal::density_map_t> density_map(const DensityMap& map)
+auto density_map(const DensityMap& map)
 {
-  return {map};
+  return internal::named_parameter<internal::density_map_t>(map);
 }
 
 /// All parameters of the method, see `Remeshing_options`.
-inline internal::Named_parameters<Remeshing_options, internal::remeshing_options_t>
-remeshing_options(const Remeshing_options& options)
+inline auto remeshing_options(const Remeshing_options& options)
 {
-  return {options};
+  return internal::named_parameter<internal::remeshing_options_t>(options);
 }
 
 /// Whether an input that is no 2-manifold is made one (default) or refused.
-inline internal::Named_parameters<bool, internal::repair_t> repair(bool wanted)
+inline auto repair(bool wanted)
 {
-  return {wanted};
+  return internal::named_parameter<internal::repair_t>(wanted ? Repair::yes : Repair::no);
+}
+
+/// As `CGAL::parameters::vertex_point_map()`.
+template <class VertexPointMap>
+auto vertex_point_map(const VertexPointMap& map)
+{
+  return internal::named_parameter<internal_np::vertex_point_t>(map);
+}
+
+/// As `CGAL::parameters::edge_is_constrained_map()`.
+template <class EdgeIsConstrainedMap>
+auto edge_is_constrained_map(const EdgeIsConstrainedMap& map)
+{
+  return internal::named_parameter<internal_np::edge_is_constrained_t>(map);
+}
+
+/// As `CGAL::parameters::geom_traits()`.
+template <class Traits>
+auto geom_traits(const Traits& traits)
+{
+  return internal::named_parameter<internal_np::geom_traits_t>(traits);
+}
+
+/// As `CGAL::parameters::visitor()`.
+template <class Visitor>
+auto visitor(const Visitor& visitor)
+{
+  return internal::named_parameter<internal_np::visitor_t>(visitor);
+}
+
+/// As `CGAL::parameters::random_seed()`.
+inline auto random_seed(unsigned seed)
+{
+  return internal::named_parameter<internal_np::random_seed_t>(seed);
+}
+
+/// As `CGAL::parameters::number_of_iterations()`.
+inline auto number_of_iterations(int n)
+{
+  return internal::named_parameter<internal_np::number_of_iterations_t>(n);
+}
+
+/// One chain of two, of CGAL's or of this package: what comes from elsewhere as CGAL's chain gets
+/// parameters of this package by `combine(chain, density_map(map))`. Of a parameter that both have,
+/// that of `more` counts.
+template <class NamedParameters, class T, class Tag, class Base>
+auto combine(const NamedParameters& chain, const Named_function_parameters<T, Tag, Base>& more)
+{
+  if constexpr (std::is_same<Base, internal_np::No_property>::value) {
+    return internal::Named_parameters<T, Tag, NamedParameters>(more.v, chain);
+  } else {
+    const auto longer = combine(chain, static_cast<const Base&>(more));
+    return internal::Named_parameters<T, Tag, std::decay_t<decltype(longer)>>(more.v, longer);
+  }
 }
 
 } // namespace parameters

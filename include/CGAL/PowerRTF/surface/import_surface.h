@@ -43,12 +43,12 @@ Vec3d to_vec3d(const Point& p)
 ///   in a vertex get copies of it.
 /// \throws Invalid_input_error no facet, a coordinate that is not finite, no area, or not a
 ///   2-manifold
-template <class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
+template <class FaceGraph, class NamedParameters = CGAL::parameters::Default_named_parameters>
 Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_counts& repairs,
                        Repair repair = Repair::yes)
 {
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
   const auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
                                           get_const_property_map(CGAL::vertex_point, mesh));
   auto index = get(CGAL::dynamic_vertex_property_t<int>(), mesh);
