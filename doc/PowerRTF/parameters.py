@@ -17,8 +17,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BEGIN, END = "<!-- generated: parameters -->", "<!-- end of generated -->"
-GREEK = {"rho": "ρ", "gamma": "γ", "Theta": "Θ", "tau": "τ", "alpha": "α", "k_n": "k_n",
-         "N_m^w": "N_m^w"}
+GREEK = "alpha gamma kappa rho tau Delta Theta".split()
+FORMULAS = ["rho = kappa^p", "f, f^2, f^3", "Delta s = tau gamma D_i / 4", "rho"]
 # of the program's options, those that are no parameters of the method
 OTHERS = {"Files", "Comparison with exact arithmetic", "Program"}
 
@@ -40,26 +40,44 @@ def options(text):
     return found
 
 
+def latex(formula):
+    formula = re.sub(rf"\b({'|'.join(GREEK)})\b", r"\\\1", formula)
+    return rf"\f${formula}\f$"
+
+
+def with_formulas(text):
+    return re.sub("|".join(rf"\b{re.escape(f)}(?!\w)" for f in FORMULAS),
+                  lambda match: latex(match[0]), text)
+
+
+def taken_from_end(description, brackets):
+    """What stands in such brackets at the end, and the description without it."""
+    opening, closing = map(re.escape, brackets)
+    found = re.search(rf" {opening}([^{opening}{closing}]*){closing}$", description)
+    return (found[1], description[:found.start()]) if found else ("", description)
+
+
 def table(text):
-    lines = ["| option | symbol | meaning | `quality` | `paper` |", "| --- | --- | --- | --- | --- |"]
+    lines = ["| option | symbol | meaning | allowed | `quality` | `paper` |",
+             "| --- | --- | --- | --- | --- | --- |"]
     last = ""
     for group, name, description in options(text):
         if group in OTHERS or name == "preset" or not group:
             continue
         if group != last:
-            lines.append(f"| **{group}** | | | | |")
+            lines.append(f"| **{group}** | | | | | |")
             last = group
-        default = re.search(r" \(([^()]*?)(?:; paper: ([^()]*))?\)$", description)
-        quality = default[1] if default else "off"
-        paper = default[2] if default and default[2] else quality
-        meaning = description[:default.start()] if default else description
-        symbol = re.search(r" \[([^\]]*)\]$", meaning)
-        meaning = meaning[:symbol.start()] if symbol else meaning
-        meaning = meaning.replace("|", ", ").replace("^", "&#94;").replace("_", "&#95;")
-        meaning = re.sub(r"--[a-z]+ [a-z]+", r"`\g<0>`", meaning)
-        shown = GREEK.get(symbol[1], symbol[1]) if symbol else ""
-        lines.append(f"| `{name}` | {f'`{shown}`' if shown else ''} | {meaning} | {quality} "
-                     f"| {paper} |")
+        default, meaning = taken_from_end(description, "()")
+        symbol, meaning = taken_from_end(meaning, "[]")
+        allowed, meaning = taken_from_end(meaning, "{}")
+        if not default: # a switch
+            allowed, default = "off, on", "off"
+        elif not allowed: # "yes|no: what that means"
+            allowed, meaning = meaning.split(": ", 1)
+            allowed = allowed.replace("|", ", ")
+        quality, _, paper = default.partition("; paper: ")
+        lines.append(f"| `{name}` | {latex(symbol) if symbol else ''} | {with_formulas(meaning)} "
+                     f"| {allowed} | {quality} | {paper or quality} |")
     return "\n".join(lines) + "\n"
 
 

@@ -23,8 +23,8 @@ int main()
   auto density = input.add_property_map<Mesh::Vertex_index, double>("v:density").first;
   for (const auto v : input.vertices()) density[v] = std::pow(4, input.point(v).z() / 2);
 
-  // The package's own parameters come first, CGAL's follow.
-  CGAL::power_rtf_remeshing(input, 1000, output, params::density_map(density).random_seed(1));
+  // The package's parameters and CGAL's, in any order.
+  CGAL::power_rtf_remeshing(input, 1000, output, params::random_seed(1).density_map(density));
 
   std::size_t north = 0;
   for (const auto v : output.vertices()) north += output.point(v).z() > 0;

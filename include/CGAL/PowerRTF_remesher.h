@@ -38,6 +38,7 @@ struct Runs_on_device<Engine, std::void_t<decltype(std::declval<const Engine&>()
 } // namespace internal
 } // namespace PowerRTF
 
+/// \ingroup PkgPowerRTFRef
 /// Distributes samples on a surface by their restricted tangent faces and triangulates them.
 ///
 /// \tparam Traits a model of `PowerRTFTraits_3`.

@@ -14,8 +14,9 @@ Each model must be deterministic: the same calls give the same result bit for bi
 number of threads.
 
 \cgalHasModelsBegin
-\cgalHasModels{`CGAL::PowerRTF::Cpu_engine<ConcurrencyTag>`}
-\cgalHasModels{`CGAL::PowerRTF::Exact_engine<Kernel, ConcurrencyTag>`}
+\cgalHasModels{`CGAL::PowerRTF::Cpu_engine`}
+\cgalHasModels{`CGAL::PowerRTF::Exact_engine`}
+\cgalHasModels{`CGAL::PowerRTF::Cuda_engine`}
 \cgalHasModelsEnd
 */
 class PowerRTFEngine {
@@ -28,7 +29,7 @@ public:
   /// weights become 0. The engine may reorder them, once.
   void set_samples(const CGAL::PowerRTF::Samples& samples);
 
-  /// Constructs all cells (Algorithm 1), with area, mass and centre of mass.
+  /// Constructs all cells (Algorithm 1), with area, mass and center of mass.
   void build_cells();
 
   /// One pass of the paper's rule over all weights (Algorithm 2, lines 3 to 10). The cells must be
@@ -42,7 +43,7 @@ public:
   /// All weights become 0, and the cells are built again.
   void clear_weights();
 
-  /// Moves each sample towards the centre of mass of its cell and projects it onto the surface
+  /// Moves each sample towards the center of mass of its cell and projects it onto the surface
   /// (Algorithm 3, lines 15 to 19). The cells are outdated after it.
   void move_samples(CGAL::PowerRTF::Position_method method);
 
@@ -56,7 +57,7 @@ public:
   /// The current cells by status.
   CGAL::PowerRTF::Cell_counts cell_counts() const;
 
-  /// The root mean square of |s_i - c_i|, in units of sqrt(area / n).
+  /// The root mean square of \f$|s_i - c_i|\f$, in units of \f$\sqrt{\mathrm{area}/n}\f$.
   double displacement() const;
 
   /// How often all cells have been constructed.

@@ -6,11 +6,12 @@
 \cgalConcept
 
 What `CGAL::PowerRTF_remesher` and `CGAL::power_rtf_remeshing()` are instantiated with: the kernel of
-the points, the threading, and the engine that constructs and optimises the cells.
+the points, the threading, and the engine that constructs and optimizes the cells.
 
 \cgalHasModelsBegin
 \cgalHasModels{`CGAL::PowerRTF_traits_3<Kernel, ConcurrencyTag>`}
 \cgalHasModels{`CGAL::PowerRTF_exact_traits_3<Kernel, ConcurrencyTag>`}
+\cgalHasModels{`CGAL::PowerRTF_cuda_traits_3<Kernel, Real>`}
 \cgalHasModelsEnd
 */
 class PowerRTFTraits_3 {

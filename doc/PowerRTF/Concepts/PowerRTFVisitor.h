@@ -20,10 +20,10 @@ public:
   void on_stage(const char* name);
 
   /// An outer iteration (Algorithm 3) has ended. `progress` in [0, 1] is the share of the
-  /// optimisation done.
+  /// optimization done.
   void on_iteration(const CGAL::PowerRTF::Iteration_report& iteration, double progress);
 
-  /// Asked after each iteration; `false` stops the optimisation: no mesh is made, the output stays
+  /// Asked after each iteration; `false` stops the optimization: no mesh is made, the output stays
   /// as it was.
   bool go_further();
 };

@@ -13,9 +13,11 @@
 namespace CGAL
 {
 
-/// Everything between the first samples and the final ones happens on the device. The same input,
-/// seed and device give the same samples bit for bit; they differ from those of the other traits
-/// by what rounding in single precision grows to. The GPU is `Remeshing_options::device`.
+/// \ingroup PkgPowerRTFTraits
+/// The traits that run the optimization on an NVIDIA GPU. Everything between the first samples and
+/// the final ones happens on the device. The same input, seed and device give the same samples bit
+/// for bit; they differ from those of the other traits by what rounding in single precision grows
+/// to. The GPU is `PowerRTF::Remeshing_options::device`.
 ///
 /// \cgalModels `PowerRTFTraits_3`
 ///

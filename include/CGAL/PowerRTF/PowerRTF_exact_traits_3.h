@@ -12,6 +12,9 @@
 
 namespace CGAL {
 
+/// \ingroup PkgPowerRTFTraits
+/// The reference traits: the same algorithm over cells with exact combinatorics.
+///
 /// \cgalModels `PowerRTFTraits_3`
 ///
 /// \tparam Kernel_ a CGAL kernel; the points of the input and the output are its `Point_3`. The

@@ -11,6 +11,9 @@
 
 namespace CGAL {
 
+/// \ingroup PkgPowerRTFTraits
+/// The default traits: the fast CPU engine, sequential or with TBB.
+///
 /// \cgalModels `PowerRTFTraits_3`
 ///
 /// \tparam Kernel_ a CGAL kernel; the points of the input and the output are its `Point_3`.

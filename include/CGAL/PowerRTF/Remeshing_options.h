@@ -10,83 +10,97 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \addtogroup PkgPowerRTFOptions
+/// @{
+
+/// Of this package, or of the paper.
 enum class Preset { quality, paper };
-enum class Density { uniform, curvature };             ///< rho = 1, or rho = kappa^p
-enum class Sampling { elimination, random };           ///< how the first samples are chosen
-enum class Attributes { facet, nearest_vertices };     ///< where a sample's normal and density come from
+/// \f$\rho = 1\f$, or \f$\rho = \kappa^p\f$.
+enum class Density { uniform, curvature };
+/// How the first samples are chosen.
+enum class Sampling { elimination, random };
+/// Where a sample's normal and density come from.
+enum class Attributes { facet, nearest_vertices };
+/// Where a sample that has moved goes back to the surface.
 enum class Projection { nearest_facet, nearest_vertices };
+/// How samples move to the centroids of their cells.
 enum class Position_method { lbfgs, lloyd };
-enum class Weight_method { none, multiplicative, newton }; ///< none: RTF, the paper's rule, Newton
-enum class Weight_operator { ceiling, floor };         ///< rounding of alpha; floor: as printed
+/// None (RTF), the paper's rule, or Newton's method.
+enum class Weight_method { none, multiplicative, newton };
+/// Rounding of \f$\alpha\f$ in the paper's rule; `floor`: as printed.
+enum class Weight_operator { ceiling, floor };
+/// How the samples are triangulated.
 enum class Extraction_method { insertion, restricted_delaunay };
+/// Of the triangles after the extraction (not in the paper).
 enum class Improvement { no, yes };
+/// Of an input that is no oriented 2-manifold and can be made one without a change of its shape;
+/// `no`: it is refused.
 enum class Repair { no, yes };
+/// Of the result's points.
 enum class Coordinates { double_precision, single_precision };
 
 /// Parameters of `PowerRTF_remesher`. The defaults are those of the preset `quality`;
 /// `paper_preset()` gives those of the paper. Lengths are relative, so no parameter depends on the
-/// input's size or position. The ranges that values are allowed in stand in `option_table.h`.
+/// input's size or position. Values out of range are refused, see `validate()`.
 struct Remeshing_options {
-  Preset preset = Preset::quality;
-  std::size_t number_of_samples = 3000; ///< n
-  unsigned random_seed = 0;
-  /// Of the input, where it is no oriented 2-manifold and can be made one without a change of its
-  /// shape; no: such an input is refused.
-  Repair repair = Repair::yes;
+  Preset preset = Preset::quality;      ///< whose values these are, for reports
+  std::size_t number_of_samples = 3000; ///< \f$n\f$: the vertices of the output
+  unsigned random_seed = 0;             ///< of all random choices
+  Repair repair = Repair::yes;          ///< of the input
 
   /// Degrees: edges whose facets' normals differ by at least this are kept as creases where such
-  /// edges make clean curves (`find_creases()`); 180: none. Creases named by the user go first.
+  /// edges make clean curves; 180: none. Creases named by the user go first.
   double feature_angle = 40;
 
   // Density (Section 4.3, "Initial Sampling")
-  Density density = Density::curvature;
-  double density_power = 1; ///< p of rho = kappa^p: 1, 2, 3 are f, f^2, f^3 (Figure 9)
+  Density density = Density::curvature; ///< without one of the user's own
+  double density_power = 1; ///< \f$p\f$ of \f$\rho = \kappa^p\f$: 1, 2, 3 are \f$f, f^2, f^3\f$ (Figure 9)
   double gradation = 0.1;   ///< largest growth of the spacing per unit of length; 0: not limited
 
   // Initial sampling
-  Sampling sampling = Sampling::elimination;
-  double oversampling = 4;       ///< m: candidates per sample
+  Sampling sampling = Sampling::elimination; ///< how the first samples are chosen
+  double oversampling = 4;                   ///< \f$m\f$: candidates per sample
   int relaxation_iterations = 10; ///< first iterations without weights, by Lloyd's method
 
   // Samples' attributes
-  Attributes attributes = Attributes::facet;
-  int normal_neighbors = 12;  ///< k_n: vertices averaged for a normal  (Attributes::nearest_vertices)
-  int density_neighbors = 12; ///< k_d: vertices averaged for a density (Attributes::nearest_vertices)
+  Attributes attributes = Attributes::facet; ///< where normals and densities come from
+  int normal_neighbors = 12;  ///< \f$k_n\f$: vertices averaged for a normal  (`nearest_vertices`)
+  int density_neighbors = 12; ///< \f$k_d\f$: vertices averaged for a density (`nearest_vertices`)
   /// Normals are smoothed over this many times the local spacing (standard deviation); 0: not at all.
   double normal_smoothing = 0.7;
 
   // Cells (Algorithm 1)
-  int neighbors = 32;        ///< k: samples in the first neighbour search; enlarged until complete
-  double normal_angle = 140; ///< Theta, degrees: larger angles make two samples incompatible (NVISPC)
-  /// Cells that reach farther than this many distances to the 6th neighbour are guarded: also the
-  /// incompatible neighbours bound them (NVISPC drops true neighbours at sharp tips).
+  int neighbors = 32; ///< \f$k\f$: samples in the first neighbor search; enlarged until complete
+  /// \f$\Theta\f$, degrees: larger angles make two samples incompatible (NVISPC).
+  double normal_angle = 140;
+  /// Cells that reach farther than this many distances to the 6th neighbor are guarded: also the
+  /// incompatible neighbors bound them (NVISPC drops true neighbors at sharp tips).
   double guard_factor = 3;
-  /// Fast CPU engine: cells whose neighbours the floating-point filter cannot prove are constructed
-  /// again by the oracle, so that all cells have the neighbours of the exact traits.
+  /// Fast CPU engine: cells whose neighbors the floating-point filter cannot prove are constructed
+  /// again by the oracle, so that all cells have the neighbors of the exact traits.
   bool certified_combinatorics = false;
 
   // Positions (Algorithm 3)
-  Position_method position_method = Position_method::lbfgs;
-  int max_iterations = 100; ///< N_m: position steps
-  int lbfgs_memory = 5;     ///< pairs kept by L-BFGS
-  Projection projection = Projection::nearest_facet;
-  int projection_neighbors = 16; ///< vertices whose facets are tried (Projection::nearest_vertices)
-  double centroid_density_power = 2; ///< centroids are weighted by rho to this power
+  Position_method position_method = Position_method::lbfgs; ///< how samples move
+  int max_iterations = 100;                                 ///< \f$N_m\f$: position steps at most
+  int lbfgs_memory = 5;                                     ///< pairs kept by L-BFGS
+  Projection projection = Projection::nearest_facet;        ///< of moved samples
+  int projection_neighbors = 16;     ///< vertices whose facets are tried (`nearest_vertices`)
+  double centroid_density_power = 2; ///< centroids are weighted by \f$\rho\f$ to this power
 
   // Weights (Algorithm 2)
-  Weight_method weight_method = Weight_method::newton;
-  double capacity_tolerance = 0.04; ///< gamma: half-width of the capacity interval; 0: CCCPD
-  int max_weight_iterations = 30;   ///< N_m^w
-  double weight_step = 1;           ///< tau: Delta s = tau * gamma * D_i / 4
-  Weight_operator weight_operator = Weight_operator::ceiling;
+  Weight_method weight_method = Weight_method::newton; ///< how capacities are made equal
+  double capacity_tolerance = 0.04; ///< \f$\gamma\f$: half-width of the capacity interval; 0: CCCPD
+  int max_weight_iterations = 30;   ///< \f$N_m^w\f$: weight steps at most per position step
+  double weight_step = 1;           ///< \f$\tau\f$ of \f$\Delta s = \tau \gamma D_i / 4\f$
+  Weight_operator weight_operator = Weight_operator::ceiling; ///< rounding in the paper's rule
 
   int device = 0; ///< CUDA traits: the number of the GPU
 
   // Extraction
-  Extraction_method extraction = Extraction_method::insertion;
-  /// Of the triangles after the extraction (not in the paper); no: triangles on the samples.
-  Improvement improvement = Improvement::yes;
-  /// What will hold the result's coordinates: its guarantees are those of the rounded points.
+  Extraction_method extraction = Extraction_method::insertion; ///< of the triangles
+  Improvement improvement = Improvement::yes; ///< of the triangles; `no`: they stay on the samples
+  /// What will hold the result's points: its guarantees are those of the rounded points.
   Coordinates coordinates = Coordinates::double_precision;
 
   /// The paper's own algorithms and parameter values (Section 5). Its initial drawing,
@@ -111,6 +125,8 @@ struct Remeshing_options {
     return o;
   }
 };
+
+/// @}
 
 } // namespace PowerRTF
 } // namespace CGAL

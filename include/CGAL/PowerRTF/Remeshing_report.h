@@ -12,6 +12,9 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \addtogroup PkgPowerRTFReport
+/// @{
+
 /// Counts of the cells by status, after one construction (Algorithm 1).
 struct Cell_counts {
   std::size_t ok = 0;
@@ -20,16 +23,17 @@ struct Cell_counts {
   std::size_t incomplete = 0; ///< not certified: more polygon vertices than a cell can hold
 };
 
-/// How equal the capacities m_i = rho_i A(F_i) are (Section 4.2).
+/// How equal the capacities \f$m_i = \rho_i A(F_i)\f$ are (Section 4.2).
 struct Capacity_statistics {
-  double inside_interval = 0;   ///< share of cells with |m_i - mean| <= gamma * mean
-  double rms = 0;               ///< RMS of m_i / mean - 1
-  double largest_deviation = 0; ///< max |m_i / mean - 1|
+  /// Share of cells with \f$|m_i - \bar m| \le \gamma \bar m\f$, where \f$\bar m\f$ is the mean.
+  double inside_interval = 0;
+  double rms = 0;               ///< RMS of \f$m_i / \bar m - 1\f$
+  double largest_deviation = 0; ///< largest \f$|m_i / \bar m - 1|\f$
 };
 
 /// Triangle quality (Khan et al. 2020; the columns of the paper's Tables 1 and 2).
 struct Quality_statistics {
-  double q_min = 0, q_avg = 0;             ///< Q_t = 6/sqrt(3) * A_t / (S_t E_t)
+  double q_min = 0, q_avg = 0; ///< of \f$Q_t = \frac{6}{\sqrt 3} \frac{A_t}{S_t E_t}\f$
   double theta_min = 0, theta_min_avg = 0; ///< degrees
   double theta_max = 0;                    ///< degrees, the largest angle
   double below_30 = 0, above_90 = 0;       ///< share of triangles with such an angle
@@ -66,6 +70,7 @@ struct Repair_counts {
   std::size_t non_manifold_vertices = 0; ///< where sheets touched: copied, one for each sheet
 };
 
+/// Times of the stages.
 struct Stage_seconds {
   double load = 0, surface = 0, sampling = 0, optimization = 0, extraction = 0, improvement = 0,
          quality = 0, write = 0, total = 0;
@@ -83,12 +88,12 @@ struct Iteration_report {
   std::size_t constructions = 0; ///< so far
   Cell_counts cells;
   Capacity_statistics capacity;
-  double displacement = 0; ///< RMS of |s_i - c_i|, in units of h = sqrt(area / n)
+  double displacement = 0; ///< RMS of \f$|s_i - c_i|\f$, in units of \f$h = \sqrt{\mathrm{area}/n}\f$
 };
 
 /// The result of `power_rtf_remeshing()` beside the mesh.
 struct Remeshing_report {
-  std::size_t samples_asked = 0; ///< n
+  std::size_t samples_asked = 0; ///< \f$n\f$
   bool cancelled = false;        ///< the visitor stopped the optimisation
   std::size_t constructions = 0; ///< of all cells, in all (Algorithm 1)
   std::size_t outer_iterations = 0;
@@ -116,6 +121,8 @@ struct Remeshing_report {
   /// The guarantees that the result misses, in words; empty: all are met.
   std::vector<std::string> missed_guarantees() const;
 };
+
+/// @}
 
 inline std::vector<std::string> Remeshing_report::missed_guarantees() const
 {

@@ -10,6 +10,7 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \ingroup PkgPowerRTFRef
 /// The default visitor: does nothing and never stops. Derive from it, or give any class with these
 /// members; pass it through `std::ref` to keep its state.
 struct Remeshing_default_visitor {

@@ -100,6 +100,9 @@ namespace parameters
 
 using CGAL::parameters::default_values;
 
+/// \addtogroup PkgPowerRTFParameters
+/// @{
+
 /// The user's own density: a readable property map from the input's vertices to numbers > 0.
 template <class DensityMap>
 auto density_map(const DensityMap& map)
@@ -119,47 +122,47 @@ inline auto repair(bool wanted)
   return internal::named_parameter<internal::repair_t>(wanted ? Repair::yes : Repair::no);
 }
 
-/// As `CGAL::parameters::vertex_point_map()`.
+/// The points of the vertices, as in `CGAL::parameters`.
 template <class VertexPointMap>
 auto vertex_point_map(const VertexPointMap& map)
 {
   return internal::named_parameter<internal_np::vertex_point_t>(map);
 }
 
-/// As `CGAL::parameters::edge_is_constrained_map()`.
+/// The creases of the user's own, as in `CGAL::parameters`.
 template <class EdgeIsConstrainedMap>
 auto edge_is_constrained_map(const EdgeIsConstrainedMap& map)
 {
   return internal::named_parameter<internal_np::edge_is_constrained_t>(map);
 }
 
-/// As `CGAL::parameters::geom_traits()`.
+/// The traits, which name the engine; as in `CGAL::parameters`.
 template <class Traits>
 auto geom_traits(const Traits& traits)
 {
   return internal::named_parameter<internal_np::geom_traits_t>(traits);
 }
 
-/// As `CGAL::parameters::visitor()`.
+/// What is told about stages and iterations, and may stop the run; as in `CGAL::parameters`.
 template <class Visitor>
 auto visitor(const Visitor& visitor)
 {
   return internal::named_parameter<internal_np::visitor_t>(visitor);
 }
 
-/// As `CGAL::parameters::random_seed()`.
+/// The seed of all random choices, as in `CGAL::parameters`.
 inline auto random_seed(unsigned seed)
 {
   return internal::named_parameter<internal_np::random_seed_t>(seed);
 }
 
-/// As `CGAL::parameters::number_of_iterations()`.
+/// The largest number of position steps, as in `CGAL::parameters`.
 inline auto number_of_iterations(int n)
 {
   return internal::named_parameter<internal_np::number_of_iterations_t>(n);
 }
 
-/// One chain of two, of CGAL's or of this package: what comes from elsewhere as CGAL's chain gets
+/// One chain of two, of CGAL's or of this package. What comes from elsewhere as CGAL's chain gets
 /// parameters of this package by `combine(chain, density_map(map))`. Of a parameter that both have,
 /// that of `more` counts.
 template <class NamedParameters, class T, class Tag, class Base>
@@ -172,6 +175,8 @@ auto combine(const NamedParameters& chain, const Named_function_parameters<T, Ta
     return internal::Named_parameters<T, Tag, std::decay_t<decltype(longer)>>(more.v, longer);
   }
 }
+
+/// @}
 
 } // namespace parameters
 } // namespace PowerRTF

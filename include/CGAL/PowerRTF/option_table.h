@@ -23,6 +23,8 @@ namespace CGAL
 namespace PowerRTF
 {
 
+/// \cond SKIP_IN_MANUAL
+
 /// The values of an enumeration and their names.
 template <class E, std::size_t N>
 using Value_names = std::array<std::pair<E, const char*>, N>;
@@ -92,7 +94,12 @@ inline auto value_names(Coordinates)
   return Value_names<E, 2>{{{E::double_precision, "double"}, {E::single_precision, "single"}}};
 }
 
-/// Empty when `value` is none of the enumeration's.
+/// \endcond
+
+/// \addtogroup PkgPowerRTFOptions
+/// @{
+
+/// The name of a value; empty when `value` is none of the enumeration's.
 template <class E>
 std::string name_of(E value)
 {
@@ -228,7 +235,7 @@ std::string to_text(const T& value)
   }
 }
 
-/// "uniform|curvature"
+/// The names of all values: "uniform|curvature".
 template <class E>
 std::string choices(E)
 {
@@ -238,6 +245,7 @@ std::string choices(E)
   return text;
 }
 
+/// "from 1 to 64"
 inline std::string to_text(const Option_range& range)
 {
   return (range.lowest == Option_range::above_zero ? "above 0, at most "
@@ -267,7 +275,8 @@ bool is_allowed(const T& value, const Option_range& range)
     return double(value) >= range.lowest && double(value) <= range.highest;
 }
 
-/// Returns `options`.
+/// Checks all options.
+/// \returns `options`
 /// \throws Invalid_input_error an option has a value that is not allowed, or `number_of_samples`
 ///   times `oversampling` is more than 1e9; the message names the option, its value and what is
 ///   allowed
@@ -288,6 +297,8 @@ inline const Remeshing_options& validate(const Remeshing_options& options)
                               to_text(most_candidates));
   return options;
 }
+
+/// @}
 
 } // namespace PowerRTF
 } // namespace CGAL

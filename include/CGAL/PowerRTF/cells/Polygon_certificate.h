@@ -6,7 +6,7 @@
 // bounds their intersection with all others when consecutive ones turn to the left and every vertex
 // lies strictly inside all others: such vertices are vertices of the cell, each edge joins two of
 // them, and a closed chain of edges of a convex polygon is its whole boundary. Nothing is assumed
-// about how the polygon was found. (Error bounds: doc/PowerRTF/exact.md.)
+// about how the polygon was found. (Error bounds: doc/PowerRTF/exact.txt.)
 #ifndef CGAL_POWER_RTF_CELLS_POLYGON_CERTIFICATE_H
 #define CGAL_POWER_RTF_CELLS_POLYGON_CERTIFICATE_H
 

@@ -14,6 +14,8 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \ingroup PkgPowerRTFSurface
+/// What is known of a cell.
 enum class Cell_status : unsigned char {
   ok,        ///< complete, proved
   guarded,   ///< too few compatible neighbours: cut by all neighbours and by the guard square

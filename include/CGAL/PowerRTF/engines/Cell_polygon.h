@@ -10,14 +10,15 @@
 namespace CGAL {
 namespace PowerRTF {
 
-/// A cell F_i as users see it.
+/// \ingroup PkgPowerRTFSurface
+/// A cell \f$F_i\f$ as users see it.
 struct Cell_polygon {
   std::vector<Vec3d> vertices; ///< counter-clockwise seen from outside, unit-box coordinates
   std::vector<int> neighbors;  ///< of edge k (vertices k, k + 1); negative: side of the guard square
-  double area = 0;             ///< A(F_i)
-  double mass = 0;             ///< m_i = rho_i A(F_i)
-  double density = 0;          ///< rho_i
-  double weight = 0;           ///< w_i
+  double area = 0;             ///< \f$A(F_i)\f$
+  double mass = 0;             ///< \f$m_i = \rho_i A(F_i)\f$
+  double density = 0;          ///< \f$\rho_i\f$
+  double weight = 0;           ///< \f$w_i\f$
   Cell_status status = Cell_status::ok;
 };
 

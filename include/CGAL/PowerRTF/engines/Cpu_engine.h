@@ -11,6 +11,9 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \ingroup PkgPowerRTFTraits
+/// Cells by a search in a tree, in double precision.
+///
 /// \cgalModels `PowerRTFEngine`
 template <class ConcurrencyTag>
 using Cpu_engine = Host_engine<Filtered_site_tree<ConcurrencyTag>, ConcurrencyTag>;

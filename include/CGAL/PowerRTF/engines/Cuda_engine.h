@@ -276,6 +276,10 @@ struct Make_cuda_engine {
   }
 };
 
+/// \ingroup PkgPowerRTFTraits
+/// Cells on an NVIDIA GPU, in the precision `Real`.
+///
+/// \cgalModels `PowerRTFEngine`
 template <class Real = float>
 using Cuda_engine = Device_engine_adaptor<Make_cuda_engine<Real>>;
 

@@ -21,6 +21,7 @@ namespace CGAL
 namespace PowerRTF
 {
 
+/// \ingroup PkgPowerRTFTraits
 /// No GPU can be used, its driver is too old, its memory does not suffice (the message says how
 /// much was needed), it failed, or an option asks for more than the device engine can.
 class Cuda_error : public std::runtime_error
@@ -29,12 +30,15 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// \ingroup PkgPowerRTFTraits
+/// A GPU.
 struct Cuda_device {
   std::string name;
   std::size_t memory;         ///< bytes
   int compute_capability = 0; ///< 90: 9.0
 };
 
+/// \ingroup PkgPowerRTFTraits
 /// The GPUs that can be used, at least one. \throws Cuda_error when there is none, saying why
 std::vector<Cuda_device> cuda_devices();
 

@@ -11,10 +11,12 @@
 namespace CGAL {
 namespace PowerRTF {
 
-/// \cgalModels `PowerRTFEngine`
+/// \ingroup PkgPowerRTFTraits
+/// Cells by exact predicates. Which neighbors bound each cell, and which cells are empty, is exact
+/// for the current samples, weights and normals as doubles; areas, centroids and all steps are double
+/// arithmetic.
 ///
-/// Which neighbours bound each cell, and which cells are empty, is exact for the current samples,
-/// weights and normals as doubles; areas, centroids and all steps are double arithmetic.
+/// \cgalModels `PowerRTFEngine`
 template <class Kernel, class ConcurrencyTag>
 using Exact_engine = Host_engine<Exact_site_tree<Kernel, ConcurrencyTag>, ConcurrencyTag>;
 

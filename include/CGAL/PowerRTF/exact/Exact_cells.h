@@ -5,7 +5,7 @@
 // restricted cells F_i with exact combinatorics. F_i = tangent plane of s_i, cut by the equal-power
 // half-spaces of the samples compatible with i (NVISPC). Shares no clipping code with `cells/`.
 //
-// Two ways to the neighbours, both proved in doc/PowerRTF/exact.md:
+// Two ways to the neighbours, both proved in doc/PowerRTF/exact.txt:
 // - where all neighbours of i in the regular triangulation of all samples are compatible, these
 //   make the cell. Ties, which the triangulation decides its own way, are found and left to the
 //   second way;
@@ -30,36 +30,40 @@ namespace CGAL
 namespace PowerRTF
 {
 
+/// \ingroup PkgPowerRTFExact
 /// One restricted cell's combinatorics.
 struct Exact_cell {
-  /// The neighbours around F_i, counter-clockwise seen from n_i, each once, the smallest id first;
-  /// -1 .. -4 are the sides of the clipping square. Empty when F_i is empty.
+  /// The neighbours around \f$F_i\f$, counter-clockwise seen from \f$n_i\f$, each once, the smallest
+  /// id first; -1 .. -4 are the sides of the clipping square. Empty when \f$F_i\f$ is empty.
   std::vector<int> neighbours;
-  bool contains_site = false; ///< s_i lies in F_i
+  bool contains_site = false; ///< \f$s_i\f$ lies in \f$F_i\f$
   bool degenerate = false;    ///< a tie was met on the way and decided by the symbolic perturbation
   bool by_triangulation = false; ///< neighbours from the regular triangulation
 
   bool is_empty() const { return neighbours.empty(); }
-  /// A side of the square is an edge: F_i is larger than the given square, or unbounded when none
+  /// A side of the square is an edge: \f$F_i\f$ is larger than the given square, or unbounded when none
   /// was given.
   bool reaches_square() const { return !is_empty() && neighbours.front() < 0; }
 };
 
+/// \ingroup PkgPowerRTFExact
 /// Shape of a cell. Each coordinate of a vertex is the exact one up to a few units in the last
-/// place of the coordinate relative to s_i; area and centroid follow by double arithmetic.
+/// place of the coordinate relative to \f$s_i\f$; area and centroid follow by double arithmetic.
 struct Exact_cell_geometry {
-  std::vector<Vec3d> vertices;      ///< relative to s_i; vertex k is where edges k and k + 1 cross
+  std::vector<Vec3d> vertices;      ///< relative to \f$s_i\f$; vertex k is where edges k and k + 1 cross
   std::vector<double> edge_lengths; ///< upper bounds, within 1e-12, of the exact lengths
   double area = 0;
-  Vec3d centroid{0, 0, 0}; ///< relative to s_i; mean of the vertices when the area vanishes
+  Vec3d centroid{0, 0, 0}; ///< relative to \f$s_i\f$; mean of the vertices when the area vanishes
 };
 
+/// \ingroup PkgPowerRTFExact
 /// Where candidates come from.
 enum class Exact_neighbours {
   automatic, ///< the regular triangulation where it suffices, else the search
   search     ///< always the search: no triangulation is built (for a few cells of many samples)
 };
 
+/// \ingroup PkgPowerRTFExact
 /// \tparam Kernel a CGAL kernel, see `Tangent_cell_traits_3`
 /// \tparam Traits a model of `TangentCellTraits_3`
 ///
@@ -79,7 +83,7 @@ class Exact_cells
 
 public:
   /// `points`, `normals` (not zero; unit where NVISPC is used), `weights` (length squared): one per
-  /// sample. `cos_theta`: j counts for i when dot(n_i, n_j) > cos_theta; anything below -1: always.
+  /// sample. `cos_theta`: j counts for i when `dot(n_i, n_j) > cos_theta`; anything below -1: always.
   /// `patches`: one per sample, samples of other patches do not count; or empty: all count.
   /// \throw Invalid_input_error for arrays of different sizes, zero normals, and values that are
   /// not finite.
@@ -104,7 +108,7 @@ public:
 
   bool same_patch(int i, int j) const { return m_patches.empty() || m_patches[i] == m_patches[j]; }
 
-  /// F_i, clipped by `square` when given. Adds to `statistics` when given.
+  /// \f$F_i\f$, clipped by `square` when given. Adds to `statistics` when given.
   /// \throw Invalid_input_error when the square is none.
   Exact_cell cell(int i, const Exact_square* square = nullptr,
                   Filter_statistics* statistics = nullptr) const

@@ -19,12 +19,14 @@ namespace CGAL
 namespace PowerRTF
 {
 
-/// A square in a tangent plane, centred at s_i: t1.x <= B, t2.x <= B, -t1.x <= B, -t2.x <= B, whose
-/// sides have the ids -1, -2, -3, -4. The directions need be neither unit nor tangent to the last
+/// \ingroup PkgPowerRTFExact
+/// A square in a tangent plane, centered at \f$s_i\f$: \f$t_1 \cdot x \le B\f$,
+/// \f$t_2 \cdot x \le B\f$, \f$-t_1 \cdot x \le B\f$, \f$-t_2 \cdot x \le B\f$, whose sides have the
+/// ids -1, -2, -3, -4. The directions need be neither unit nor tangent to the last
 /// bit: only the traces of these half-spaces in the tangent plane count, as exact doubles.
 struct Exact_square {
-  Vec3d t1, t2;     ///< (t1, t2, n_i) right-handed
-  double half_size; ///< B > 0
+  Vec3d t1, t2;     ///< \f$(t_1, t_2, n_i)\f$ right-handed
+  double half_size; ///< \f$B > 0\f$
 };
 
 namespace internal

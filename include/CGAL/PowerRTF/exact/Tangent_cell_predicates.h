@@ -33,6 +33,7 @@ namespace CGAL
 namespace PowerRTF
 {
 
+/// \ingroup PkgPowerRTFExact
 /// Model of the concept `TangentCellTraits_3` for any CGAL kernel. The oracle's inputs are
 /// doubles; a kernel gives only its point, vector and number types and the way to doubles. For
 /// `Exact_predicates_inexact_constructions_kernel` the conversion is the identity; for
@@ -57,6 +58,7 @@ struct Tangent_cell_traits_3 {
   double weight(const FT& w) const { return CGAL::to_double(w); }
 };
 
+/// \ingroup PkgPowerRTFExact
 /// How the predicates were decided. Add with `+=`.
 struct Filter_statistics {
   std::size_t filtered = 0; ///< decided by interval arithmetic

@@ -26,11 +26,13 @@ namespace CGAL
 namespace PowerRTF
 {
 
+/// \ingroup PkgPowerRTFExact
 /// Median, 99th percentile and maximum.
 struct Error_distribution {
   double p50 = 0, p99 = 0, max = 0;
 };
 
+/// \ingroup PkgPowerRTFExact
 /// The result of `check_cells()`. A cell is certified when the engine gives it a status other than
 /// `incomplete`; each status is a claim about the cell (see `construct_cell()`). It is right when
 /// its status is the oracle's and its cycle of neighbours is, but for edges below the rounding
@@ -44,8 +46,8 @@ struct Cell_comparison {
   /// Of the right cells: edges in one of the two cycles only, or not at the same place.
   std::size_t differing_edges = 0;
   double worst_edge = 0; ///< longest of these over its bound: at most 1
-  /// Of the right cells that are not empty: |A - A*| / A*, and the distance of the centroids over
-  /// sqrt(A*).
+  /// Of the right cells that are not empty: \f$|A - A^*| / A^*\f$, and the distance of the
+  /// centroids over \f$\sqrt{A^*}\f$.
   Error_distribution area, centroid;
   std::vector<int> wrong; ///< the certified and wrong cells
   Filter_statistics predicates;
@@ -227,13 +229,14 @@ inline Error_distribution distribution(std::vector<double>& errors)
 
 } // namespace internal
 
+/// \ingroup PkgPowerRTFExact
 /// Compares `cells`, an engine's cells of `samples`, with the oracle.
 ///
 /// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`
 /// \param samples points, unit normals and weights; the engine's order (any order is right, but a
 /// spatial one is fast)
 /// \param cells one per sample; none for the last ones, if these only bound cells
-/// \param cos_angle the cosine of Theta, as the engine uses it: `compatibility_cosine()`
+/// \param cos_angle the cosine of \f$\Theta\f$, as the engine uses it: `compatibility_cosine()`
 /// \param epsilon the precision of the engine's arithmetic: that of double, or of float
 /// \param guard_factor as in `Remeshing_options`
 /// \throw Invalid_input_error when the arrays differ in size

@@ -15,6 +15,7 @@ namespace CGAL
 namespace PowerRTF
 {
 
+/// \ingroup PkgPowerRTFSurface
 /// Triangles on the samples, in the coordinates of the unit box.
 struct Extracted_mesh {
   /// The samples in their order; then the vertices of the surface that the topology does not allow

@@ -8,6 +8,7 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \ingroup PkgPowerRTFRef
 /// The input mesh or a parameter cannot be used; `what()` says why.
 class Invalid_input_error : public std::invalid_argument {
 public:

@@ -16,12 +16,17 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \ingroup PkgPowerRTFSurface
+/// Indices of its vertices.
 using Triangle = std::array<int, 3>;
+/// \ingroup PkgPowerRTFSurface
+/// Indices of its vertices, the smaller first.
 using Edge = std::array<int, 2>;
 
 /// The edge between `a` and `b`, smaller vertex first.
 inline Edge sorted_edge(int a, int b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
+/// \ingroup PkgPowerRTFSurface
 /// Maps the input to the unit box and back: `inside = (outside - center) * scale`.
 /// `scale` is a power of two. The points of a result lie on a grid on which the way back is exact:
 /// what is judged inside is what is written outside.
@@ -52,6 +57,7 @@ struct Normalization {
   Vec3d snapped(const Vec3d& p) const { return grid > 0 ? snapped(p, grid) : p; }
 };
 
+/// \ingroup PkgPowerRTFSurface
 /// A triangulated, oriented 2-manifold surface (possibly with borders and several components) in
 /// the coordinates of the unit box, with the fields that steer the sampling. One with one side only
 /// (a Moebius strip) is oriented but for its seams.
@@ -60,8 +66,8 @@ struct Surface {
   std::vector<Triangle> triangles;    ///< #F vertex indices, counter-clockwise seen from outside
   std::vector<Vec3d> facet_normals;   ///< #F unit normals
   std::vector<double> facet_areas;    ///< #F areas
-  std::vector<Vec3d> vertex_normals;  ///< #V unit normals, n^v of the paper
-  std::vector<double> vertex_density; ///< #V densities rho > 0; 1 everywhere: uniform
+  std::vector<Vec3d> vertex_normals;  ///< #V unit normals, \f$n^v\f$ of the paper
+  std::vector<double> vertex_density; ///< #V densities \f$\rho > 0\f$; 1 everywhere: uniform
   std::vector<int> input_vertices;    ///< #V place of each vertex among those of the input
   std::vector<Edge> creases;          ///< edges, smaller vertex first, that the result must keep
   std::vector<Edge> seams;            ///< the creases at which the orientations do not agree
@@ -71,19 +77,21 @@ struct Surface {
   Normalization normalization;
 };
 
+/// \ingroup PkgPowerRTFSurface
 /// Points on the surface. The arrays have one entry per sample, in an order that stays the same
 /// from the initial sampling to the vertices of the output.
 struct Samples {
-  std::vector<Vec3d> points;    ///< s_i, unit-box coordinates
-  std::vector<int> facets;      ///< the surface's facet that carries s_i
-  std::vector<Vec3d> normals;   ///< n_i, unit
-  std::vector<double> density;  ///< rho(s_i)
-  std::vector<double> weights;  ///< w_i (length squared); mean 0
+  std::vector<Vec3d> points;    ///< \f$s_i\f$, unit-box coordinates
+  std::vector<int> facets;      ///< the surface's facet that carries \f$s_i\f$
+  std::vector<Vec3d> normals;   ///< \f$n_i\f$, unit
+  std::vector<double> density;  ///< \f$\rho(s_i)\f$
+  std::vector<double> weights;  ///< \f$w_i\f$ (length squared); mean 0
   std::vector<int> patches;     ///< of the facets; empty: all on one patch
 
   std::size_t size() const { return points.size(); }
 };
 
+/// \ingroup PkgPowerRTFSurface
 /// The samples of `a`, then those of `b`.
 inline Samples joined(Samples a, const Samples& b)
 {

@@ -35,8 +35,9 @@ inline void normalize_density(std::vector<double>& density)
 
 } // namespace internal
 
-/// Sets `surface.vertex_density` as `options` asks: 1, or kappa^`density_power` with its growth
-/// limited by `gradation`. Only ratios of densities matter to any later stage.
+/// \ingroup PkgPowerRTFSurface
+/// Sets `surface.vertex_density` as `options` asks: 1, or \f$\kappa^p\f$ with \f$p\f$ =
+/// `density_power`, its growth limited by `gradation`. Only ratios of densities matter to any later stage.
 /// \throws Invalid_input_error an option has a value that is not allowed
 inline void set_density(Surface& surface, const Remeshing_options& options)
 {
@@ -61,6 +62,7 @@ inline void set_density(Surface& surface, const Remeshing_options& options)
     limit_gradation(surface, edges, options.gradation, options.number_of_samples);
 }
 
+/// \ingroup PkgPowerRTFSurface
 /// Sets `surface.vertex_density` from the user's own densities, with their growth limited by
 /// `options.gradation`.
 /// \param densities one per vertex of the *input* (see `Surface::input_vertices`); those of

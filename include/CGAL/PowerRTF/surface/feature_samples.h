@@ -28,6 +28,8 @@
 namespace CGAL {
 namespace PowerRTF {
 
+/// \ingroup PkgPowerRTFSurface
+/// The samples on creases and borders.
 struct Feature_samples {
   Samples samples;                ///< their normals are the means over the patches
   std::vector<Edge_place> places; ///< of the samples
@@ -235,10 +237,11 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
   return samples(spacing);
 }
 
-/// Sets the creases that `options` asks for. Of those closer together than h / 2, h = sqrt(area / n),
-/// only one is kept. They are left out when they need more than half of the samples: so few samples
-/// show the shape better without; but not where nothing else is needed, as all that they bound is
-/// flat.
+/// \ingroup PkgPowerRTFSurface
+/// Sets the creases that `options` asks for. Of those closer together than \f$h/2\f$,
+/// \f$h = \sqrt{\mathrm{area}/n}\f$, only one is kept. They are left out when they need more than half
+/// of the samples: so few samples show the shape better without; but not where nothing else is
+/// needed, as all that they bound is flat.
 /// \throws Invalid_input_error an option has a value that is not allowed
 inline void set_creases(Surface& surface, const Remeshing_options& options)
 {

@@ -31,6 +31,7 @@ Vec3d to_vec3d(const Point& p)
 
 } // namespace internal
 
+/// \ingroup PkgPowerRTFSurface
 /// Imports any model of `FaceListGraph`. Its connectivity is kept: vertices at the same place stay
 /// apart unless an edge of no length joins them.
 ///
@@ -68,6 +69,7 @@ Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_
   return internal::clean_surface(std::move(soup), false, repair, repairs);
 }
 
+/// \ingroup PkgPowerRTFSurface
 /// Imports a polygon soup, as read from a file. Vertices at exactly the same place become one,
 /// unless the polygons form a closed 2-manifold without that and none with it.
 ///
