@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/surface/density.h>
 #include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/surface/output_grid.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -107,6 +108,18 @@ Surface load(const Program_options& options, Run& run)
     set_density(surface, options.remeshing);
     return surface;
   });
+}
+
+/// \throws Output_error when the coordinates of a binary file cannot hold the result
+void check_precision(Surface& surface, const Program_options& options)
+{
+  if (!options.write_mesh || !holds_floats(format_of(options.output), options.encoding)) return;
+  try {
+    set_output_grid(surface, options.remeshing);
+  } catch (const Invalid_input_error& e) {
+    throw Output_error(options.output + ": cannot be written: " + e.what() +
+                       "; text (--ascii) holds more digits");
+  }
 }
 
 /// The files of one run: all appear at the end, or none.
@@ -212,6 +225,7 @@ Exit_code remesh_with(Program_options options, const std::string& gpu_not_used =
 
   Progress(options.quiet).on_stage("surface");
   Surface surface = load(options, run);
+  check_precision(surface, options);
   Remesher remesher = about_input(
       options, [&] { return Remesher(std::move(surface), options.remeshing); });
   Checking_progress<Remesher> progress(options, remesher, run.checks);

@@ -163,6 +163,7 @@ void write_json(std::ostream& out, const Run& run)
   json["threads"] = run.threads;
   if (run.options.write_mesh) add_mesh(json, run);
   json["inside_capacity_interval"] = r.capacity.inside_interval;
+  json["capacity_left_out"] = r.capacity.left_out;
   json["capacity_rms"] = r.capacity.rms;
   json["capacity_largest_deviation"] = r.capacity.largest_deviation;
   json["constructions"] = r.constructions;

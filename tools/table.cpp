@@ -128,6 +128,8 @@ void print_table(std::ostream& out, const Run& run)
   const std::string tolerance = number(100 * o.remeshing.capacity_tolerance, 1);
   row(out, "cells inside the mean capacity +-" + tolerance + " %",
       percent(r.capacity.inside_interval));
+  if (r.capacity.left_out > 0)
+    row(out, "left out of that: no weights suffice", std::to_string(r.capacity.left_out));
   row(out, "capacity, RMS deviation", percent(r.capacity.rms));
   if (r.cells.guarded > 0)
     row(out, "cells with too few neighbours", std::to_string(r.cells.guarded));

@@ -66,6 +66,7 @@ public:
       throw Cuda_error("the CUDA traits take at most " + std::to_string(most_vertices) +
                        " nearest vertices");
     m_summary_buffer.allocate(m_backend, 1);
+    m_scalar.allocate(m_backend, 1);
   }
 
   void set_samples(const Device_samples& samples) override;
@@ -98,6 +99,9 @@ public:
   void find_distances();
   void set_weights(const double* direction, double step);
   void start_summary();
+  void choose_left_out();
+  /// Whether there were any, and few enough.
+  bool leave_out_vanishing(const Capacity_statistics& before);
   void copy_state(Site<Real>* to_sites, int* to_facets, const Site<Real>* sites, const int* facets);
   double remember_best();
   template <class Lbfgs>
@@ -185,6 +189,8 @@ private:
   Buffer<unsigned char> m_status;
   Buffer<Real> m_nearest, m_sixth; // distances, of the weight rule
   Buffer<Real> m_weights_before;   // of Newton's step
+  Buffer<unsigned char> m_is_left_out; // of the capacities, by Newton's steps
+  Buffer<double> m_scalar; // that kernels leave for each other
 
   struct Best_state { // where the residual of L-BFGS was least
     double residual = std::numeric_limits<double>::infinity();
@@ -198,7 +204,7 @@ private:
   const int* m_passes_made = nullptr; // by the cell builder, where the summary shall tell
   bool m_is_summary_started = false, m_is_summary_known = false;
   bool m_are_cells_due = false; // until something needs them
-  bool m_are_distances_known = false, m_are_components_known = false;
+  bool m_are_distances_known = false, m_are_components_known = false, m_is_left_out_known = false;
   std::size_t m_constructions = 0;
 };
 

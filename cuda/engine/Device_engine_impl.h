@@ -7,6 +7,8 @@
 
 #include "Device_engine.h"
 
+#include <CGAL/PowerRTF/optimization/newton_step_rules.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,7 +37,7 @@ template <class R, class B, class C>
 void Device_engine<R, B, C>::set_sites()
 {
   m_cell_builder->set_sites(sites());
-  m_are_distances_known = m_are_components_known = false;
+  m_are_distances_known = m_are_components_known = m_is_left_out_known = false;
   m_is_summary_known = m_is_summary_started = false;
 }
 
@@ -65,6 +67,7 @@ void Device_engine<R, B, C>::start_summary()
   rule.usable = usable_rule();
   rule.offset = m_offset.data();
   rule.tolerance = m_options.capacity_tolerance;
+  rule.is_left_out = m_is_left_out_known ? m_is_left_out.data() : nullptr;
   rule.n = m_cells;
   rule.passes = m_passes_made;
   rule.result = m_summary_buffer.data();
@@ -155,12 +158,12 @@ bool Device_engine<R, B, C>::optimize_weights(int passes)
           weight_rule(), passes, outputs());
     }
   } else {
-    for (int pass = 0; pass < passes && summary().inside < m_cells; ++pass) {
+    for (int pass = 0; pass < passes && summary().capacity.inside_interval < 1; ++pass) {
       update_weights();
       build_cells();
     }
   }
-  return summary().inside == m_cells;
+  return summary().capacity.inside_interval == 1;
 }
 
 template <class R, class B, class C>
@@ -174,30 +177,79 @@ void Device_engine<R, B, C>::set_weights(const double* direction, double step)
 }
 
 template <class R, class B, class C>
+void Device_engine<R, B, C>::choose_left_out()
+{
+  if (m_is_left_out_known) return;
+  m_is_left_out.allocate(m_backend, m_cells);
+  const Usable_rule<R> cells = usable_rule();
+  unsigned char* const is_left_out = m_is_left_out.data();
+  double* const mean = m_scalar.data();
+  finish_cells();
+  m_backend.template reduce<2, 0>(
+      m_cells,
+      [=] CGAL_POWER_RTF_HD(int i, Totals<2, 0>& t) {
+        const bool is_ok = Cell_status(cells.status[i]) == Cell_status::ok;
+        t.add(0, is_ok ? double(cells.density[i]) * cells.area[i] : 0);
+        t.add(1, is_ok);
+      },
+      [=] CGAL_POWER_RTF_HD(const Totals<2, 0>& t) { *mean = t.sum(0) / t.sum(1); });
+  m_backend.for_each(m_cells, [=] CGAL_POWER_RTF_HD(int i) {
+    is_left_out[i] = !is_equalizable(Cell_status(cells.status[i]),
+                                     double(cells.density[i]) * cells.area[i], *mean);
+  });
+  m_is_left_out_known = true;
+  m_is_summary_known = m_is_summary_started = false;
+}
+
+template <class R, class B, class C>
+bool Device_engine<R, B, C>::leave_out_vanishing(const Capacity_statistics& before)
+{
+  unsigned char* const is_left_out = m_is_left_out.data();
+  const Vanishing_rule<R> is_vanishing{m_area.data(), m_density.data(), is_left_out,
+                                       least_capacity(before)};
+  double* const count = m_scalar.data();
+  m_backend.template reduce<1, 0>(
+      m_cells, [=] CGAL_POWER_RTF_HD(int i, Totals<1, 0>& t) { t.add(0, is_vanishing(i)); },
+      [=] CGAL_POWER_RTF_HD(const Totals<1, 0>& t) { *count = t.sum(0); });
+  double vanishing;
+  m_backend.download(&vanishing, count, 1);
+  if (!may_leave_out(std::size_t(vanishing), before.left_out, m_cells)) return false;
+  m_backend.for_each(m_cells, [=] CGAL_POWER_RTF_HD(int i) {
+    if (is_vanishing(i)) is_left_out[i] = 1;
+  });
+  return true;
+}
+
+template <class R, class B, class C>
 bool Device_engine<R, B, C>::newton_weights()
 {
-  const Device_summary before = summary();
-  Cell_outputs<R> out = outputs();
-  m_newton.add_outputs(m_cells, out);
-  ++m_constructions;
-  m_cell_builder->build(out);
-  m_newton.solve(m_cells, m_area.data(), m_density.data(), m_options.capacity_tolerance,
-                 !m_are_components_known);
-  m_are_components_known = true;
+  choose_left_out();
+  bool is_worth_another = true;
+  while (is_worth_another) {
+    const Capacity_statistics before = summary().capacity;
+    Cell_outputs<R> out = outputs();
+    m_newton.add_outputs(m_cells, out);
+    ++m_constructions;
+    m_cell_builder->build(out);
+    m_newton.solve(m_cells, m_area.data(), m_density.data(), m_is_left_out.data(),
+                   m_options.capacity_tolerance, !m_are_components_known);
+    m_are_components_known = true;
 
-  const Site<R>* const sites = m_sites.data();
-  R* const weights = m_weights_before.data();
-  m_backend.for_each(m_cells, [=] CGAL_POWER_RTF_HD(int i) { weights[i] = sites[i].weight; });
-  for (double step : {1.0, 0.5, 0.25, 0.125, 0.0}) { // the last: back to where it was
-    set_weights(m_newton.direction(), step);
-    center_weights();
-    build_cells();
-    if (step == 0) return false;
-    const Device_summary after = summary();
-    // No cell may come near to vanishing: there the areas stop being differentiable.
-    if (after.squares < before.squares &&
-        after.least > 0.3 * std::min(before.least, before.mass / m_cells))
-      return true;
+    const Site<R>* const sites = m_sites.data();
+    R* const weights = m_weights_before.data();
+    m_backend.for_each(m_cells, [=] CGAL_POWER_RTF_HD(int i) { weights[i] = sites[i].weight; });
+    const auto take = [&](double step) {
+      set_weights(m_newton.direction(), step);
+      center_weights();
+      build_cells();
+    };
+    for (const double step : newton_weight_steps) {
+      take(step);
+      const Capacity_statistics after = summary().capacity;
+      if (after.least > least_capacity(before) && after.rms < before.rms) return true;
+    }
+    is_worth_another = leave_out_vanishing(before);
+    take(0);
   }
   return false;
 }

@@ -80,6 +80,17 @@ struct Usable_rule {
   }
 };
 
+/// Whether the capacity of a cell that is not left out has become as small as `least`.
+template <class Real>
+struct Vanishing_rule {
+  const Real *area, *density;
+  const unsigned char* is_left_out;
+  double least;
+
+  CGAL_POWER_RTF_HD bool operator()(int i) const
+  { return !is_left_out[i] && !(double(density[i]) * area[i] > least); }
+};
+
 /// Lloyd's method: to the centre of mass. A sample with an empty cell stays.
 template <class Real>
 struct Lloyd_step {

@@ -24,6 +24,21 @@ namespace PowerRTF
 namespace device
 {
 
+/// The areas of the cells that have to become equal, and their shares of them.
+template <class Real>
+struct Counted_area {
+  const Real* area;
+  const unsigned char* keeps_area;
+  CGAL_POWER_RTF_HD double operator()(int i) const { return keeps_area[i] ? 0 : double(area[i]); }
+};
+template <class Real>
+struct Counted_share {
+  const Real* density;
+  const unsigned char* keeps_area;
+  CGAL_POWER_RTF_HD double operator()(int i) const
+  { return keeps_area[i] ? 0 : 1 / double(density[i]); }
+};
+
 template <class Real, class Backend>
 class Newton_solver
 {
@@ -52,10 +67,11 @@ public:
   }
 
   /// Solves for the direction from areas and densities, after the edges have been written; 0 when
-  /// the system cannot be solved. `find_components`: the cells may hang together in another way
+  /// the system cannot be solved. Cells with `keeps_area[i]` have their own area as the target.
+  /// `find_components`: the cells may hang together in another way
   /// than last time.
-  void solve(int n, const Real* area, const Real* density, double capacity_tolerance,
-             bool find_components);
+  void solve(int n, const Real* area, const Real* density, const unsigned char* keeps_area,
+             double capacity_tolerance, bool find_components);
 
   /// n weights' changes; their mean on each component is 0 if nothing fixes it.
   const double* direction() const { return m_x.data(); }
@@ -63,7 +79,8 @@ public:
   // Public for the device compiler alone.
   void make_rows(int n);
   void label_components();
-  void set_residual(const Real* area, const Real* density, double capacity_tolerance);
+  void set_residual(const Real* area, const Real* density, const unsigned char* keeps_area,
+                    double capacity_tolerance);
   void iterate();
   void subtract_means();
   /// Adds `f(i)`, at most `most` in size, up over each component, exactly, hence in any order.
@@ -94,13 +111,14 @@ private:
 
 template <class Real, class Backend>
 void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* density,
+                                         const unsigned char* keeps_area,
                                          double capacity_tolerance, bool find_components)
 {
   m_n = n;
   for (Buffer<double>* b : {&m_diagonal, &m_x, &m_r, &m_limits}) b->allocate(m_backend, n);
   make_rows(n);
   if (find_components) label_components();
-  set_residual(area, density, capacity_tolerance);
+  set_residual(area, density, keeps_area, capacity_tolerance);
   iterate();
   subtract_means();
 }
@@ -214,16 +232,19 @@ void Newton_solver<Real, Backend>::component_sums(F f, const double* most, long 
 
 template <class Real, class Backend>
 void Newton_solver<Real, Backend>::set_residual(const Real* area, const Real* density,
+                                                const unsigned char* keeps_area,
                                                 double capacity_tolerance)
 {
   double* const scalars = m_scalars.data();
   double *const r = m_r.data(), *const limits = m_limits.data();
   const double part = part_of_interval * capacity_tolerance;
+  const Counted_area<Real> area_of{area, keeps_area};
+  const Counted_share<Real> share_of{density, keeps_area};
   m_backend.template reduce<2, 0>(
       m_n,
       [=] CGAL_POWER_RTF_HD(int i, Totals<2, 0>& t) {
-        t.add(0, area[i]);
-        t.add(1, 1 / double(density[i]));
+        t.add(0, area_of(i));
+        t.add(1, share_of(i));
       },
       [=] CGAL_POWER_RTF_HD(const Totals<2, 0>& t) {
         scalars[0] = t.sum(0);
@@ -232,7 +253,7 @@ void Newton_solver<Real, Backend>::set_residual(const Real* area, const Real* de
   if (m_is_connected) {
     m_backend.for_each(m_n, [=] CGAL_POWER_RTF_HD(int i) {
       const double target = scalars[0] / scalars[1] / density[i];
-      r[i] = target - area[i];
+      r[i] = keeps_area[i] ? 0 : target - area[i];
       limits[i] = part * target;
     });
     return;
@@ -240,14 +261,13 @@ void Newton_solver<Real, Backend>::set_residual(const Real* area, const Real* de
   for (auto& s : m_sums) s.allocate(m_backend, m_n);
   long long *const areas = m_sums[0].data(), *const shares = m_sums[1].data();
   const int* const label = m_label.data();
-  component_sums([=] CGAL_POWER_RTF_HD(int i) { return double(area[i]); }, scalars, areas);
-  component_sums([=] CGAL_POWER_RTF_HD(int i) { return 1 / double(density[i]); }, scalars + 1,
-                 shares);
+  component_sums(area_of, scalars, areas);
+  component_sums(share_of, scalars + 1, shares);
   m_backend.for_each(m_n, [=] CGAL_POWER_RTF_HD(int i) {
     const double ratio = double(areas[label[i]]) / double(shares[label[i]]);
     const double target = ratio * scalars[0] / scalars[1] / density[i];
-    r[i] = target - area[i];
-    limits[i] = part * target;
+    r[i] = keeps_area[i] ? 0 : target - area[i];
+    limits[i] = part * (keeps_area[i] ? area[i] : target);
   });
 }
 

@@ -511,15 +511,20 @@ TEST_CASE("Newton's direction in closed form")
 {
   // Two cells of areas 1 and 3 with one common edge, as long as the sites are apart.
   const std::vector<Capacity_edge> edges = {{0, 1, 1}, {1, 0, 1}};
-  const std::vector<double> direction = newton_weights_direction({1, 3}, {1, 1}, edges);
+  const std::vector<double> direction = newton_weights_direction({1, 3}, {1, 1}, edges, {0, 0});
   REQUIRE(direction.size() == 2);
   CHECK(direction[0] == Approx(1).epsilon(1e-6)); // dA = (dw_0 - dw_1) e / (2 d) = 1
   CHECK(direction[1] == Approx(-1).epsilon(1e-6));
   // Area in inverse proportion to the density: nothing is left to do.
-  for (double dw : newton_weights_direction({1, 3}, {3, 1}, edges)) CHECK(std::abs(dw) < 1e-9);
+  for (double dw : newton_weights_direction({1, 3}, {3, 1}, edges, {0, 0}))
+    CHECK(std::abs(dw) < 1e-9);
+  // The second one keeps its area: nothing can change.
+  for (double dw : newton_weights_direction({1, 3}, {1, 1}, edges, {0, 1}))
+    CHECK(std::abs(dw) < 1e-9);
   // Two components: each keeps its area.
   const std::vector<double> apart = newton_weights_direction(
-      {1, 3, 10, 10}, {1, 1, 1, 1}, {{0, 1, 1}, {1, 0, 1}, {2, 3, 1}, {3, 2, 1}});
+      {1, 3, 10, 10}, {1, 1, 1, 1}, {{0, 1, 1}, {1, 0, 1}, {2, 3, 1}, {3, 2, 1}},
+      {0, 0, 0, 0});
   CHECK(apart[0] == Approx(1).epsilon(1e-6));
   CHECK(std::abs(apart[2]) < 1e-9);
 }
@@ -545,7 +550,8 @@ TEST_CASE("Newton's direction for more cells than are factored")
       edges.push_back({hub, hub + row * m, 5});
       edges.push_back({hub + row * m, hub, 5});
     }
-  const std::vector<double> direction = newton_weights_direction(areas, density, edges);
+  const std::vector<double> direction =
+      newton_weights_direction(areas, density, edges, std::vector<char>(m * m, 0));
   REQUIRE(direction.size() == areas.size());
   double error = 0, norm = 0;
   for (int i = 0; i < m * m; ++i) {
@@ -554,6 +560,40 @@ TEST_CASE("Newton's direction for more cells than are factored")
     norm += expected * expected;
   }
   CHECK(error <= 1e-6 * norm);
+}
+
+TEST_CASE("cells at tips do not keep the others from equal capacities")
+{
+  // A ball with needles that are narrower than the spacing.
+  shapes::Soup soup = shapes::icosphere(4);
+  for (Vec3d& p : soup.points)
+    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{-0.6, 0.8, 0}, Vec3d{0, -0.6, 0.8}}) {
+      const double height = dot(p, axis);
+      if (height > 0.99) p = p + (height - 0.99) * 100 * axis;
+    }
+  const Surface surface = shapes::make_surface(soup);
+  for (const unsigned seed : {0u, 1u, 2u}) {
+    CAPTURE(seed);
+    Remeshing_options options = options_for(1000);
+    options.random_seed = seed;
+    Cpu_engine<Sequential_tag> engine(surface, options);
+    engine.set_samples(sample_surface(surface, options));
+    for (int k = 0; k < 30; ++k) {
+      engine.build_cells();
+      engine.move_samples(Position_method::lloyd);
+    }
+    engine.build_cells();
+    CHECK(engine.capacity().left_out == 0);
+    std::size_t passes = 0;
+    while (passes < 30 && engine.capacity().inside_interval < 1 && engine.newton_weights()) ++passes;
+    CHECK(passes > 0);
+    CHECK(engine.capacity().inside_interval >= 0.98);
+    CHECK(engine.capacity().left_out > 0);
+    CHECK(engine.capacity().left_out <= 10);
+    engine.move_samples(Position_method::lloyd);
+    engine.build_cells();
+    CHECK(engine.capacity().left_out == 0);
+  }
 }
 
 TEST_CASE("both ways of weighting make the capacities equal")

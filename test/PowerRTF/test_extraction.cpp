@@ -53,6 +53,14 @@ Samples samples_at(const Surface& surface, const std::vector<Place>& places)
   return samples;
 }
 
+// The extraction's points are exactly the samples, not those of the output's grid.
+Surface surface_of(const shapes::Soup& soup)
+{
+  Surface surface = shapes::make_surface(soup);
+  surface.normalization.grid = 0;
+  return surface;
+}
+
 // Of the first n points, how many are not the samples of these numbers.
 std::size_t exchanged_samples(const Samples& samples, const Extracted_mesh& mesh)
 {
@@ -132,7 +140,7 @@ std::vector<Shape> all_shapes()
 TEST_CASE("insertion keeps the topology of every shape, for any number of samples")
 {
   for (const Shape& shape : all_shapes()) {
-    const Surface surface = shapes::make_surface(shape.soup);
+    const Surface surface = surface_of(shape.soup);
     for (const std::size_t n : {4, 5, 20, 500, 3000})
       for (unsigned seed = 0; seed < 3; ++seed)
         for (const Sampling sampling : {Sampling::elimination, Sampling::random}) {
@@ -153,7 +161,7 @@ TEST_CASE("insertion keeps the topology of every shape, for any number of sample
 TEST_CASE("without self-intersections where samples are well distributed")
 {
   for (const Shape& shape : all_shapes()) {
-    const Surface surface = shapes::make_surface(shape.soup);
+    const Surface surface = surface_of(shape.soup);
     for (const std::size_t n : {500, 3000}) {
       CAPTURE(shape.name);
       CAPTURE(n);
@@ -166,7 +174,7 @@ TEST_CASE("without self-intersections where samples are well distributed")
 TEST_CASE("closed results are oriented outwards")
 {
   for (const auto& soup : {shapes::icosphere(4), shapes::torus(40, 20, 1, .4)}) {
-    const Surface surface = shapes::make_surface(soup);
+    const Surface surface = surface_of(soup);
     const double volume = signed_volume({surface.points, surface.triangles, {}});
     const Samples samples = samples_on(surface, 1000);
     CHECK(signed_volume(extract_by_insertion(surface, samples)) ==
@@ -180,7 +188,7 @@ TEST_CASE("the surface's own vertices as samples give back all of them")
 {
   for (const Shape& shape : all_shapes()) {
     CAPTURE(shape.name);
-    const Surface surface = shapes::make_surface(shape.soup);
+    const Surface surface = surface_of(shape.soup);
     std::vector<Place> places(surface.points.size(), {-1, 0, 0, 0});
     for (int f = 0; f < int(surface.triangles.size()); ++f)
       for (int i = 0; i < 3; ++i)
@@ -196,7 +204,7 @@ TEST_CASE("samples on edges, from both sides, and at vertices")
 {
   for (const Shape& shape : all_shapes()) {
     CAPTURE(shape.name);
-    const Surface surface = shapes::make_surface(shape.soup);
+    const Surface surface = surface_of(shape.soup);
     Random_source random(1);
     std::vector<Place> places;
     for (int f = 0; f < int(surface.triangles.size()); f += 2) {
@@ -218,7 +226,7 @@ TEST_CASE("samples at the same place stay separate vertices")
 {
   for (const Shape& shape : all_shapes()) {
     CAPTURE(shape.name);
-    const Surface surface = shapes::make_surface(shape.soup);
+    const Surface surface = surface_of(shape.soup);
     std::vector<Place> places;
     for (int copy = 0; copy < 30; ++copy) {
       places.push_back({0, 1, 0, 0});
@@ -232,7 +240,7 @@ TEST_CASE("samples at the same place stay separate vertices")
 
 TEST_CASE("fewer samples than the topology needs: vertices of the surface stay")
 {
-  const Surface sphere = shapes::make_surface(shapes::two_spheres(2));
+  const Surface sphere = surface_of(shapes::two_spheres(2));
   const Extracted_mesh none = extract_by_insertion(sphere, Samples());
   check_topology(sphere, Samples(), none);
   CHECK(none.points.size() == 8);
@@ -242,7 +250,7 @@ TEST_CASE("fewer samples than the topology needs: vertices of the surface stay")
   const Extracted_mesh mesh = extract_by_insertion(sphere, all_on_one);
   check_topology(sphere, all_on_one, mesh);
   CHECK(mesh.points.size() == 8); // four on each
-  const Surface torus = shapes::make_surface(shapes::torus(20, 10, 1, .4));
+  const Surface torus = surface_of(shapes::torus(20, 10, 1, .4));
   const Extracted_mesh small = extract_by_insertion(torus, Samples());
   check_topology(torus, Samples(), small);
   CHECK(small.points.size() >= 7);
@@ -258,7 +266,7 @@ TEST_CASE("an empty surface gives an empty mesh")
 
 TEST_CASE("samples that lie nowhere are refused")
 {
-  const Surface surface = shapes::make_surface(shapes::icosphere(1));
+  const Surface surface = surface_of(shapes::icosphere(1));
   Samples samples = samples_on(surface, 10);
   samples.facets[3] = int(surface.triangles.size());
   CHECK_THROWS_AS(extract_by_insertion(surface, samples), Invalid_input_error);
@@ -273,7 +281,7 @@ TEST_CASE("the order of the samples does not matter")
 {
   for (const auto& soup : {shapes::icosphere(3), shapes::torus(30, 12, 1, .4), shapes::box(2)})
     for (unsigned seed = 0; seed < 3; ++seed) {
-      const Surface surface = shapes::make_surface(soup);
+      const Surface surface = surface_of(soup);
       const Samples samples = samples_on(surface, 300, seed);
       std::vector<int> order(samples.size());
       std::iota(order.begin(), order.end(), 0);
@@ -295,7 +303,7 @@ TEST_CASE("the order of the samples does not matter")
 TEST_CASE("scaling by a power of two changes nothing")
 {
   for (const auto& soup : {shapes::torus(30, 12, 1, .4), shapes::box(2)}) {
-    Surface surface = shapes::make_surface(soup);
+    Surface surface = surface_of(soup);
     Samples samples = samples_on(surface, 400);
     const auto before = extract_by_insertion(surface, samples).triangles;
     for (Vec3d& p : surface.points) p *= 0x1p-20;
@@ -308,7 +316,7 @@ TEST_CASE("dense samples: the restricted Delaunay triangulation")
 {
   for (const auto& soup : {shapes::icosphere(5), shapes::torus(120, 50, 1, .4)})
     for (unsigned seed = 0; seed < 3; ++seed) {
-      const Surface surface = shapes::make_surface(soup);
+      const Surface surface = surface_of(soup);
       const Samples samples = samples_on(surface, 4000, seed);
       const Extracted_mesh inserted = extract_by_insertion(surface, samples),
                            restricted = extract_restricted_delaunay(surface, samples);
@@ -327,7 +335,7 @@ TEST_CASE("dense samples: the restricted Delaunay triangulation")
 TEST_CASE("restricted Delaunay triangulation with borders, in space and in a plane")
 {
   for (const auto& soup : {shapes::plane_patch(10, 10), shapes::open_cylinder(20, 10, .5, 2)}) {
-    const Surface surface = shapes::make_surface(soup);
+    const Surface surface = surface_of(soup);
     std::vector<Place> places(surface.points.size(), {-1, 0, 0, 0}); // borders need samples
     for (int f = 0; f < int(surface.triangles.size()); ++f)
       for (int i = 0; i < 3; ++i)

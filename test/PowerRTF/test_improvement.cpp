@@ -359,6 +359,7 @@ TEST_CASE("deterministic, and the same at any scale")
   for (Vec3d& p : large.surface.points) p *= 1024;
   for (double& a : large.surface.facet_areas) a *= 1024. * 1024;
   large.surface.area *= 1024. * 1024;
+  large.surface.normalization.grid *= 1024;
   for (Vec3d& p : large.raw.points) p *= 1024;
   Extracted_mesh scaled = improved(large);
   for (Vec3d& p : scaled.points) p *= 1. / 1024;

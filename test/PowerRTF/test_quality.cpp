@@ -396,9 +396,11 @@ TEST_CASE("distance: spheres, and invariance")
 
 TEST_CASE("capacity: statistics against the mean")
 {
-  const auto of = [](const std::vector<double>& masses, double gamma) {
+  const auto of = [](const std::vector<double>& masses, double gamma,
+                     const std::vector<char>& is_left_out = {}) {
     return capacity_statistics<CGAL::Sequential_tag>(
-        static_cast<int>(masses.size()), [&](int i) { return masses[i]; }, gamma);
+        static_cast<int>(masses.size()), [&](int i) { return masses[i]; },
+        [&](int i) { return !is_left_out.empty() && is_left_out[i]; }, gamma);
   };
   const Capacity_statistics s = of({1, 1, 1.5, 0.5}, 0.1);
   CHECK(s.inside_interval == Approx(0.5));
@@ -409,6 +411,16 @@ TEST_CASE("capacity: statistics against the mean")
   CHECK(of({0, 2}, 0.04).largest_deviation == Approx(1));
   CHECK(of({}, 0.04).inside_interval == 0);
   CHECK(of({0, 0}, 0.04).rms == 0);
+
+  const Capacity_statistics most = of({1, 9, 1.2, 0, 0.8}, 0.1, {0, 1, 0, 1, 0});
+  CHECK(most.left_out == 2);
+  CHECK(most.mean == Approx(1));
+  CHECK(most.least == 0.8);
+  CHECK(most.inside_interval == Approx(1. / 3));
+  CHECK(most.rms == Approx(std::sqrt(0.08 / 3)));
+  CHECK(most.largest_deviation == Approx(0.2));
+  CHECK(of({1, 2}, 0.1, {1, 1}).left_out == 2);
+  CHECK(of({1, 2}, 0.1, {1, 1}).inside_interval == 0);
 }
 
 TEST_CASE("assess: a surface against itself has no distance, and its own topology")

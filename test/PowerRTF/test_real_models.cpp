@@ -51,6 +51,25 @@ constexpr int skipped = 77; // CTest's SKIP_RETURN_CODE
 
 } // namespace
 
+TEST_CASE("cells at tips do not keep the others from equal capacities")
+{
+  for (const Model& model : {Model{"bull", 3000, 0}, Model{"dino", 3000, 0}, Model{"camel", 5000, 0}}) {
+    if (!is_there(model)) {
+      MESSAGE("skipped: " << path_of(model) << " is missing");
+      continue;
+    }
+    CAPTURE(model.name);
+    Mesh input, output;
+    REQUIRE(CGAL::IO::read_polygon_mesh(path_of(model), input));
+    Remeshing_options options;
+    options.density = Density::uniform;
+    const Remeshing_report report = CGAL::power_rtf_remeshing(
+        input, model.samples, output, parameters::remeshing_options(options));
+    CHECK(report.capacity.inside_interval >= 0.98);
+    CHECK(report.capacity.left_out <= model.samples / 100);
+  }
+}
+
 TEST_CASE("real models keep their topology and get good triangles")
 {
   for (const Model& model : models) {

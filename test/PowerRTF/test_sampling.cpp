@@ -242,9 +242,11 @@ TEST_CASE("the choice does not depend on the input's size and place")
           set_density(other, o);
           const Samples samples = sample_surface(other, o);
           CHECK(samples.facets == reference.facets);
-          const double back = s.normalization.scale / (other.normalization.scale * factor);
-          for (std::size_t i = 0; i < samples.size(); ++i)
-            CHECK(length(back * samples.points[i] - reference.points[i]) < 1e-10);
+          for (std::size_t i = 0; i < samples.size(); ++i) {
+            const Vec3d expected = factor * s.normalization.to_outside(reference.points[i]);
+            const Vec3d difference = other.normalization.to_outside(samples.points[i]) - expected;
+            CHECK(length(difference) * s.normalization.scale < 1e-10 * factor);
+          }
         }
       }
 }

@@ -23,9 +23,15 @@ struct Cell_counts {
   std::size_t incomplete = 0; ///< not certified: more polygon vertices than a cell can hold
 };
 
-/// How equal the capacities \f$m_i = \rho_i A(F_i)\f$ are (Section 4.2).
+/// How equal the capacities \f$m_i = \rho_i A(F_i)\f$ are (Section 4.2). Where Newton's method has made
+/// the weights, cells that no weights make equal to the others are left out, of the mean, too: at tips
+/// that are narrower than the spacing, guarded cells, those outside .3 to 2.5 times the mean and those
+/// that would vanish.
 struct Capacity_statistics {
-  /// Share of cells with \f$|m_i - \bar m| \le \gamma \bar m\f$, where \f$\bar m\f$ is the mean.
+  std::size_t left_out = 0; ///< number of cells
+  double mean = 0;          ///< \f$\bar m\f$, in the units of the unit box
+  double least = 0;         ///< smallest \f$m_i\f$
+  /// Share of cells with \f$|m_i - \bar m| \le \gamma \bar m\f$.
   double inside_interval = 0;
   double rms = 0;               ///< RMS of \f$m_i / \bar m - 1\f$
   double largest_deviation = 0; ///< largest \f$|m_i / \bar m - 1|\f$

@@ -134,16 +134,7 @@ public:
   void move_samples(Position_method method) { m_device->move_samples(method); }
   void restore_best() { m_device->restore_best(); }
 
-  Capacity_statistics capacity() const
-  {
-    const Device_summary s = m_device->summary();
-    Capacity_statistics result;
-    if (m_size == 0 || !(s.mass > 0)) return result;
-    result.inside_interval = s.inside / double(m_size);
-    result.rms = std::sqrt(s.squares / double(m_size));
-    result.largest_deviation = s.largest;
-    return result;
-  }
+  Capacity_statistics capacity() const { return m_device->summary().capacity; }
   Cell_counts cell_counts() const
   {
     const Device_summary s = m_device->summary();

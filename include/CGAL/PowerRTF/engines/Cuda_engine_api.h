@@ -84,10 +84,7 @@ struct Device_samples {
 /// A summary of the current cells: the one thing that is copied from the device per iteration.
 struct Device_summary {
   double mass = 0;         ///< sum of m_i = rho_i A(F_i)
-  double inside = 0;       ///< cells with |m_i - mean| <= gamma mean
-  double squares = 0;      ///< sum of (m_i / mean - 1)^2
-  double largest = 0;      ///< max |m_i / mean - 1|
-  double least = 0;        ///< min m_i
+  Capacity_statistics capacity;
   double residual = 0;     ///< sum of |s_i - c_i|^2 over the cells that are ok and have a mass
   double displacement = 0; ///< sum of |s_i - c_i|^2
   double counts[4] = {};   ///< by `Cell_status`

@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/optimization/Lbfgs.h>
 #include <CGAL/PowerRTF/optimization/capacity_statistics.h>
 #include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
+#include <CGAL/PowerRTF/optimization/newton_step_rules.h>
 #include <CGAL/PowerRTF/optimization/newton_weights.h>
 #include <CGAL/PowerRTF/optimization/usable_cells.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
@@ -56,8 +57,10 @@ public:
   /// One pass of the paper's rule over all weights (Algorithm 2, lines 3 to 10).
   void update_weights();
 
-  /// One damped Newton step on the weights; the cells are those of the new weights. `false`: no
-  /// step made the masses more equal, nothing has changed.
+  /// One damped Newton step on the weights; the cells are those of the new weights. Cells that no
+  /// weights make equal keep their areas, nearly, and are left out of `capacity()` until the samples
+  /// move: those that are not `is_equalizable()`, and up to one in a hundred that would vanish.
+  /// `false`: no step made the masses more equal, nothing has changed.
   bool newton_weights();
 
   /// All weights become 0, and the cells are built again.
@@ -74,7 +77,8 @@ public:
   Capacity_statistics capacity() const
   {
     return capacity_statistics<ConcurrencyTag>(
-        size(), [&](int k) { return mass(m_free[k]); }, m_options.capacity_tolerance);
+        size(), [&](int k) { return mass(m_free[k]); }, [&](int k) { return is_left_out(k); },
+        m_options.capacity_tolerance);
   }
   Cell_counts cell_counts() const;
   /// Root mean square of |s_i - c_i| over the cells, in units of sqrt(area / n).
@@ -108,6 +112,11 @@ private:
   { return internal::sum<ConcurrencyTag>(size(), [&](int k) { return f(m_free[k]); }); }
   double density_root(double density) const
   { return std::cbrt(std::pow(density, m_options.centroid_density_power)); }
+  /// Of sample number `k`.
+  bool is_left_out(int k) const { return !m_left_out.empty() && m_left_out[k]; }
+  void choose_left_out();
+  /// The numbers of the samples whose cells are not larger.
+  std::vector<int> vanishing_samples(double least) const;
   bool usable(int i) const
   { return is_usable(m_status[i], m_moments[i].mass, mass(i), m_mean_mass); }
   void update_attributes();
@@ -138,6 +147,7 @@ private:
   std::vector<Cell_moments<double>> m_moments;
   std::vector<Vec3d> m_offsets;     // c_i - s_i
   double m_mean_mass = 0;           // of the first cells; 0: there were none yet
+  std::vector<char> m_left_out;     // by sample, of Newton's steps; empty: none was made since a move
   std::vector<double> m_nearest;    // D_i, for the weights; empty after the samples have moved
   Lbfgs<ConcurrencyTag> m_lbfgs;
   struct Best_state { // where the residual of L-BFGS was least
@@ -208,6 +218,7 @@ void Host_engine<Tree, Tag>::update_attributes()
     m_density_root[i] = density_root(m_density[i]);
   });
   m_nearest.clear();
+  m_left_out.clear();
   m_tree.refit();
 }
 
@@ -308,44 +319,56 @@ std::vector<Capacity_edge> Host_engine<Tree, Tag>::capacity_edges()
 }
 
 template <class Tree, class Tag>
+void Host_engine<Tree, Tag>::choose_left_out()
+{
+  if (!m_left_out.empty()) return;
+  const auto is_ok = [&](int i) { return m_status[i] == Cell_status::ok; };
+  const double count = sum([&](int i) { return double(is_ok(i)); });
+  const double mean = sum([&](int i) { return is_ok(i) ? mass(i) : 0; }) / count;
+  for (const int i : m_free) m_left_out.push_back(!is_equalizable(m_status[i], mass(i), mean));
+}
+
+template <class Tree, class Tag>
+std::vector<int> Host_engine<Tree, Tag>::vanishing_samples(double least) const
+{
+  std::vector<int> found;
+  for (int k = 0; k < size(); ++k)
+    if (!is_left_out(k) && !(mass(m_free[k]) > least)) found.push_back(k);
+  return found;
+}
+
+template <class Tree, class Tag>
 bool Host_engine<Tree, Tag>::newton_weights()
 {
-  struct State { double least, mean, residual; };
-  const auto state = [&]() {
-    State s{std::numeric_limits<double>::infinity(), 0, 0};
-    for (const int i : m_free) s.least = std::min(s.least, mass(i));
-    s.mean = sum([&](int i) { return mass(i); }) / size();
-    s.residual = sum([&](int i) {
-      const double d = mass(i) / s.mean - 1;
-      return d * d;
-    });
-    return s;
-  };
-  std::vector<double> areas, densities;
-  for (const int i : m_free) {
-    areas.push_back(m_moments[i].area);
-    densities.push_back(m_density[i]);
-  }
-  const std::vector<double> direction =
-      newton_weights_direction<Tag>(areas, densities, capacity_edges());
-  if (direction.empty()) return false;
+  choose_left_out();
+  while (true) {
+    std::vector<double> areas, densities;
+    for (const int i : m_free) {
+      areas.push_back(m_moments[i].area);
+      densities.push_back(m_density[i]);
+    }
+    const std::vector<double> direction =
+        newton_weights_direction<Tag>(areas, densities, capacity_edges(), m_left_out);
+    if (direction.empty()) return false;
 
-  const State before = state();
-  const std::vector<Site<double>> sites = m_tree.sites;
-  for (double step : {1.0, 0.5, 0.25, 0.125}) {
-    for (int k = 0; k < size(); ++k)
-      m_tree.sites[m_free[k]].weight = sites[m_free[k]].weight + step * direction[k];
-    center_weights();
+    const Capacity_statistics before = capacity();
+    const double least = least_capacity(before);
+    const std::vector<Site<double>> sites = m_tree.sites;
+    std::vector<int> vanishing;
+    for (const double step : newton_weight_steps) {
+      for (int k = 0; k < size(); ++k)
+        m_tree.sites[m_free[k]].weight = sites[m_free[k]].weight + step * direction[k];
+      center_weights();
+      build_cells();
+      vanishing = vanishing_samples(least);
+      if (vanishing.empty() && capacity().rms < before.rms) return true;
+    }
+    m_tree.sites = sites;
+    m_tree.refit();
     build_cells();
-    const State after = state();
-    // No cell may come near to vanishing: there the areas stop being differentiable.
-    if (after.residual < before.residual && after.least > 0.3 * std::min(before.least, before.mean))
-      return true;
+    if (!may_leave_out(vanishing.size(), before.left_out, size())) return false;
+    for (const int k : vanishing) m_left_out[k] = 1;
   }
-  m_tree.sites = sites;
-  m_tree.refit();
-  build_cells();
-  return false;
 }
 
 template <class Tree, class Tag>

@@ -95,14 +95,15 @@ std::vector<double> solve_by_multigrid(std::vector<double> diagonal,
 
 /// Solves L dw = target - area, L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4. On each connected component of
 /// the cells the target areas are c / rho_i with c such that the component's area is kept, and the
-/// mean of dw is 0 unless it has an edge with a fixed site. `edges` has one entry per side of each
-/// cell. Empty when the system cannot be solved. Exact up to 100 000 cells; a factor of more costs
+/// mean of dw is 0 unless it has an edge with a fixed site. Cells with `keeps_area[i]` have their
+/// own area as the target. `edges` has one entry per side of each cell. Empty when the system cannot be solved. Exact up to 100 000 cells; a factor of more costs
 /// too much (n^1.5), and there a direction that is near enough does: it is damped, and what a step
 /// leaves the next takes. Cells with close numbers should be close to each other.
 template <class ConcurrencyTag = Sequential_tag>
 std::vector<double> newton_weights_direction(const std::vector<double>& areas,
                                              const std::vector<double>& density,
-                                             const std::vector<Capacity_edge>& edges)
+                                             const std::vector<Capacity_edge>& edges,
+                                             const std::vector<char>& keeps_area)
 {
   const int n = static_cast<int>(areas.size());
   std::vector<int> component(n);
@@ -118,12 +119,14 @@ std::vector<double> newton_weights_direction(const std::vector<double>& areas,
   }
   std::vector<double> area(n, 0), share(n, 0), mean(n, 0), count(n, 0);
   for (int i = 0; i < n; ++i) {
+    count[root(i)] += 1;
+    if (keeps_area[i]) continue;
     area[root(i)] += areas[i];
     share[root(i)] += 1 / density[i];
-    count[root(i)] += 1;
   }
-  std::vector<double> residual(n);
-  for (int i = 0; i < n; ++i) residual[i] = area[root(i)] / share[root(i)] / density[i] - areas[i];
+  std::vector<double> residual(n, 0);
+  for (int i = 0; i < n; ++i)
+    if (!keeps_area[i]) residual[i] = area[root(i)] / share[root(i)] / density[i] - areas[i];
 
   std::vector<double> diagonal(n, 0);
   std::vector<char> is_fixed(n, 0); // components with an edge with a fixed site

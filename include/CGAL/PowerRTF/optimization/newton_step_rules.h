@@ -1,0 +1,47 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the engines' Newton steps on the weights have in common: the cells that are left out, and
+// the steps that are good.
+#ifndef CGAL_POWER_RTF_OPTIMIZATION_NEWTON_STEP_RULES_H
+#define CGAL_POWER_RTF_OPTIMIZATION_NEWTON_STEP_RULES_H
+
+#include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/cells/construct_cell.h>
+
+#include <cstddef>
+
+namespace CGAL {
+namespace PowerRTF {
+
+/// Whether weights can give a cell its share of the area. At tips that are narrower than the spacing
+/// none can: to count these cells would keep all others from their shares.
+///
+/// \param capacity rho_i A(F_i)
+/// \param mean of the capacities of the cells that are not guarded
+CGAL_POWER_RTF_HD inline bool is_equalizable(Cell_status status, double capacity, double mean)
+{
+  constexpr double least = 0.3, most = 2.5;
+  return status == Cell_status::ok && capacity >= least * mean && capacity <= most * mean;
+}
+
+/// Newton's steps, as parts of its direction, until one is good.
+constexpr double newton_weight_steps[] = {1.0, 0.5, 0.25, 0.125, 0.0625};
+
+/// What each capacity has to stay above in a Newton step: cells that come near to vanishing stop
+/// having differentiable areas.
+inline double least_capacity(const Capacity_statistics& before)
+{
+  return 0.3 * (before.least < before.mean ? before.least : before.mean);
+}
+
+/// Whether the cells that vanished in the shortest step may be left out, too, of n.
+inline bool may_leave_out(std::size_t vanishing, std::size_t left_out, std::size_t n)
+{
+  return vanishing > 0 && 100 * (left_out + vanishing) <= n;
+}
+
+} // namespace PowerRTF
+} // namespace CGAL
+
+#endif // CGAL_POWER_RTF_OPTIMIZATION_NEWTON_STEP_RULES_H
