@@ -165,7 +165,38 @@ void compare(const Case& c, double tolerance)
   CHECK(was_step == is_step);
   // The linear system is solved to a thousandth.
   const Capacity_statistics x = host.capacity(), y = other.capacity();
+  CHECK(y.left_out == x.left_out);
   CHECK(y.rms == Approx(x.rms).epsilon(0.05));
+}
+
+/// Cells at tips that are narrower than the spacing do not keep the others from equal capacities.
+template <class Engine>
+void check_tips()
+{
+  const Surface surface = shapes::make_surface(shapes::ball_with_needles());
+  for (const unsigned seed : {0u, 1u, 2u}) {
+    CAPTURE(seed);
+    Remeshing_options options = options_of(false, Density::uniform, 1000);
+    options.random_seed = seed;
+    Engine engine(surface, options);
+    engine.set_samples(sample_surface(surface, options));
+    for (int k = 0; k < 30; ++k) {
+      engine.build_cells();
+      engine.move_samples(Position_method::lloyd);
+    }
+    engine.build_cells();
+    CHECK(engine.capacity().left_out == 0);
+    int passes = 0;
+    while (passes < 30 && engine.capacity().inside_interval < 1 && engine.newton_weights())
+      ++passes;
+    CHECK(passes > 0);
+    CHECK(engine.capacity().inside_interval >= 0.98);
+    CHECK(engine.capacity().left_out > 0);
+    CHECK(engine.capacity().left_out <= 10);
+    engine.move_samples(Position_method::lloyd);
+    engine.build_cells();
+    CHECK(engine.capacity().left_out == 0);
+  }
 }
 
 } // namespace engine_comparison

@@ -96,6 +96,18 @@ inline Soup icosphere(int subdivisions)
   return s;
 }
 
+/// A unit ball with three thin needles of length 1.
+inline Soup ball_with_needles()
+{
+  Soup soup = icosphere(4);
+  for (Vec3d& p : soup.points)
+    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{-0.6, 0.8, 0}, Vec3d{0, -0.6, 0.8}}) {
+      const double height = dot(p, axis);
+      if (height > 0.99) p = p + (height - 0.99) * 100 * axis;
+    }
+  return soup;
+}
+
 /// The axis-parallel ellipsoid with half-axes `a`, `b`, `c`.
 inline Soup ellipsoid(double a, double b, double c, int subdivisions)
 {

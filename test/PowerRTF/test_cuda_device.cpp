@@ -92,6 +92,11 @@ TEST_CASE("more cells than a GPU has threads: Newton's steps equal them, the sam
   }
 }
 
+TEST_CASE("cells at tips do not keep the others from equal capacities")
+{
+  check_tips<Cuda_engine<float>>();
+}
+
 TEST_CASE("the cells are the exact ones of their samples")
 {
   std::vector<Case> all = cases();

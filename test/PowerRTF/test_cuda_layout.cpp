@@ -77,6 +77,12 @@ TEST_CASE("single precision ends where double precision does")
   }
 }
 
+TEST_CASE("cells at tips do not keep the others from equal capacities")
+{
+  check_tips<Layout_engine<double>>();
+  check_tips<Layout_engine<float>>();
+}
+
 TEST_CASE("single precision's cells are the exact ones of its samples")
 {
   const Case c = cases()[1];

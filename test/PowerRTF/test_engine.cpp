@@ -3,7 +3,7 @@
 //
 // Cells, searches, weights and positions of the CPU engine against closed forms and brute force.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
-#include "shapes.h"
+#include "engine_comparison.h"
 
 #include <CGAL/PowerRTF/engines/Cpu_engine.h>
 #include <CGAL/PowerRTF/engines/Site_tree.h>
@@ -564,36 +564,7 @@ TEST_CASE("Newton's direction for more cells than are factored")
 
 TEST_CASE("cells at tips do not keep the others from equal capacities")
 {
-  // A ball with needles that are narrower than the spacing.
-  shapes::Soup soup = shapes::icosphere(4);
-  for (Vec3d& p : soup.points)
-    for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{-0.6, 0.8, 0}, Vec3d{0, -0.6, 0.8}}) {
-      const double height = dot(p, axis);
-      if (height > 0.99) p = p + (height - 0.99) * 100 * axis;
-    }
-  const Surface surface = shapes::make_surface(soup);
-  for (const unsigned seed : {0u, 1u, 2u}) {
-    CAPTURE(seed);
-    Remeshing_options options = options_for(1000);
-    options.random_seed = seed;
-    Cpu_engine<Sequential_tag> engine(surface, options);
-    engine.set_samples(sample_surface(surface, options));
-    for (int k = 0; k < 30; ++k) {
-      engine.build_cells();
-      engine.move_samples(Position_method::lloyd);
-    }
-    engine.build_cells();
-    CHECK(engine.capacity().left_out == 0);
-    std::size_t passes = 0;
-    while (passes < 30 && engine.capacity().inside_interval < 1 && engine.newton_weights()) ++passes;
-    CHECK(passes > 0);
-    CHECK(engine.capacity().inside_interval >= 0.98);
-    CHECK(engine.capacity().left_out > 0);
-    CHECK(engine.capacity().left_out <= 10);
-    engine.move_samples(Position_method::lloyd);
-    engine.build_cells();
-    CHECK(engine.capacity().left_out == 0);
-  }
+  engine_comparison::check_tips<Cpu_engine<Sequential_tag>>();
 }
 
 TEST_CASE("both ways of weighting make the capacities equal")
