@@ -6,6 +6,7 @@
 #define POWER_RTF_TOOLS_PROGRESS_H
 
 #include <CGAL/PowerRTF/Remeshing_visitor.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <chrono>
 #include <csignal>
@@ -19,10 +20,9 @@ namespace tools
 /// The signal that came, SIGINT (Ctrl-C) or SIGTERM, or 0; the run ends at the next chance.
 inline volatile std::sig_atomic_t interrupted = 0;
 
-/// The user cancelled the run; the program ends with exit code 128 + `interrupted`, as shells have
-/// it.
-struct Cancelled {
-};
+/// The user cancelled the run, in one of the library's loops or elsewhere; the program ends with exit
+/// code 128 + `interrupted`, as shells have it.
+using Cancelled = CGAL::PowerRTF::internal::Run_cancelled;
 
 /// Lets the first of each signal set `interrupted` and the second end the program at once.
 inline void handle_interrupts()

@@ -223,7 +223,9 @@ Exit_code remesh_with(Program_options options, const std::string& gpu_not_used =
   check_number_of_samples(options);
   check_outputs(options);
 
-  Progress(options.quiet).on_stage("surface");
+  Progress reading(options.quiet);
+  const internal::Cancellation cancellation(reading);
+  reading.on_stage("surface");
   Surface surface = load(options, run);
   check_precision(surface, options);
   Remesher remesher = about_input(

@@ -14,6 +14,7 @@
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
 #include <CGAL/PowerRTF/extraction/improve_mesh.h>
 #include <CGAL/PowerRTF/extraction/one_sided.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/quality/assess.h>
@@ -66,44 +67,20 @@ public:
   template <class Visitor>
   bool optimize(Visitor& visitor)
   {
-    sample(visitor);
-    visitor.on_stage("optimization");
-    PowerRTF::internal::Stopwatch watch(m_report.seconds.optimization);
-    for (int iteration = 0; iteration < iterations() && !m_report.cancelled; ++iteration) { // 5
-      m_engine.build_cells();                                                             // 8, 9
-      const bool relaxation = iteration < m_options.relaxation_iterations;
-      const bool equal = !relaxation && optimize_weights();                          // 11 to 14
-      finish_iteration(visitor, iteration);
-      if (equal) break;
-      m_engine.move_samples(relaxation ? PowerRTF::Position_method::lloyd
-                                       : m_options.position_method);                 // 15 to 19
-    }
-    if (!m_report.cancelled && !all_fixed()) equalize_capacities();
-    m_report.constructions = m_engine.constructions();
-    m_report.cells = m_engine.cell_counts();
-    m_report.capacity = m_engine.capacity();
-    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
-      m_report.device = m_engine.device_report();
+    if (!PowerRTF::internal::run_unless_cancelled(visitor, [&] { distribute(visitor); }))
+      m_report.cancelled = true;
     return !m_report.cancelled;
   }
 
   /// Triangulates the samples (Algorithm 3, line 22), improves the mesh unless
-  /// `Improvement::no`, and judges the result.
+  /// `Improvement::no`, and judges the result. Returns an empty mesh, and the report says
+  /// `cancelled`, when `visitor` stopped it.
   template <class Visitor>
   PowerRTF::Extracted_mesh extract(Visitor& visitor)
   {
-    const PowerRTF::Feature_samples& features = m_patches.features();
     PowerRTF::Extracted_mesh mesh;
-    if (m_surface.seams.empty()) {
-      mesh = triangulate(visitor, m_surface, samples(), features);
-    } else {
-      const PowerRTF::Opened_surface opened(m_surface, samples(), features);
-      mesh = triangulate(visitor, opened.surface(), opened.samples(), opened.features());
-      opened.sew_up(mesh);
-    }
-    visitor.on_stage("quality");
-    PowerRTF::internal::Stopwatch watch(m_report.seconds.quality);
-    PowerRTF::assess<typename Traits::Concurrency_tag>(m_surface, mesh, m_report);
+    if (!PowerRTF::internal::run_unless_cancelled(visitor, [&] { mesh = judged_mesh(visitor); }))
+      m_report.cancelled = true;
     return mesh;
   }
 
@@ -138,6 +115,31 @@ private:
   int iterations() const
   { return all_fixed() ? 0 : m_options.relaxation_iterations + m_options.max_iterations; }
 
+  /// Algorithm 3, lines 2 to 21.
+  template <class Visitor>
+  void distribute(Visitor& visitor)
+  {
+    m_report.cancelled = false;
+    sample(visitor);
+    visitor.on_stage("optimization");
+    PowerRTF::internal::Stopwatch watch(m_report.seconds.optimization);
+    for (int iteration = 0; iteration < iterations() && !m_report.cancelled; ++iteration) { // 5
+      m_engine.build_cells();                                                             // 8, 9
+      const bool relaxation = iteration < m_options.relaxation_iterations;
+      const bool equal = !relaxation && optimize_weights();                          // 11 to 14
+      finish_iteration(visitor, iteration);
+      if (equal) break;
+      m_engine.move_samples(relaxation ? PowerRTF::Position_method::lloyd
+                                       : m_options.position_method);                 // 15 to 19
+    }
+    if (!m_report.cancelled && !all_fixed()) equalize_capacities();
+    m_report.constructions = m_engine.constructions();
+    m_report.cells = m_engine.cell_counts();
+    m_report.capacity = m_engine.capacity();
+    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
+      m_report.device = m_engine.device_report();
+  }
+
   /// Algorithm 3, lines 2 to 4.
   template <class Visitor>
   void sample(Visitor& visitor)
@@ -147,6 +149,25 @@ private:
     const PowerRTF::Feature_samples& features = m_patches.features();
     m_engine.set_samples(PowerRTF::sample_surface(m_patches.surface(), m_options, features), features);
     m_report.iterations.clear();
+  }
+
+  /// Algorithm 3, line 22, and its judgement.
+  template <class Visitor>
+  PowerRTF::Extracted_mesh judged_mesh(Visitor& visitor)
+  {
+    const PowerRTF::Feature_samples& features = m_patches.features();
+    PowerRTF::Extracted_mesh mesh;
+    if (m_surface.seams.empty()) {
+      mesh = triangulate(visitor, m_surface, samples(), features);
+    } else {
+      const PowerRTF::Opened_surface opened(m_surface, samples(), features);
+      mesh = triangulate(visitor, opened.surface(), opened.samples(), opened.features());
+      opened.sew_up(mesh);
+    }
+    visitor.on_stage("quality");
+    PowerRTF::internal::Stopwatch watch(m_report.seconds.quality);
+    PowerRTF::assess<typename Traits::Concurrency_tag>(m_surface, mesh, m_report);
+    return mesh;
   }
 
   bool inside_interval() const { return m_engine.capacity().inside_interval == 1; }

@@ -275,7 +275,7 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
   PowerRTF::Remeshing_report report;
   PowerRTF::Repair_counts repairs;
   PowerRTF::Stage_seconds seconds;
-  {
+  const auto run = [&] {
     Stopwatch total(seconds.total);
     PowerRTF::Surface surface;
     {
@@ -287,10 +287,12 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
     if (remesher.optimize(visitor)) {
       const PowerRTF::Extracted_mesh mesh = remesher.extract(visitor);
       Stopwatch watch(seconds.write);
-      PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
+      if (!remesher.report().cancelled)
+        PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
     }
     report = remesher.report();
-  }
+  };
+  if (!PowerRTF::internal::run_unless_cancelled(visitor, run)) report.cancelled = true;
   report.repairs = repairs;
   report.seconds.surface = seconds.surface;
   report.seconds.write = seconds.write;

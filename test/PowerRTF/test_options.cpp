@@ -120,7 +120,8 @@ void check_all_refuse(const Remeshing_options& options, const std::string& name,
 struct Stop_after : Remeshing_default_visitor {
   int iterations;
   explicit Stop_after(int n) : iterations(n) {}
-  bool go_further() { return --iterations > 0; }
+  void on_iteration(const Iteration_report&, double) { --iterations; }
+  bool go_further() const { return iterations > 0; }
 };
 
 } // namespace

@@ -17,9 +17,11 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <functional>
 #include <limits>
 #include <string>
+#include <thread>
 
 using namespace CGAL::PowerRTF;
 using doctest::Approx;
@@ -158,6 +160,20 @@ struct Counting_visitor : Remeshing_default_visitor {
     last_progress = progress;
   }
   bool go_further() { return iterations < stop_after; }
+};
+
+/// Stops in the middle of a stage: the 50 ms after which it is asked have passed when it begins.
+struct Stopping_visitor : Remeshing_default_visitor {
+  std::string stage;
+  bool stops = false;
+
+  void on_stage(const char* name)
+  {
+    if (name != stage) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    stops = true;
+  }
+  bool go_further() const { return !stops; }
 };
 
 /// Points outside of any mesh, by the number of the vertex; grows when written.
@@ -483,6 +499,23 @@ TEST_CASE("cancellation leaves the output as it was")
 }
 
 // --- errors --------------------------------------------------------------------------------------
+
+TEST_CASE("a visitor stops the run in the middle of every stage; the output stays as it was")
+{
+  const Mesh input = make_mesh(ellipsoid());
+  for (const char* stage :
+       {"surface", "sampling", "optimization", "extraction", "improvement", "quality"}) {
+    CAPTURE(stage);
+    Stopping_visitor visitor;
+    visitor.stage = stage;
+    Mesh output = make_mesh(shapes::tetrahedron());
+    const Remeshing_report report = CGAL::power_rtf_remeshing(
+        input, 500, output, CGAL::parameters::visitor(std::ref(visitor)));
+    CHECK(visitor.stops);
+    CHECK(report.cancelled);
+    CHECK(num_vertices(output) == 4);
+  }
+}
 
 TEST_CASE("unusable input is refused; the output stays as it was")
 {

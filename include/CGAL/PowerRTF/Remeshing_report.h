@@ -100,7 +100,7 @@ struct Iteration_report {
 /// The result of `power_rtf_remeshing()` beside the mesh.
 struct Remeshing_report {
   std::size_t samples_asked = 0; ///< \f$n\f$
-  bool cancelled = false;        ///< the visitor stopped the optimisation
+  bool cancelled = false;        ///< the visitor stopped the run
   std::size_t constructions = 0; ///< of all cells, in all (Algorithm 1)
   std::size_t outer_iterations = 0;
   std::vector<Iteration_report> iterations;

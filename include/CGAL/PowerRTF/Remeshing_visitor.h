@@ -19,7 +19,8 @@ struct Remeshing_default_visitor {
   void on_stage(const char* /*name*/) {}
   /// An outer iteration ended. `progress` in [0, 1] is the share of the optimisation done.
   void on_iteration(const Iteration_report& /*iteration*/, double /*progress*/) {}
-  /// `false` stops the optimisation after the current iteration; no mesh is made.
+  /// Asked after each iteration and, in all stages, every 50 ms or so; `false` stops the run: no mesh
+  /// is made.
   bool go_further() { return true; }
 };
 

@@ -6,6 +6,8 @@
 #ifndef CGAL_POWER_RTF_INTERNAL_PARALLEL_H
 #define CGAL_POWER_RTF_INTERNAL_PARALLEL_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+
 #include <CGAL/tags.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -29,13 +31,18 @@ void for_each_chunk(int n, int chunk, F&& f)
   if constexpr (std::is_convertible<ConcurrencyTag, Parallel_tag>::value) {
     tbb::parallel_for(tbb::blocked_range<int>(0, (n + chunk - 1) / chunk, 1),
                       [&](const tbb::blocked_range<int>& range) {
-                        for (int c = range.begin(); c != range.end(); ++c)
+                        for (int c = range.begin(); c != range.end(); ++c) {
+                          Cancellation::poll();
                           f(c * chunk, std::min(n, (c + 1) * chunk));
+                        }
                       });
     return;
   }
 #endif
-  for (int begin = 0; begin < n; begin += chunk) f(begin, std::min(n, begin + chunk));
+  for (int begin = 0; begin < n; begin += chunk) {
+    Cancellation::poll();
+    f(begin, std::min(n, begin + chunk));
+  }
 }
 
 /// Calls `f(i)` for i in [0, n).

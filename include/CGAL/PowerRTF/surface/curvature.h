@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_SURFACE_CURVATURE_H
 #define CGAL_POWER_RTF_SURFACE_CURVATURE_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/surface/surface_edges.h>
 
 #include <algorithm>
@@ -42,6 +43,7 @@ inline void smooth_over_edges(const Surface_edges& edges, int passes, std::vecto
 {
   std::vector<double> smooth(values.size());
   for (int pass = 0; pass < passes; ++pass) {
+    internal::Cancellation::poll();
     for (std::size_t v = 0; v < values.size(); ++v) {
       double sum = 0;
       for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) sum += values[edges.neighbor[e]];

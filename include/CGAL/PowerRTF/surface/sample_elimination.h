@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_SURFACE_SAMPLE_ELIMINATION_H
 #define CGAL_POWER_RTF_SURFACE_SAMPLE_ELIMINATION_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/surface/point_grid.h>
 
 #include <algorithm>
@@ -53,7 +54,8 @@ inline Candidate_graph candidate_graph(const std::vector<Vec3d>& points,
 
   std::vector<std::pair<int, int>> pairs;
   pairs.reserve(8 * points.size());
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
+    Cancellation::poll();
     for (int l = level[i]; l < static_cast<int>(grids.size()); ++l) {
       if (members[l].empty()) continue;
       grids[l].for_each_near(points[i], radii[i] + largest[l], [&](int j, double squared_distance) {
@@ -63,6 +65,7 @@ inline Candidate_graph candidate_graph(const std::vector<Vec3d>& points,
           pairs.emplace_back(i, j);
       });
     }
+  }
 
   Candidate_graph graph;
   graph.first.assign(n + 1, 0);
@@ -123,6 +126,7 @@ inline std::vector<int> eliminate_samples(const std::vector<Vec3d>& points,
   for (int i = 0; i < candidates; ++i) heap.emplace_back(weight(i), i);
   std::make_heap(heap.begin(), heap.end());
   while (heap.size() > n) {
+    internal::Cancellation::poll();
     std::pop_heap(heap.begin(), heap.end());
     const int i = heap.back().second;
     if (is_outdated[i]) {

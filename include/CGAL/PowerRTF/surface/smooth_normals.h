@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_SURFACE_SMOOTH_NORMALS_H
 #define CGAL_POWER_RTF_SURFACE_SMOOTH_NORMALS_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/surface/gradation.h>
 #include <CGAL/PowerRTF/surface/surface_edges.h>
 
@@ -45,6 +46,7 @@ inline void smooth_normals(Surface& surface, std::size_t n, double width)
       static_cast<int>(std::min<double>(max_passes, std::ceil(largest / largest_blend)));
   std::vector<Vec3d> smooth(size);
   for (int pass = 0; pass < passes; ++pass) {
+    internal::Cancellation::poll();
     for (std::size_t v = 0; v < size; ++v) {
       const double blend = std::min(largest_blend, wanted[v] / passes);
       Vec3d sum{0, 0, 0};

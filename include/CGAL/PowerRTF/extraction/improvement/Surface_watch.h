@@ -9,6 +9,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SURFACE_WATCH_H
 
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -200,6 +201,7 @@ private:
     else
       m_tree->refit(points, triangles);
     for (Watched* w : some) {
+      Cancellation::poll();
       const int hint = int(topology().face(w->face));
       int f = nearest_facet(m_tree->view(), w->point, w->normal, largest_turn, hint).facet;
       if (f < 0) f = m_tree->nearest(w->point, hint).facet; // none agrees: any

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/extraction/improvement/Surface_watch.h>
 #include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,7 @@ public:
     std::sort(far.begin(), far.end());
     std::size_t covered = 0, tried = 0;
     for (const auto& [d, i] : far) {
+      Cancellation::poll();
       if (!(m_watch[i].distance > least)) continue; // covered with a neighbour
       if (++tried > 10 + m.size() / 100) break;
       while (m_watch[i].distance > least && cover(i)) ++covered;

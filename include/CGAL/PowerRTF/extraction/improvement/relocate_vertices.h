@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/extraction/improvement/Surface_watch.h>
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>
 #include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
@@ -54,6 +55,7 @@ public:
     std::size_t next = 0;
     bool changed = false;
     for (const Tip& tip : tips) {
+      Cancellation::poll();
       const Star_mesh now = m;
       if (tip.is_edge && flip(tip) && !intersects_near(tip.point)) {
         changed = true;

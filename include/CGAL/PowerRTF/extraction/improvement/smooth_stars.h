@@ -9,6 +9,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVEMENT_SMOOTH_STARS_H
 
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +44,10 @@ public:
   /// One step of every movable vertex.
   void sweep()
   {
-    for (const Vertex v : m.working().mesh.vertices())
+    for (const Vertex v : m.working().mesh.vertices()) {
+      Cancellation::poll();
       if (m.is_movable(v)) step(v);
+    }
   }
 
 private:
