@@ -6,10 +6,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_INTERSECTION_GUARD_H
 #define CGAL_POWER_RTF_EXTRACTION_INTERSECTION_GUARD_H
 
-#include <CGAL/PowerRTF/extraction/Working_mesh.h>
-#include <CGAL/PowerRTF/internal/triangles_intersect.h>
-
-#include <CGAL/Bbox_3.h>
+#include <CGAL/PowerRTF/extraction/intersecting_faces.h>
 
 #include <boost/container/small_vector.hpp>
 #include <boost/geometry/algorithms/covered_by.hpp>
@@ -39,7 +36,7 @@ public:
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
   using Face = Working_mesh::Mesh::Face_index;
-  using Corners = std::array<Vertex, 3>;
+  using Corners = Face_triangles::Corners;
   using Faces = boost::container::small_vector<Face, 24>;
   using Triangles = boost::container::small_vector<Corners, 24>;
 
@@ -49,7 +46,7 @@ public:
 
   /// `sight`: by vertex.
   Intersection_guard(const Working_mesh& mesh, std::vector<Sight>&& sight)
-      : m(mesh), m_sight(std::move(sight)), m_is_inserted(mesh.mesh.number_of_faces(), false)
+      : m(mesh), m_triangles(mesh.mesh), m_sight(std::move(sight)), m_is_inserted(mesh.mesh.number_of_faces(), false)
   {
     for (const Face f : m.mesh.faces()) insert(f);
   }
@@ -92,7 +89,7 @@ public:
   /// To be called before and after a change, for the faces that it touches.
   void insert(Face f)
   {
-    const Corners t = corners(f);
+    const Corners t = m_triangles.corners(f);
     if (std::all_of(t.begin(), t.end(), [this](Vertex v) { return m_sight[v] == unknown; })) return;
     m_is_inserted[f] = true;
     m_tree.insert(entry(f));
@@ -118,28 +115,15 @@ public:
   }
 
 private:
-  using Points = std::array<Epick::Point_3, 3>;
+  using Points = Face_triangles::Points;
   using Tree_point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
   using Tree_box = boost::geometry::model::box<Tree_point>;
   using Entry = std::pair<Tree_box, Face>;
   using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
 
-  Points points(const Corners& t) const
-  {
-    return {m.mesh.point(t[0]), m.mesh.point(t[1]), m.mesh.point(t[2])};
-  }
-  static Bbox_3 box(const Points& p) { return p[0].bbox() + p[1].bbox() + p[2].bbox(); }
-  static bool is_degenerate(const Points& p) { return collinear(p[0], p[1], p[2]); }
-
-  Corners corners(Face f) const
-  {
-    const Halfedge h = m.mesh.halfedge(f);
-    return {m.mesh.source(h), m.mesh.target(h), m.mesh.target(m.mesh.next(h))};
-  }
-
   Entry entry(Face f) const
   {
-    const Bbox_3 b = box(points(corners(f)));
+    const Bbox_3 b = Face_triangles::box(m_triangles.points(m_triangles.corners(f)));
     return {to_tree(b), f};
   }
   static Tree_box to_tree(const Bbox_3& b)
@@ -150,16 +134,16 @@ private:
   // The faces, none of `except`, that intersect the triangle; at most `most`.
   std::size_t count(const Corners& t, const Faces& except, std::size_t most) const
   {
-    const Points p = points(t);
-    const Bbox_3 b = box(p);
+    const Points p = m_triangles.points(t);
+    const Bbox_3 b = Face_triangles::box(p);
     std::size_t found = 0;
     for (auto it = m_tree.qbegin(boost::geometry::index::intersects(to_tree(b)));
          it != m_tree.qend() && found < most; ++it) {
       const Face f = it->second;
       if (std::find(except.begin(), except.end(), f) != except.end()) continue;
-      const Corners u = corners(f);
-      const Points q = points(u);
-      if (!is_degenerate(q) && triangles_intersect(t, p, u, q)) ++found;
+      const Corners u = m_triangles.corners(f);
+      const Points q = m_triangles.points(u);
+      if (!Face_triangles::is_degenerate(q) && triangles_intersect(t, p, u, q)) ++found;
     }
     return found;
   }
@@ -170,16 +154,36 @@ private:
   {
     std::size_t sum = 0;
     for (auto t = triangles.begin(); t != triangles.end() && sum < most; ++t) {
-      if (is_degenerate(points(*t))) {
+      if (Face_triangles::is_degenerate(m_triangles.points(*t))) {
         ++sum;
         continue;
       }
       sum += count(*t, except, most - sum);
       for (auto u = triangles.begin(); u != t; ++u)
-        if (!is_degenerate(points(*u)) && triangles_intersect(*t, points(*t), *u, points(*u)))
+        if (!Face_triangles::is_degenerate(m_triangles.points(*u)) &&
+            triangles_intersect(*t, m_triangles.points(*t), *u, m_triangles.points(*u)))
           ++sum;
     }
     return sum;
+  }
+
+  // Whether the faces are parts of one facet, and the triangles, too, not turned over.
+  bool is_within_facet(const Faces& old, const Triangles& fresh) const
+  {
+    constexpr double clearly = 0.99; // cosine
+    const int facet = m.facets[old[0]];
+    if (facet < 0) return false;
+    Vec3d normal{0, 0, 0};
+    for (const Face f : old) {
+      if (m.facets[f] != facet) return false;
+      const Corners t = m_triangles.corners(f);
+      normal += m.area_vector(t[0], t[1], t[2]);
+    }
+    const double l = length(normal);
+    return std::all_of(fresh.begin(), fresh.end(), [&](const Corners& t) {
+      const Vec3d n = m.area_vector(t[0], t[1], t[2]);
+      return dot(n, normal) > clearly * length(n) * l;
+    });
   }
 
   bool adds_intersections(const Faces& old, const Triangles& fresh) const
@@ -187,15 +191,16 @@ private:
     const bool is_watched = std::any_of(fresh.begin(), fresh.end(), [this](const Corners& t) {
       return std::max({m_sight[t[0]], m_sight[t[1]], m_sight[t[2]]}) == watched;
     });
-    if (!is_watched) return false;
+    if (!is_watched || is_within_facet(old, fresh)) return false;
     if (count(fresh, old, 1) == 0) return false;
     Triangles now;
-    for (const Face f : old) now.push_back(corners(f));
+    for (const Face f : old) now.push_back(m_triangles.corners(f));
     const std::size_t before = count(now, old, std::size_t(-1));
     return count(fresh, old, before + 1) > before;
   }
 
   const Working_mesh& m;
+  Face_triangles m_triangles;
   std::vector<Sight> m_sight;      // by vertex
   std::vector<char> m_is_inserted; // by face
   Tree m_tree;                     // of the inserted faces' boxes

@@ -34,10 +34,13 @@ struct Working_mesh {
   Mesh mesh;
   std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
+  std::vector<int> facets;    ///< by face: the surface's facet that it is a part of; -1: of none
 
   explicit Working_mesh(Refined_surface&& surface)
-      : normals(std::move(surface.normals)), samples(std::move(surface.samples))
+      : normals(std::move(surface.normals)), samples(std::move(surface.samples)),
+        facets(std::move(surface.facets))
   {
+    facets.resize(surface.triangles.size(), -1);
     for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
     const auto vertices = Mesh::size_type(surface.points.size());
     mesh.reserve(vertices, 3 * vertices, Mesh::size_type(surface.triangles.size()));
@@ -93,11 +96,29 @@ struct Working_mesh {
     m_features[to] = std::move(near);
   }
 
+  /// Looks around both in turn, as one of them may have very many neighbors.
   bool are_adjacent(Vertex a, Vertex b) const
   {
-    for (const Halfedge h : halfedges_around_target(a, mesh))
-      if (mesh.source(h) == b) return true;
+    const Halfedge first_a = mesh.halfedge(a), first_b = mesh.halfedge(b);
+    if (!first_a.is_valid() || !first_b.is_valid()) return false;
+    Halfedge h = first_a, g = first_b;
+    do {
+      if (mesh.source(h) == b || mesh.source(g) == a) return true;
+      h = mesh.next_around_target(h);
+      g = mesh.next_around_target(g);
+    } while (h != first_a && g != first_b);
     return false;
+  }
+
+  /// The number of edges at `v`; `most` if there are more.
+  int degree_up_to(int most, Vertex v) const
+  {
+    int degree = 0;
+    for (const Halfedge h : halfedges_around_target(v, mesh)) {
+      (void)h;
+      if (++degree == most) break;
+    }
+    return degree;
   }
 
   /// True if the edge can be flipped without a change of topology.

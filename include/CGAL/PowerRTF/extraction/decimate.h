@@ -11,6 +11,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_DECIMATE_H
 
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -96,6 +97,7 @@ private:
   // there may be none: the border then recedes to the samples.
   bool remove(Vertex u)
   {
+    Cancellation::poll();
     m_ring.clear();
     for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
     const std::vector<Vertex>& curve = m.feature_neighbours(u);
@@ -189,6 +191,7 @@ private:
     const int sample = m.samples[v];
     const Vertex u = m.mesh.source(to_v);
     if (m_guard) m_guard->erase_around(u, v);
+    leave_facets(u);
     if (m.is_on_feature(u)) m.shorten_feature(u, v);
     const Vertex kept = Euler::collapse_edge(m.mesh.edge(to_v), m.mesh);
     if (kept != v) m.rename_on_features(v, kept);
@@ -202,6 +205,22 @@ private:
       m_flipper.push(m.mesh.edge(m.mesh.prev(h)));
     }
     m_flipper.run(10 * m_ring.size());
+  }
+
+  // The faces at `u` move out of their facets unless all are in the same.
+  void leave_facets(Vertex u)
+  {
+    int facet = -1;
+    bool is_one = true;
+    for (const Halfedge h : m_ring) {
+      if (m.mesh.is_border(h)) continue;
+      const int f = m.facets[m.mesh.face(h)];
+      is_one = is_one && (facet < 0 || f == facet);
+      facet = f;
+    }
+    if (is_one && !m.mesh.is_border(u)) return;
+    for (const Halfedge h : m_ring)
+      if (!m.mesh.is_border(h)) m.facets[m.mesh.face(h)] = -1;
   }
 
   // Flips edges at u away, best shapes first, so that it may become removable.

@@ -10,6 +10,7 @@
 
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -67,6 +68,7 @@ public:
   {
     std::size_t flips = 0;
     while (!m_stack.empty()) {
+      Cancellation::poll();
       const Edge e = m_stack.back();
       m_stack.pop_back();
       m_waiting[e] = false;
@@ -88,6 +90,8 @@ public:
       m_guard->erase(m.mesh.face(h));
       m_guard->erase(m.mesh.face(o));
     }
+    int &f = m.facets[m.mesh.face(h)], &g = m.facets[m.mesh.face(o)];
+    if (f != g) f = g = -1;
     Euler::flip_edge(h, m.mesh);
     if (m_guard) {
       m_guard->insert(m.mesh.face(h));

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/extraction/extract_guarded.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/remove_intersections.h>
+#include <CGAL/PowerRTF/quality/self_intersections.h>
 
 namespace CGAL
 {
@@ -91,10 +92,11 @@ inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples
   std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
   std::size_t fewest = sparse.size();
   std::vector<internal::Ball> guarded;
+  const bool is_input_simple = self_intersections(surface.points, surface.triangles) == 0;
   for (const double reach : {2., 8., 1e3}) {
     if (sparse.empty()) break;
     guarded.insert(guarded.end(), sparse.begin(), sparse.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach);
+    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, is_input_simple);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
     if (sparse.size() < fewest) {

@@ -12,15 +12,13 @@
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
 #include <CGAL/PowerRTF/surface/point_grid.h>
-
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -40,7 +38,6 @@ struct Ball {
 /// Balls around the triangles that intersect others and around the vertices that are no samples.
 inline std::vector<Ball> sparse_places(const Working_mesh& m)
 {
-  using Face = Working_mesh::Mesh::Face_index;
   const auto longest_edge = [&m](Working_mesh::Vertex v) {
     double longest = 0;
     for (const auto h : halfedges_around_target(v, m.mesh))
@@ -48,10 +45,8 @@ inline std::vector<Ball> sparse_places(const Working_mesh& m)
     return longest;
   };
   std::vector<Ball> balls;
-  std::vector<std::pair<Face, Face>> pairs;
-  Polygon_mesh_processing::self_intersections(m.mesh, std::back_inserter(pairs));
-  for (const auto& [f, g] : pairs)
-    for (const Face face : {f, g})
+  for (const auto& [f, g] : Intersection_finder(m.mesh).all())
+    for (const auto face : {f, g})
       for (const auto v : m.mesh.vertices_around_face(m.mesh.halfedge(face)))
         balls.push_back({m.point(v), longest_edge(v)});
   for (const auto v : m.mesh.vertices())
@@ -66,9 +61,11 @@ public:
   using Halfedge = Working_mesh::Halfedge;
 
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
+  /// `is_input_simple`: the surface does not intersect itself.
   Guarded_extraction(const Surface& surface, const Samples& samples,
-                     const Feature_samples& features, const std::vector<Ball>& balls, double reach)
-      : m_may_go(may_go(samples, features)),
+                     const Feature_samples& features, const std::vector<Ball>& balls, double reach,
+                     bool is_input_simple)
+      : m_may_go(may_go(samples, features)), m_is_input_simple(is_input_simple),
         m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
         m_flipper(m, 0.1, &m_guard)
   {
@@ -76,7 +73,6 @@ public:
 
   void run()
   {
-    m_input_intersects = Polygon_mesh_processing::does_self_intersect(m.mesh);
     m_flipper.push_around_samples();
     m_flipper.run(20 * m.mesh.number_of_edges());
     decimate();
@@ -91,8 +87,8 @@ public:
   /// are too few samples.
   bool is_hopeless() const
   {
-    return m_input_intersects || m_rest.size() > m_may_go.size() ||
-           !Polygon_mesh_processing::does_self_intersect(m.mesh);
+    return !m_is_input_simple || m_rest.size() > m_may_go.size() ||
+           !Intersection_finder(m.mesh).any();
   }
 
 private:
@@ -206,6 +202,7 @@ private:
     std::vector<Vertex> chosen;
     for (const auto& [height, v] : order) {
       if (chosen.size() == m_rest.size()) break;
+      Cancellation::poll();
       if (is_near[v] || !is_collapsible(v, at_once)) continue;
       chosen.push_back(v);
       for (const Halfedge h : halfedges_around_target(v, m.mesh)) is_near[m.mesh.source(h)] = true;
@@ -235,7 +232,7 @@ private:
 
   std::vector<char> m_may_go; // by sample: may be exchanged, and has not been
   std::vector<Vertex> m_rest; // could not be removed, though they were no samples
-  bool m_input_intersects = false;
+  bool m_is_input_simple;
   Working_mesh m;
   Intersection_guard m_guard;
   Edge_flipper m_flipper;

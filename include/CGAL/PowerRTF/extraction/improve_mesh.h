@@ -7,6 +7,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_IMPROVE_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_IMPROVE_MESH_H
 
+#include <CGAL/PowerRTF/extraction/intersecting_faces.h>
 #include <CGAL/PowerRTF/extraction/improvement/cover_tips.h>
 #include <CGAL/PowerRTF/extraction/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/extraction/improvement/mend_stars.h>
@@ -14,11 +15,8 @@
 #include <CGAL/PowerRTF/extraction/improvement/slide_features.h>
 #include <CGAL/PowerRTF/extraction/improvement/smooth_stars.h>
 
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -137,9 +135,7 @@ private:
     };
     for (const Face f : m_too_far)
       if (!is_locked(f)) broken.push_back(f);
-    std::vector<std::pair<Face, Face>> pairs;
-    Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-    for (const auto& [f, g] : pairs)
+    for (const auto& [f, g] : Intersection_finder(mesh).all())
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
     return broken;
   }

@@ -12,6 +12,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 #define CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/surface/feature_samples.h>
 
@@ -43,6 +44,7 @@ struct Refined_surface {
   std::vector<Vec3d> normals; ///< unit normal of the surface at each point
   std::vector<int> samples;   ///< the sample that each vertex is; -1: none
   std::vector<Triangle> triangles;
+  std::vector<int> facets;    ///< by triangle: the surface's facet that it is a part of
   std::vector<Edge> features; ///< the pieces of the creases and borders
 };
 
@@ -65,9 +67,11 @@ public:
     m_refined.triangles.reserve(surface.triangles.size() + 2 * samples.size());
     auto inside = m_inside.begin();
     for (int f = 0; f < int(surface.triangles.size()); ++f) {
+      Cancellation::poll();
       const auto begin = inside;
       while (inside != m_inside.end() && inside->facet == f) ++inside;
       triangulate_facet(f, begin, inside);
+      m_refined.facets.resize(m_refined.triangles.size(), f);
     }
     if (!features.empty()) cut_features();
     for (Vec3d& p : m_refined.points) p = surface.normalization.snapped(p);

@@ -8,12 +8,10 @@
 #define CGAL_POWER_RTF_EXTRACTION_REMOVE_INTERSECTIONS_H
 
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
-
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/PowerRTF/extraction/intersecting_faces.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -27,15 +25,20 @@ namespace internal
 class Intersection_remover
 {
 public:
-  Intersection_remover(Working_mesh& mesh, Edge_flipper& flipper) : m(mesh), m_flipper(flipper) {}
+  Intersection_remover(Working_mesh& mesh, Edge_flipper& flipper)
+      : m(mesh), m_flipper(flipper), m_triangles(mesh.mesh), m_finder(mesh.mesh),
+        m_has_changed(mesh.mesh.num_faces())
+  {
+  }
 
   /// \returns the number of intersecting pairs of triangles that are left.
   std::size_t run()
   {
-    Pairs pairs = intersections(m.mesh.faces());
-    for (int round = 0; round < max_rounds && !pairs.empty() && m_tested < max_tested; ++round) {
-      for (const Pair& pair : pairs) separate(pair);
-      pairs = intersections(m.mesh.faces());
+    std::vector<Face_pair> pairs = m_finder.all();
+    for (int round = 0; round < max_rounds && !pairs.empty() && m_tests < max_tests; ++round) {
+      std::fill(m_has_changed.begin(), m_has_changed.end(), false);
+      for (const Face_pair& pair : pairs) separate(pair);
+      pairs = m_finder.updated(std::move(pairs), m_has_changed);
     }
     return pairs.size();
   }
@@ -46,50 +49,86 @@ private:
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
   using Face = Mesh::Face_index;
-  using Pair = std::pair<Face, Face>;
-  using Pairs = std::vector<Pair>;
+  using Faces = std::vector<Face>;
 
   static constexpr int max_rounds = 5;
-  static constexpr int max_flips = 8;     // for each pair
-  static constexpr std::size_t max_tested = 100000; // faces: hopeless cases must not cost minutes
+  static constexpr int max_flips = 8; // for each pair
+  // Of pairs of triangles, a second's work: hopeless cases must not cost minutes.
+  static constexpr std::size_t max_tests = 4000000;
   static constexpr int rings = 2;
-
-  template <class FaceRange>
-  Pairs intersections(const FaceRange& faces) const
-  {
-    Pairs pairs;
-    Polygon_mesh_processing::self_intersections(faces, m.mesh, std::back_inserter(pairs));
-    return pairs;
-  }
 
   // Flips the edge near the pair that removes most intersections around it, as long as there is
   // one.
-  void separate(const Pair& pair)
+  void separate(const Face_pair& pair)
   {
-    if (m_tested >= max_tested) return;
-    if (intersections(std::vector<Face>{pair.first, pair.second}).empty()) return;
-    for (int i = 0; i < max_flips && m_tested < max_tested; ++i) {
-      const std::vector<Face> region = faces_around({pair.first, pair.second}, rings);
-      std::size_t best = intersections(region).size();
-      if (best == 0) return;
+    Cancellation::poll();
+    if (count(pair.first, {pair.second}) == 0) return;
+    for (int i = 0; i < max_flips; ++i) {
+      const Faces region = faces_around({pair.first, pair.second}, rings);
+      if (m_tests + region.size() * region.size() / 2 > max_tests) { // a vertex with many faces
+        m_tests = max_tests;
+        return;
+      }
+      if (are_apart(region)) return;
+      std::ptrdiff_t best = 0; // change of the number of intersections
       Edge chosen;
       double best_shape = -1;
       for (const Edge e : edges_of(faces_around({pair.first, pair.second}, 1))) {
+        if (m_tests >= max_tests) return;
         if (!m_flipper.is_legal(e)) continue;
-        m_tested += region.size();
-        m_flipper.flip(e);
-        const std::size_t count = intersections(region).size();
+        const std::ptrdiff_t before = count_at(e, region);
+        flip(e);
+        const std::ptrdiff_t change = count_at(e, region) - before;
         const double shape = worst_shape(e);
-        m_flipper.flip(e);
-        if (count > best || (count == best && shape <= best_shape)) continue;
-        if (count == best && !chosen.is_valid()) continue;
-        best = count;
+        flip(e);
+        if (change > best || (change == best && shape <= best_shape)) continue;
+        if (change == best && !chosen.is_valid()) continue;
+        best = change;
         best_shape = shape;
         chosen = e;
       }
       if (!chosen.is_valid()) return;
-      m_flipper.flip(chosen);
+      flip(chosen);
     }
+  }
+
+  void flip(Edge e)
+  {
+    m_flipper.flip(e);
+    const Halfedge h = m.mesh.halfedge(e);
+    m_has_changed[m.mesh.face(h)] = m_has_changed[m.mesh.face(m.mesh.opposite(h))] = true;
+  }
+
+  bool are_apart(const Faces& region)
+  {
+    for (const Face f : region)
+      if (count(f, region) > 0) return false;
+    return true;
+  }
+
+  // The intersections of the edge's two faces with those of the region and each other.
+  std::ptrdiff_t count_at(Edge e, const Faces& region)
+  {
+    const Halfedge h = m.mesh.halfedge(e);
+    const Face f = m.mesh.face(h), g = m.mesh.face(m.mesh.opposite(h));
+    return count(f, region) + count(g, region) - (f != g && meet(f, g));
+  }
+
+  // The faces of the region that intersect `f`; itself when it has no area.
+  std::ptrdiff_t count(Face f, const Faces& region)
+  {
+    m_tests += region.size();
+    return std::count_if(region.begin(), region.end(), [&](Face g) { return meet(f, g); });
+  }
+
+  bool meet(Face f, Face g) const
+  {
+    const auto p = m_triangles.points(m_triangles.corners(f));
+    if (f == g) return Face_triangles::is_degenerate(p);
+    const auto q = m_triangles.points(m_triangles.corners(g));
+    return do_overlap(Face_triangles::box(p), Face_triangles::box(q)) &&
+           !Face_triangles::is_degenerate(p) && !Face_triangles::is_degenerate(q) &&
+           m_triangles.intersect(f, g);
   }
 
   double worst_shape(Edge e) const
@@ -101,10 +140,10 @@ private:
   }
 
   // The faces and those that share a vertex with them, `n` times.
-  std::vector<Face> faces_around(std::vector<Face> faces, int n) const
+  Faces faces_around(Faces faces, int n) const
   {
     for (; n > 0; --n) {
-      std::vector<Face> more;
+      Faces more;
       for (const Face f : faces)
         for (const Halfedge h : m.mesh.halfedges_around_face(m.mesh.halfedge(f)))
           for (const Halfedge g : m.mesh.halfedges_around_target(h))
@@ -116,7 +155,7 @@ private:
     return faces;
   }
 
-  std::vector<Edge> edges_of(const std::vector<Face>& faces) const
+  std::vector<Edge> edges_of(const Faces& faces) const
   {
     std::vector<Edge> edges;
     for (const Face f : faces)
@@ -129,7 +168,10 @@ private:
 
   Working_mesh& m;
   Edge_flipper& m_flipper;
-  std::size_t m_tested = 0;
+  Face_triangles m_triangles;
+  Intersection_finder m_finder;
+  std::vector<char> m_has_changed; // by face, since the pairs were found
+  std::size_t m_tests = 0;
 };
 
 } // namespace internal

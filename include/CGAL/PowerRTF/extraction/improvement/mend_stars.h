@@ -10,6 +10,7 @@
 
 #include <CGAL/PowerRTF/extraction/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/extraction/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -106,7 +107,10 @@ private:
         for (const Vertex v : vertices_around(f)) vertices.push_back(v);
       std::sort(vertices.begin(), vertices.end());
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-      for (const Vertex v : vertices) search(v);
+      for (const Vertex v : vertices) {
+        Cancellation::poll();
+        search(v);
+      }
       if (round % 2 == 1)
         for (const Face f : bad)
           if (badness(f) > 0) flip_around(f);
@@ -138,6 +142,10 @@ private:
   static constexpr int max_steps = 8;
   // Of triangles that a flip may make.
   static constexpr double least_shape = 0.6, least_shape_if_healing = 0.35;
+
+  // A vertex with so many edges (of a needle) has no good triangles, and to look at all of them for
+  // each costs minutes.
+  static constexpr int hub = 60;
 
   using Vertices = boost::container::small_vector<Vertex, 16>;
 
@@ -259,12 +267,16 @@ private:
     boost::container::small_vector<Edge, 24> edges;
     Halfedge h = mesh.halfedge(f);
     for (int k = 0; k < 3; ++k, h = mesh.next(h)) edges.push_back(mesh.edge(h));
-    for (int k = 0; k < 3; ++k, h = mesh.next(h))
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      if (m.working().degree_up_to(hub, mesh.target(h)) == hub) continue;
       for (const Halfedge g : halfedges_around_target(h, mesh))
         if (std::find(edges.begin(), edges.end(), mesh.edge(g)) == edges.end())
           edges.push_back(mesh.edge(g));
-    for (const Edge e : edges)
+    }
+    for (const Edge e : edges) {
+      Cancellation::poll();
       if (flip_if_better(e) && mesh.is_valid(f) && !(badness(f) > 0)) return;
+    }
   }
 
   bool flip_if_better(Edge e)
@@ -272,14 +284,16 @@ private:
     if (!m.is_free(e) || !m.working().is_flippable(e)) return false;
     const std::array<Vertex, 4> corners = m.corners(e);
     // a vertex of valence 3 or 4 cannot lose an edge; one of valence 8 is to get no more
-    const auto valence = [&](int k) { return int(m.working().mesh.degree(corners[k])); };
-    if (valence(0) < 5 || valence(1) < 5 || valence(2) > 7 || valence(3) > 7) return false;
+    std::array<int, 4> valence;
+    for (int k = 0; k < 4; ++k) valence[k] = m.working().degree_up_to(hub, corners[k]);
+    if (valence[0] < 5 || valence[1] < 5 || valence[2] > 7 || valence[3] > 7) return false;
+    if (valence[0] == hub || valence[1] == hub) return false;
     const auto shape = [&](int i, int j, int k) {
       return m.working().shape(corners[i], corners[j], corners[k]);
     };
     // In a plane the angles around a vertex of valence 4 or 9 cannot all be good.
-    const bool heals = std::min(valence(2), valence(3)) <= 4 ||
-                       std::max(valence(0), valence(1)) >= 9;
+    const bool heals = std::min(valence[2], valence[3]) <= 4 ||
+                       std::max(valence[0], valence[1]) >= 9;
     if (std::min(shape(0, 3, 2), shape(1, 2, 3)) < (heals ? least_shape_if_healing : least_shape))
       return false; // hopeless
     Time changed = 0;
