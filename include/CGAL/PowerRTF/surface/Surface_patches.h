@@ -36,7 +36,9 @@ public:
     const Facet_adjacency adjacency = facet_adjacency(surface.triangles, surface.points.size());
     const bool is_one_patch = surface.creases.empty() && adjacency.border_edges == 0 &&
                               facet_components(adjacency).second == 1;
-    if (is_one_patch && !has_long_bent_facets(surface, n)) {
+    // Means over the nearest vertices would depend on how finely a facet is split.
+    const bool splits = options.attributes == Attributes::facet;
+    if (is_one_patch && !(splits && has_long_bent_facets(surface, n))) {
       smooth_normals(surface, n, options.normal_smoothing);
       return;
     }
@@ -51,7 +53,7 @@ public:
       m_own = std::move(cut.surface);
       originals = std::move(cut.originals);
     }
-    m_parents = split_bent_facets(*m_own, n);
+    if (splits) m_parents = split_bent_facets(*m_own, n);
     place_features();
     smooth_normals(*m_own, n, options.normal_smoothing);
     surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
