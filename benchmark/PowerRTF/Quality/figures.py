@@ -7,7 +7,7 @@ from common import notice
 from runs import Failed
 
 MEASURES = ("Q<sub>min</sub>", "Q<sub>avg</sub>", "θ<sub>min</sub>", "mean θ<sub>min</sub>",
-            "< 30°", "> 90°", "d<sub>H</sub>")
+            "θ<sub>max</sub>", "< 30°", "> 90°", "d<sub>H</sub>")
 COLUMNS = ("model", "density", "n", "method", *MEASURES, "T (s)", "inside γ", "constructions",
            "topology", "what differs, and why")
 SIZES = {"full": {"n": 3000, "elk": 6000, "large": 30000, "large_adaptive": 10000,
@@ -66,11 +66,18 @@ def topology(r):
 
 
 def cells(values):
-    """The columns MEASURES, as the paper prints them; shares as shares, d_H in % of the diagonal."""
+    """The columns MEASURES, as the paper prints them; shares as shares, d_H in % of the diagonal.
+    ?: not legible; nothing: not printed."""
     formats = (("q_min", ".3f"), ("q_avg", ".3f"), ("theta_min", ".2f"), ("theta_min_avg", ".2f"),
-               ("below_30", ".3f"), ("above_90", ".3f"), ("distance_rms", ".3f"))
-    return ["?" if values.get(key) is None else format(values[key], form)
+               ("theta_max", ".2f"), ("below_30", ".3f"), ("above_90", ".3f"),
+               ("distance_rms", ".3f"))
+    return ["" if key not in values else "?" if values[key] is None else format(values[key], form)
             for key, form in formats]
+
+
+def edge_lengths(r):
+    """Mean, least and largest."""
+    return f"{r['edge_length_mean']:.3g} ({r['edge_length_min']:.2g} to {r['edge_length_max']:.2g})"
 
 
 class Table:

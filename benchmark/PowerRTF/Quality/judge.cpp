@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Judges a remeshed surface, whoever made it: one line of JSON with the columns of the paper's
-// Tables 1 and 2, topology, and the two-sided distance to the input in % of the diagonal of its
-// bounding box. By the library's own functions (quality/), applied to the triangles as they are
-// in the file.
+// Tables 1 and 2, the largest angle, the lengths of the edges, topology, and the two-sided distance
+// to the input in % of the diagonal of its bounding box; the largest in its unit of length, too. By
+// the library's own functions (quality/), applied to the triangles as they are in the file.
 //
 //   judge INPUT OUTPUT
 #include <CGAL/PowerRTF/quality/self_intersections.h>
@@ -61,6 +61,9 @@ int main(int argc, char** argv)
   const Quality_statistics q = triangle_quality(output.points, output.triangles);
   const Distance_statistics d = surface_distance<CGAL::Sequential_tag>(
       input.points, input.triangles, output.points, output.triangles);
+  const Edge_length_statistics edges = edge_lengths(output.points, output.triangles);
+  const Box3<double> box = internal::bounding_box(input.points, input.triangles);
+  const double absolute_distance_max = d.max / 100 * length(box.hi - box.lo);
   std::cout.precision(9);
   std::cout << "{\"vertices\": " << after.vertices << ", \"faces\": " << after.faces
             << ", \"input_vertices\": " << before.vertices
@@ -76,8 +79,11 @@ int main(int argc, char** argv)
             << ", \"self_intersections\": " << self_intersections(output.points, output.triangles)
             << ", \"q_min\": " << q.q_min << ", \"q_avg\": " << q.q_avg
             << ", \"theta_min\": " << q.theta_min << ", \"theta_min_avg\": " << q.theta_min_avg
-            << ", \"below_30\": " << q.below_30 << ", \"above_90\": " << q.above_90
+            << ", \"theta_max\": " << q.theta_max << ", \"below_30\": " << q.below_30
+            << ", \"above_90\": " << q.above_90 << ", \"edge_length_mean\": " << edges.mean
+            << ", \"edge_length_min\": " << edges.min << ", \"edge_length_max\": " << edges.max
             << ", \"distance_rms\": " << d.rms << ", \"distance_mean\": " << d.mean
-            << ", \"distance_max\": " << d.max << "}\n";
+            << ", \"distance_max\": " << d.max
+            << ", \"absolute_distance_max\": " << absolute_distance_max << "}\n";
   return EXIT_SUCCESS;
 }
