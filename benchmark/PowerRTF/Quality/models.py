@@ -1,13 +1,14 @@
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The models of the paper: found in folders by their file's name, or made here."""
+"""The models of the paper, and mechanical parts: found in folders by their file's name, or made
+here."""
 
 import math
 import pathlib
 
 ENDINGS = (".off", ".obj", ".ply", ".stl")
 
-# The file names (without ending, lower case) that each model of the paper goes by.
+# The file names (without ending, lower case) that each model goes by.
 NAMES = {
     "Kitten": ("kitten",),
     "Armchair": ("armchair",),
@@ -24,6 +25,9 @@ NAMES = {
     "Fish": ("fish",),
     "David Head": ("david_head", "davidhead", "david"),
     "Gargoyle": ("gargoyle",),
+    "Fandisk": ("fandisk",),
+    "Gear": ("gear_chamfered",),
+    "Bracket": ("bracket",),
 }
 
 

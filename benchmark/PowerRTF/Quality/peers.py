@@ -13,32 +13,30 @@ from common import digest, notice
 from runs import Failed, measured
 
 HERE = pathlib.Path(__file__).resolve().parent
-WITHIN = 0.01  # of the number of vertices asked for
-UNIFORM_ONLY = {
-    "pymeshlab": "its adaptive mode follows creases and gives smooth models the same mesh",
-    "pyacvd": "its weights move the centroids (as of 0.4.0) instead of weighting the areas",
-}
+WITHIN = 0.01  # of the number of vertices asked for, where the search gets there
+TOLERATED = 0.1  # else; beyond it, a mesh does not compare
 
 
 class Peer:
     """A remesher with one knob `size`, of which the number of vertices is about a power. `call`:
-    (model, target, density, size, n) -> command; `start`: (n, area, diagonal) -> size."""
+    (model, target, density, size, crease_angle) -> command; `start`: (density, n) -> size."""
 
     def __init__(self, name, version, call, densities, start, ending=".off", inner=False):
         self.name, self.version, self.call = name, version, call
         self.densities, self.start = densities, start
         self.ending, self.inner = ending, inner
 
-    def run(self, runner, name, model, density, n):
-        """The run whose number of vertices is within 1 % of n, or the nearest one found."""
-        identity = f"{self.name} {self.version} {density} {digest(model)}"
+    def run(self, runner, name, model, density, n, crease_angle):
+        """The run whose number of vertices is within 1 % of n, or the nearest one within 10 %."""
+        identity = f"{self.name} {self.version} {density} {crease_angle} {digest(model)}"
         mesh = f"mesh{self.ending}"
         size, slope, last, best = self.start(density, n), None, None, None
         for attempt in range(12):
             result, folder = runner.keep(
                 f"{self.name} {name} {density}, size {size:.6g}", f"{identity} {size!r}",
                 model, mesh,
-                lambda folder, size=size: self.once(runner, model, folder / mesh, density, size, n))
+                lambda folder, size=size: self.once(
+                    runner, self.call(model, folder / mesh, density, size, crease_angle)))
             vertices = max(result["vertices"], 1)
             if best is None or abs(vertices - n) < abs(best[0]["vertices"] - n):
                 best = {**result, "attempts": attempt + 1}, folder
@@ -50,11 +48,13 @@ class Peer:
                 slope = 1 if self.start("uniform", 2 * n) > self.start("uniform", n) else -2
             last = size, vertices
             size *= min(max((n / vertices) ** (1 / slope), 0.2), 5)
+        nearest = best[0]["vertices"]
+        if abs(nearest - n) > TOLERATED * n:
+            raise Failed(f"no size gives about {n} vertices; the nearest: {nearest}")
         return best
 
-    def once(self, runner, model, target, density, size, n):
-        code, out, error, cpu, memory = measured(
-            self.call(model, target, density, size, n), runner.limit)
+    def once(self, runner, command):
+        code, out, error, cpu, memory = measured(command, runner.limit)
         if code != 0:
             raise Failed(error.splitlines()[-1] if error else f"exit code {code}")
         if self.inner:
@@ -67,6 +67,24 @@ def edge_length(density, n):
     """Of n vertices on a sphere, in units of its box's diagonal; or a first distance to it."""
     length = math.sqrt(2 / math.sqrt(3) * math.pi / n / 3)
     return length if density == "uniform" else 0.25 * length ** 2
+
+
+def number(density, n):
+    """For a tool that is asked for a number of vertices."""
+    return n
+
+
+# Peers that are Python packages: package, name, densities and why not both, first size.
+PYTHON_PEERS = (
+    ("pymeshlab", "pymeshlab", ("uniform",), edge_length,
+     "its adaptive mode follows creases and gives smooth models the same mesh"),
+    ("pyacvd", "pyacvd", ("uniform",), number,
+     "its weights move the centroids (as of 0.4.0) instead of weighting the areas"),
+    ("gpytoolbox", "gpytoolbox remesh_botsch", ("uniform",), edge_length, "it takes one length"),
+    ("pyinstantmeshes", "Instant Meshes, pyinstantmeshes", ("uniform",), number,
+     "it takes one length"),
+    ("mmgpy", "mmgs, mmgpy", ("uniform", "curvature"), edge_length, ""),
+)
 
 
 def find(binaries, python, missing):
@@ -83,28 +101,30 @@ def find(binaries, python, missing):
             notice(f"Peer skipped: {name}: {path} is not built")
             continue
         peers.append(Peer(name, version,
-                          lambda model, target, density, size, n, path=path:
-                          [path, model, target, density, repr(size)], densities, start))
+                          lambda model, target, density, size, crease_angle, path=path:
+                          [path, model, target, density, repr(size), crease_angle],
+                          densities, start))
         if "curvature" not in densities:
             notice(f"{name}: uniform only, an adaptive sizing needs CGAL 6 (here: {version})")
-    for package, start in (("pymeshlab", lambda density, n: edge_length("uniform", n)),
-                           ("pyacvd", lambda density, n: n)):
+    for package, name, densities, start, why in PYTHON_PEERS:
         if python is None or package in missing:
             notice(f"Peer skipped: {package}: it cannot be installed here")
             continue
-        peers.append(Peer(package, package_version(python, package),
-                          lambda model, target, density, size, n, package=package:
-                          [python, HERE / "peer_python.py", package, model, target, repr(size)],
-                          ("uniform",), start, ".ply", inner=True))
-        notice(f"{package}: uniform only, {UNIFORM_ONLY[package]}")
+        peers.append(Peer(name, package_version(python, package),
+                          lambda model, target, density, size, crease_angle, package=package:
+                          [python, HERE / "peer_python.py", package, model, target, density,
+                           repr(size), crease_angle],
+                          densities, start, ".ply", inner=True))
+        if why:
+            notice(f"{name}: uniform only, {why}")
     skipped_bindings(python, missing)
     if vorpalite := shutil.which("vorpalite"):
         # the number of samples is asked for, so there is nothing to search
         peers.append(Peer("Geogram vorpalite", "",
-                          lambda model, target, density, size, n:
+                          lambda model, target, density, size, crease_angle:
                           [vorpalite, "remesh=true", f"remesh:nb_pts={round(size)}",
                            f"remesh:gradation={0 if density == 'uniform' else 1}", model, target],
-                          ("uniform", "curvature"), lambda density, n: n, ".obj"))
+                          ("uniform", "curvature"), number, ".obj"))
     else:
         notice("Peer skipped: Geogram: there is no vorpalite in PATH")
     notice("Peer skipped: pmp-library: its remeshing is in a library and an interactive viewer, "

@@ -38,7 +38,7 @@ def figure_peers(runs, path):
     cases = sorted({(run["model"], run["density"]) for run in runs})
     methods = list(dict.fromkeys(run["method"] for run in runs))
     colors = plt.get_cmap("tab10")
-    figure, axes = plt.subplots(2, 2, figsize=(11, 6.4), layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(14, 7), layout="constrained")
     for axis, (key, label, logarithmic) in zip(axes.flat, panels):
         for m, method in enumerate(methods):
             values = {(run["model"], run["density"]): run[key] for run in runs
@@ -55,7 +55,7 @@ def figure_peers(runs, path):
         if key == "q_avg":
             axis.set_ylim(0.7, 1)
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center",
-                  ncols=len(methods), fontsize=8)
+                  ncols=min(len(methods), 5), fontsize=8)
     figure.savefig(path, dpi=110)
 
 

@@ -31,29 +31,45 @@ import peers as other  # noqa: E402
 from models import Models  # noqa: E402
 from runs import Failed, Runner  # noqa: E402
 
-TARGETS = ("power_rtf_remesh", "judge", "cgal_isotropic_remeshing", "cgal_mesh_3")
+TARGETS = ("power_rtf_remesh", "judge", "cad_models", "cgal_isotropic_remeshing", "cgal_mesh_3")
 PEER_COLUMNS = ("model", "density", "vertices", "tool", *figures.MEASURES, "d<sub>max</sub>",
-                "CPU (s)", "MiB", "topology")
+                "d<sub>max</sub>, absolute", "edge length", "CPU (s)", "MiB", "topology")
+# What the README shows.
+PAPER_IN_SHORT = tuple(column for column in figures.COLUMNS if column not in (
+    "topology", "what differs, and why", "< 30°", "constructions"))
+MODELS_IN_SHORT = ("Kitten", "Elk", "Fandisk", "Gear")
+PEERS_IN_SHORT = ("model", "vertices", "tool", "Q<sub>min</sub>", "Q<sub>avg</sub>",
+                  "θ<sub>min</sub>", "θ<sub>max</sub>", "d<sub>H</sub>", "d<sub>max</sub>",
+                  "CPU (s)", "topology")
 VIEWS = {"Disc": ["--up", "z", "--elevation", "40"],
          "Three Holes": ["--up", "z", "--elevation", "50"],
          "Close Hemisphere": ["--up", "z", "--elevation", "30"], "Armadillo": ["--azimuth", "240"]}
 PEER_MODELS = ("Kitten", "Homer", "Rocker", "Elk", "Armadillo", "Bunny")
+PARTS = ("Fandisk", "Gear", "Bracket")  # mechanical ones
+CREASE_ANGLE = 40  # of the parts, for the tools that can keep creases: the default of our own
 
 
 def compare_peers(reproduction, runner, peers, quick):
     """The same models and numbers of vertices for all tools."""
     table = figures.Table("peers", "Other remeshers", (
-        "The same judge, the same number of vertices (within 1 %, by a search over the tool's "
-        "length or tolerance; its cost is not counted). CPU time and peak memory of the process, "
-        "with files read and written, for the program of this project with its own assessment, "
-        "too (memory below about 30 MiB does not show: it is the driver's own); for Python packages "
-        "without the interpreter and their import. Adaptive means what "
-        "each tool offers for it, so the spacing differs between tools."), PEER_COLUMNS)
+        "The same judge, the same number of vertices (within 1 %, or else the nearest within 10 %, "
+        "by a search over the tool's length or tolerance; its cost is not counted). CPU time and "
+        "peak memory of the process, with files read and written, for the program of this project "
+        "with its own assessment, too (no memory below the driver's own shows, which is the least "
+        "of the programs'); for Python packages without the interpreter and their import. Adaptive "
+        "means what each tool offers for it, so the spacing differs between tools. On the "
+        f"mechanical parts ({', '.join(PARTS)}) the other tools are asked to keep creases of "
+        f"{CREASE_ANGLE}° and more (pyacvd cannot), on the other models not; the preset quality "
+        "looks for such creases on all, the preset paper on none. The edge length (mean, least and "
+        "largest) and the absolute distance are in the model's own unit (Gear, Bracket: mm), all "
+        "other distances in % of the diagonal."), PEER_COLUMNS)
     wanted = ("Retinal",) if quick else PEER_MODELS
-    models = [m for m in wanted if reproduction.models.get(m)] or ["Three Holes"]
-    for model in models[:4]:
+    models = [m for m in wanted if reproduction.models.get(m)][:4] or ["Three Holes"]
+    parts = [m for m in (PARTS[-1:] if quick else PARTS) if reproduction.models.get(m)]
+    for model in models + parts:
         n, path = reproduction.size["n"], reproduction.models.get(model)
-        for density in ("uniform", "curvature"):
+        crease_angle = CREASE_ANGLE if model in PARTS else 180
+        for density in ("uniform",) if model in PARTS else ("uniform", "curvature"):
             for preset in ("quality", "paper"):
                 add_peer(table, model, density, f"PowerRTF, preset {preset}",
                          runner.later(runner.power_rtf, model, path, n, "--density", density,
@@ -61,7 +77,8 @@ def compare_peers(reproduction, runner, peers, quick):
             for peer in peers:
                 if density in peer.densities:
                     add_peer(table, model, density, f"{peer.name} {peer.version}".strip(),
-                             runner.later(peer.run, runner, model, path, density, n))
+                             runner.later(peer.run, runner, model, path, density, n,
+                                          crease_angle))
     return table
 
 
@@ -71,12 +88,13 @@ def add_peer(table, model, density, tool, future):
             result, _ = future.result()
         except Failed as error:
             notice(f"  {tool}, {model}: {error}")
-            return [model, density, "", tool, *[""] * (len(figures.MEASURES) + 3),
+            return [model, density, "", tool, *[""] * (len(figures.MEASURES) + 5),
                     f"failed: {error}"]
         table.data.append({"model": model, "density": density, "method": tool, **result})
         return [model, density, result["vertices"], tool, *figures.cells(result),
-                f"{result['distance_max']:.2f}", f"{result['cpu']:.1f}",
-                f"{result['memory']:.0f}", figures.topology(result)]
+                f"{result['distance_max']:.2f}", f"{result['absolute_distance_max']:.2g}",
+                figures.edge_lengths(result), f"{result['cpu']:.1f}", f"{result['memory']:.0f}",
+                figures.topology(result)]
 
     table.rows.append(row)
 
@@ -140,18 +158,24 @@ def write(tables, options, python, footer):
     (folder / "results.md").write_text("\n".join(text), encoding="utf-8")
 
 
+def in_short(table, names, wanted=lambda row: True):
+    """These columns of the rows that are wanted."""
+    places = [table.columns.index(name) for name in names]
+    return [[row[k] for k in places] for row in table.rows if wanted(row)]
+
+
 def readme_blocks(tables, footer):
-    """The blocks of the README: the paper's rows beside ours, and the peers, in short."""
-    blocks = {}
+    """The blocks of the README: the paper's rows beside ours, and some of the peers'."""
+    short = {}
     for table in tables:
         if table.name in ("table_1", "figure_14") and table.rows:
-            keep = [k for k, c in enumerate(table.columns)
-                    if c not in ("topology", "what differs, and why", "< 30°", "constructions")]
-            rows = [[row[k] for k in keep] for row in table.rows]
-            blocks.setdefault("paper", ([table.columns[k] for k in keep], []))[1].extend(rows)
+            short.setdefault("paper", (PAPER_IN_SHORT, [], 4))[1].extend(
+                in_short(table, PAPER_IN_SHORT))
         if table.name == "peers" and table.rows:
-            blocks["peers"] = (table.columns, table.rows)
-    return {name: markdown(*content, 4) + "\n" + footer + "\n" for name, content in blocks.items()}
+            short["peers"] = (PEERS_IN_SHORT, in_short(
+                table, PEERS_IN_SHORT,
+                lambda row: row[0] in MODELS_IN_SHORT and row[1] == "uniform"), 3)
+    return {name: markdown(*content) + "\n" + footer + "\n" for name, content in short.items()}
 
 
 def parse():
@@ -195,10 +219,13 @@ def main():
     python, missing = None, []
     if options.network:
         packages = ["matplotlib", "pyvista"]
-        packages += ["pymeshlab", "pyacvd", "geogram"] if options.peers else []
+        packages += [*(peer[0] for peer in other.PYTHON_PEERS), "geogram"] if options.peers else []
         python, missing = python_environment(options.output / "environment", packages)
     data = os.environ.get("POWER_RTF_DATA", DATA)
-    models = Models([*options.models, data], options.output / "models")
+    parts = options.output / "parts"
+    parts.mkdir(exist_ok=True)
+    subprocess.run([options.binaries / "cad_models", parts], check=True)
+    models = Models([*options.models, data, parts], options.output / "models")
     runner = Runner(options.output / "runs", options.binaries / "power_rtf_remesh",
                     options.binaries / "judge", options.traits, options.jobs,
                     120 if options.quick else 900)

@@ -4,13 +4,15 @@
 // A peer: CGAL::Polygon_mesh_processing::isotropic_remeshing(), with edges of one length or, from
 // CGAL 6 on, as long as its Adaptive_sizing_field says.
 //
-//   cgal_isotropic_remeshing INPUT OUTPUT uniform LENGTH
-//   cgal_isotropic_remeshing INPUT OUTPUT curvature TOLERANCE
+//   cgal_isotropic_remeshing INPUT OUTPUT uniform LENGTH CREASE_ANGLE
+//   cgal_isotropic_remeshing INPUT OUTPUT curvature TOLERANCE CREASE_ANGLE
 //
-// Lengths are in units of the diagonal of the bounding box. Exit code 3: not with this CGAL.
+// Lengths are in units of the diagonal of the bounding box. Edges are kept where the normals turn
+// by more than CREASE_ANGLE degrees (180: none). Exit code 3: not with this CGAL.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/version.h>
@@ -31,7 +33,7 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 int main(int argc, char** argv)
 {
   Mesh mesh;
-  if (argc != 5 || !PMP::IO::read_polygon_mesh(argv[1], mesh) || !CGAL::is_triangle_mesh(mesh)) {
+  if (argc != 6 || !PMP::IO::read_polygon_mesh(argv[1], mesh) || !CGAL::is_triangle_mesh(mesh)) {
     std::cerr << "cgal_isotropic_remeshing: wrong usage, or " << (argc > 1 ? argv[1] : "")
               << " is no triangle mesh\n";
     return EXIT_FAILURE;
@@ -39,7 +41,12 @@ int main(int argc, char** argv)
   const CGAL::Bbox_3 box = PMP::bbox(mesh);
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   const double length = std::atof(argv[4]) * diagonal;
-  const auto parameters = CGAL::parameters::number_of_iterations(10).number_of_relaxation_steps(3);
+  const auto is_crease = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_crease", false).first;
+  const double crease_angle = std::atof(argv[5]);
+  if (crease_angle < 180) PMP::detect_sharp_edges(mesh, crease_angle, is_crease);
+  const auto parameters = CGAL::parameters::number_of_iterations(10)
+                              .number_of_relaxation_steps(3)
+                              .edge_is_constrained_map(is_crease);
   if (std::string(argv[3]) == "uniform") {
     PMP::isotropic_remeshing(faces(mesh), length, mesh, parameters);
   } else {

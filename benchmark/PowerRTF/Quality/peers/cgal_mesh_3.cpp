@@ -5,16 +5,17 @@
 // surface: facets of one size, or, for `curvature`, as small as a bound on their distance to the
 // surface asks for.
 //
-//   cgal_mesh_3 INPUT OUTPUT uniform|curvature LENGTH
+//   cgal_mesh_3 INPUT OUTPUT uniform|curvature LENGTH CREASE_ANGLE
 //
-// LENGTH is in units of the diagonal of the bounding box.
+// LENGTH is in units of the diagonal of the bounding box. Edges are kept where the normals turn by
+// more than CREASE_ANGLE degrees (180: none).
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
-#include <CGAL/Polyhedral_mesh_domain_3.h>
+#include <CGAL/Polyhedral_mesh_domain_with_features_3.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/facets_in_complex_3_to_triangle_mesh.h>
 #include <CGAL/make_mesh_3.h>
@@ -26,7 +27,7 @@
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Domain = CGAL::Polyhedral_mesh_domain_3<Mesh, Kernel>;
+using Domain = CGAL::Polyhedral_mesh_domain_with_features_3<Kernel, Mesh>;
 using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
@@ -36,7 +37,7 @@ using namespace CGAL::parameters;
 int main(int argc, char** argv)
 {
   Mesh mesh, output;
-  if (argc != 5 || !PMP::IO::read_polygon_mesh(argv[1], mesh) || !CGAL::is_triangle_mesh(mesh) ||
+  if (argc != 6 || !PMP::IO::read_polygon_mesh(argv[1], mesh) || !CGAL::is_triangle_mesh(mesh) ||
       !CGAL::is_closed(mesh)) {
     std::cerr << "cgal_mesh_3: wrong usage, or " << (argc > 1 ? argv[1] : "")
               << " is no closed triangle mesh\n";
@@ -49,11 +50,14 @@ int main(int argc, char** argv)
   CGAL::get_default_random() = CGAL::Random(0);
   const Mesh* surfaces[] = {&mesh};
   Domain domain(surfaces, surfaces + 1); // of surfaces: what is inside is not meshed
+  const double crease_angle = std::atof(argv[5]);
+  if (crease_angle < 180) domain.detect_features(crease_angle);
+  const double largest = uniform ? length : 0.1 * diagonal;
   const Criteria criteria =
-      uniform ? Criteria(facet_angle = 30, facet_size = length,
+      uniform ? Criteria(edge_size = largest, facet_angle = 30, facet_size = largest,
                          facet_topology = CGAL::MANIFOLD)
-              : Criteria(facet_angle = 30, facet_size = 0.1 * diagonal, facet_distance = length,
-                         facet_topology = CGAL::MANIFOLD);
+              : Criteria(edge_size = largest, facet_angle = 30, facet_size = largest,
+                         facet_distance = length, facet_topology = CGAL::MANIFOLD);
   const Complex complex =
       CGAL::make_mesh_3<Complex>(domain, criteria, no_perturb(), no_exude());
   CGAL::facets_in_complex_3_to_triangle_mesh(complex, output);
