@@ -179,10 +179,11 @@ inline std::vector<std::string> wrong_figures(const Run& run)
 }
 
 /// What the run did that no run may do; empty: nothing.
-///   - It ends with 0, 1 or 3 within `time_limit`.
+///   - It ends with 0, 1 or 3 within `time_limit`; or with 5, where a binary STL's coordinates, of
+///     single precision, cannot hold the result.
 ///   - With 0 or 3: the report's figures are the file's.
 ///   - With 0: the file has no defect.
-///   - With 1: nothing is written, and the message names the input.
+///   - With 1: nothing is written, and the message names the input; with 5, the output.
 ///   - With 3: the message names the output and each missed guarantee of the report.
 inline std::string failure(const Run& run)
 {
@@ -190,9 +191,13 @@ inline std::string failure(const Run& run)
   const auto says = [&](const std::string& text) {
     return run.message.find(text) != std::string::npos;
   };
-  if (run.exit_code == 1) {
+  const bool is_too_far = run.exit_code == 5 && fs::path(run.output).extension() == ".stl" &&
+                          says("numbers of single precision, cannot hold");
+  if (run.exit_code == 1 || is_too_far) {
     if (fs::exists(run.output)) return "refused, but something is written";
-    return says(run.input) ? "" : "refused without the file's name: " + run.message;
+    return says(is_too_far ? run.output : run.input)
+               ? ""
+               : "refused without the file's name: " + run.message;
   }
   if (run.exit_code != 0 && run.exit_code != 3)
     return "ends with " + std::to_string(run.exit_code) + ": " + run.message;
