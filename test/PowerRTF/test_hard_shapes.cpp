@@ -9,6 +9,9 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
+#include <string>
+
 namespace
 {
 
@@ -135,6 +138,24 @@ TEST_CASE("no run on a hard shape fails silently")
     if (run.exit_code == 1 && !is_too_far)
       CHECK_FALSE(judge::is_clean(judge::merged(judge::read(run.input))));
   }
+}
+
+TEST_CASE("drawn-out shapes with vertices of thousands of edges take no minutes")
+{
+  const judged_run::Scratch_folder folder;
+  const std::set<std::string> names{"box_1_1e-4_1e-4", "icosahedron_drawn_out_65536",
+                                    "tetrahedron_drawn_out_1e4", "star_prism_flat"};
+  std::size_t runs = 0;
+  for (const auto& shape : shapes::hard_shapes()) {
+    const std::string name = shape.first;
+    if (names.count(name) == 0) continue;
+    ++runs;
+    CAPTURE(name);
+    const judged_run::Run run =
+        judged_run::run(folder, name, shape.second, {3000, "uniform", "off"});
+    CHECK(judged_run::failure(run) == "");
+  }
+  CHECK(runs == names.size());
 }
 
 int main(int argc, char** argv)
