@@ -491,9 +491,13 @@ TEST_CASE("cancellation leaves the output as it was")
     const Remeshing_report report = CGAL::power_rtf_remeshing(
         input, 120, output, params::remeshing_options(uniform()).visitor(std::ref(visitor)));
     CHECK(report.cancelled);
-    CHECK(visitor.iterations == std::max(1, stop_after)); // asked after each iteration
     CHECK(int(report.outer_iterations) == visitor.iterations);
-    CHECK(visitor.stages.back() == "optimization");
+    if (stop_after == 0) { // asked after the first iteration at the latest
+      CHECK(visitor.iterations <= 1);
+    } else {
+      CHECK(visitor.iterations == stop_after);
+      CHECK(visitor.stages.back() == "optimization");
+    }
     CHECK(are_equal(soup_of(output), before));
   }
 }
