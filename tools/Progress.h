@@ -14,14 +14,13 @@
 #include <string>
 #include <unistd.h>
 
-namespace tools
-{
+namespace tools {
 
-/// The signal that came, SIGINT (Ctrl-C) or SIGTERM, or 0; the run ends at the next chance.
+/// The signal received, SIGINT (Ctrl-C) or SIGTERM, or 0. The run ends at the next poll.
 inline volatile std::sig_atomic_t interrupted = 0;
 
-/// The user cancelled the run, in one of the library's loops or elsewhere; the program ends with exit
-/// code 128 + `interrupted`, as shells have it.
+/// The user cancelled the run, in one of the library's loops or elsewhere; the program ends with
+/// exit code 128 + `interrupted`, as is usual in shells.
 using Cancelled = CGAL::PowerRTF::internal::Run_cancelled;
 
 /// Lets the first of each signal set `interrupted` and the second end the program at once.
@@ -38,8 +37,7 @@ inline void stop_if_interrupted()
   if (interrupted) throw Cancelled();
 }
 
-class Progress : public CGAL::PowerRTF::Remeshing_default_visitor
-{
+class Progress : public CGAL::PowerRTF::Remeshing_default_visitor {
 public:
   /// Draws on stderr when that is a terminal, unless `quiet`.
   explicit Progress(bool quiet) : m_draws(!quiet && ::isatty(STDERR_FILENO)) {}

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cells_io.h"
 
+#include "dataset.h"
+
 #include <numeric>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using CGAL::PowerRTF::Cell_polygon;
 using CGAL::PowerRTF::Normalization;
@@ -18,7 +18,7 @@ void write(std::ostream& out, Format format, Encoding encoding, const Dataset& d
   format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
 }
 
-/// Of areas and of squared lengths.
+/// The factor of areas and of squared lengths.
 double outside_square(const Normalization& normalization)
 {
   return 1 / (normalization.scale * normalization.scale);

@@ -5,25 +5,24 @@
 #ifndef POWER_RTF_TOOLS_CELLS_IO_H
 #define POWER_RTF_TOOLS_CELLS_IO_H
 
-#include "mesh_io.h"
+#include "Format.h"
 
-#include <CGAL/PowerRTF/engines/Cell_polygon.h>
-#include <CGAL/PowerRTF/surface/Surface.h>
+#include <CGAL/PowerRTF/cells/Cell_polygon.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
 
 #include <iosfwd>
 #include <vector>
 
-namespace tools
-{
+namespace tools {
 
-/// The polygons F_i with the number of their sample (from 0), weight w_i, mass m_i, density rho_i
-/// and status (0: ok, 1: guarded, 2: empty, 3: incomplete). Empty cells have no polygon. `format`
-/// is ply or vtp; `encoding` is that of PLY.
+/// Writes the polygons F_i with the number of their sample (from 0), weight w_i, mass m_i, density
+/// rho_i and status (0: ok, 1: guarded, 2: empty, 3: incomplete). Empty cells have no polygon.
+/// `format` is ply or vtp; `encoding` is that of PLY.
 void write_cells(std::ostream& out, Format format, Encoding encoding,
                  const std::vector<CGAL::PowerRTF::Cell_polygon>& cells,
                  const CGAL::PowerRTF::Normalization& normalization);
 
-/// The samples with normals n_i, weights w_i and densities rho_i.
+/// Writes the samples with normals n_i, weights w_i and densities rho_i.
 void write_samples(std::ostream& out, Format format, Encoding encoding,
                    const CGAL::PowerRTF::Samples& samples,
                    const CGAL::PowerRTF::Normalization& normalization);

@@ -9,16 +9,13 @@
 #include <ostream>
 #include <string_view>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using CGAL::PowerRTF::Vec3d;
 
-/// Collects what is written; numbers in their shortest form that reads back the same.
-class Text
-{
+/// Buffers what is written. Numbers take their shortest form that reads back the same.
+class Text {
 public:
   explicit Text(std::ostream& out) : m_out(out) {}
   ~Text() { flush(); }
@@ -51,9 +48,8 @@ private:
   std::string m_text;
 };
 
-/// Rows of numbers in words.
-class Text_rows
-{
+/// Rows of numbers as text.
+class Text_rows {
 public:
   explicit Text_rows(Text& text) : m_text(text) {}
 
@@ -75,9 +71,8 @@ private:
   bool m_at_begin = true;
 };
 
-/// Numbers in bytes, that of least weight first.
-class Binary_rows
-{
+/// Numbers in bytes, the least significant first.
+class Binary_rows {
 public:
   explicit Binary_rows(Text& text) : m_text(text) {}
 

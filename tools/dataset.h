@@ -1,20 +1,22 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points and polygons with named values at both, as PLY or VTP (which CGAL writes without values).
+// Points and polygons with named values at both, and their files: PLY and VTP. (CGAL writes these
+// formats without such values.)
 #ifndef POWER_RTF_TOOLS_DATASET_H
 #define POWER_RTF_TOOLS_DATASET_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include "Format.h"
+
+#include <CGAL/PowerRTF/geometry/vector.h>
 
 #include <iosfwd>
 #include <string>
 #include <vector>
 
-namespace tools
-{
+namespace tools {
 
-/// A value per point or polygon; `integers` is taken instead of `values` when it is not empty.
+/// A value per point or polygon: those of `integers` if there are some, else those of `values`.
 struct Field {
   std::string name;
   std::vector<double> values;
@@ -28,9 +30,7 @@ struct Dataset {
   std::vector<Field> point_fields, polygon_fields;
 };
 
-enum class Encoding { binary, text };
-
-/// Text has as many digits as bring every double back.
+/// Text has as many digits as are needed to read back the same doubles.
 void write_ply(std::ostream& out, const Dataset& data, Encoding encoding);
 void write_vtp(std::ostream& out, const Dataset& data); ///< as text
 

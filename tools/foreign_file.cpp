@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using namespace std::string_view_literals;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_io.h"
 
+#include "dataset.h"
 #include "foreign_file.h"
 #include "output_file.h"
 #include "ply_mesh.h"
@@ -15,8 +16,6 @@
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -24,10 +23,8 @@
 #include <fstream>
 #include <limits>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 namespace fs = std::filesystem;
 using CGAL::PowerRTF::Invalid_input_error;
@@ -35,7 +32,7 @@ using CGAL::PowerRTF::Triangle;
 using CGAL::PowerRTF::Vec3d;
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 
-/// What keeps the file from being opened at all, or nothing.
+/// Why the file cannot be opened; empty if it can.
 std::string file_error(const std::string& file)
 {
   std::error_code error;
@@ -61,7 +58,7 @@ std::string read_bytes(const std::string& file, std::uintmax_t count)
   return data;
 }
 
-/// What keeps a file that can be opened from being a mesh of the `format`, or nothing.
+/// Why a file that can be opened is no mesh of that format; empty if it may be one.
 std::string kind_error(const std::string& file, Format format)
 {
   const std::string beginning = read_bytes(file, 256);
@@ -102,19 +99,6 @@ void check_single_precision(const std::vector<Vec3d>& points)
 
 } // namespace
 
-Format format_of(const std::string& file)
-{
-  std::string end = fs::path(file).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (end == ".off") return Format::off;
-  if (end == ".obj") return Format::obj;
-  if (end == ".ply") return Format::ply;
-  if (end == ".stl") return Format::stl;
-  if (end == ".vtp") return Format::vtp;
-  return Format::unknown;
-}
-
 Polygon_mesh read_mesh(const std::string& file)
 {
   const Format format = format_of(file);
@@ -140,11 +124,6 @@ Polygon_mesh parse_mesh(Format format, std::string_view data)
                                               : parse_stl(data);
   check(mesh);
   return mesh;
-}
-
-bool holds_floats(Format format, Encoding encoding)
-{
-  return format == Format::stl && encoding == Encoding::binary;
 }
 
 void write_mesh(std::ostream& out, Format format, Encoding encoding,

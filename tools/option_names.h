@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the parameters of the remesher are called on the command line and in the JSON report.
+// The names of the remesher's parameters on the command line and in the JSON report.
 #ifndef POWER_RTF_TOOLS_OPTION_NAMES_H
 #define POWER_RTF_TOOLS_OPTION_NAMES_H
 
@@ -11,8 +11,7 @@
 #include <map>
 #include <string>
 
-namespace tools
-{
+namespace tools {
 
 /// The member's name, with dashes.
 inline std::string member_name(const CGAL::PowerRTF::Option& option)

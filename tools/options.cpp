@@ -14,10 +14,8 @@
 #include <type_traits>
 #include <vector>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 namespace po = boost::program_options;
 using namespace CGAL::PowerRTF;
@@ -28,7 +26,7 @@ using namespace CGAL::PowerRTF;
   throw Usage_error("--" + option + ": '" + value + "' is not " + expected);
 }
 
-/// The number that `text` is, as a whole; beyond what `T` can hold: its nearest value.
+/// The whole of `text` as a number, clamped to the limits of `T`.
 template <class T>
 T parse_number(const std::string& option, const std::string& text)
 {
@@ -54,7 +52,7 @@ T parse_value(const std::string& option, const std::string& text, const Option_r
   } else {
     using Number = std::conditional_t<std::is_integral<T>::value, long long, double>;
     const Number value = parse_number<Number>(option, text);
-    // n: what is too little or too much is said about the input, not the usage.
+    // Too few or too many samples are an error of the input, not of the usage.
     if constexpr (std::is_same<T, std::size_t>::value) return value < 0 ? 0 : T(value);
     if (is_allowed(value, range)) return static_cast<T>(value);
   }
@@ -66,9 +64,8 @@ po::typed_value<std::string>* text(const std::string& value_name)
   return po::value<std::string>()->value_name(value_name);
 }
 
-/// The options that --help shows, by group, and the other names that are understood too.
-class Descriptions
-{
+/// The options that --help shows, by group, and their hidden synonyms.
+class Descriptions {
 public:
   Descriptions()
   {
@@ -90,8 +87,8 @@ public:
       }
       if (*option.symbol) help += " [" + std::string(option.symbol) + "]";
       if (!is_switch)
-        help += " (" + to_text(value) +
-                (value == of_paper ? "" : "; paper: " + to_text(of_paper)) + ")";
+        help += " (" + to_text(value) + (value == of_paper ? "" : "; paper: " + to_text(of_paper)) +
+                ")";
       const std::string name = option_name(option), other_name = member_name(option);
       add(group(option.group), name == "samples" ? "samples,n" : name, argument, help);
       if (other_name != name) add(m_hidden, other_name, argument, "");
@@ -103,9 +100,10 @@ public:
         "samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")(
         "ascii", "write PLY and STL as text, not as binary data")(
         "no-mesh", "stop at the samples: OUTPUT is not needed and not written");
-    group("Comparison with exact arithmetic").add_options()(
-        "check", "compare the cells with the exact ones")(
-        "check-every", text("N"), "compare them every N iterations, too; 0: only at the end (0)");
+    group("Comparison with exact arithmetic")
+        .add_options()("check", "compare the cells with the exact ones")(
+            "check-every", text("N"),
+            "compare them every N iterations, too; 0: only at the end (0)");
     group("Program").add_options()("traits", text("NAME"),
                                    "auto|cpu|exact|cuda: what runs the algorithm; auto: "
                                    "the GPU if there is one, else the CPU (auto)")(
@@ -126,7 +124,8 @@ public:
     for (const po::options_description& g : m_groups) all.add(g); // together, so that they align
     out << all;
     out << "\nExit codes: 0 done, every guarantee met; 1 the input cannot be used; 2 wrong usage;\n"
-           "3 written, but a guarantee was missed; 4 written, but a cell is wrong that was certified\n"
+           "3 written, but a guarantee was missed; 4 written, but a cell is wrong that was "
+           "certified\n"
            "(--check); 5 an output cannot be written; 130 cancelled by Ctrl-C, 143 by SIGTERM.\n";
     return out.str();
   }
@@ -151,12 +150,14 @@ public:
   }
 
 private:
-  /// Without an `argument`: a switch.
+  /// Adds an option; without an `argument` it is a switch.
   static void add(po::options_description& options, const std::string& name,
                   const std::string& argument, const std::string& help)
   {
-    if (argument.empty()) options.add_options()(name.c_str(), help.c_str());
-    else options.add_options()(name.c_str(), text(argument), help.c_str());
+    if (argument.empty())
+      options.add_options()(name.c_str(), help.c_str());
+    else
+      options.add_options()(name.c_str(), text(argument), help.c_str());
   }
 
   po::options_description& group(const std::string& name)
@@ -174,7 +175,7 @@ private:
   po::options_description m_hidden;
 };
 
-/// The preset first, then what the command line says about single parameters.
+/// The parameters of the preset, changed by the options for single parameters.
 Remeshing_options remeshing_options(const po::variables_map& values)
 {
   Remeshing_options o;
@@ -188,8 +189,10 @@ Remeshing_options remeshing_options(const po::variables_map& values)
       throw Usage_error("--" + name + " and --" + other_name + " are the same option");
     const std::string& given = values.count(other_name) ? other_name : name;
     if (!values.count(given)) return;
-    if constexpr (std::is_same<T, bool>::value) o.*member = true;
-    else o.*member = parse_value<T>(given, values[given].as<std::string>(), option.range);
+    if constexpr (std::is_same<T, bool>::value)
+      o.*member = true;
+    else
+      o.*member = parse_value<T>(given, values[given].as<std::string>(), option.range);
   });
   return o;
 }

@@ -5,19 +5,17 @@
 #ifndef POWER_RTF_TOOLS_OPTIONS_H
 #define POWER_RTF_TOOLS_OPTIONS_H
 
-#include "dataset.h"
+#include "Format.h"
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 
 #include <stdexcept>
 #include <string>
 
-namespace tools
-{
+namespace tools {
 
 /// The command line cannot be understood; the program ends with exit code 2.
-class Usage_error : public std::runtime_error
-{
+class Usage_error : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
@@ -26,10 +24,10 @@ struct Program_options {
   std::string input, output;
   std::string report_file, cells_file, samples_file; ///< empty: not asked for
   CGAL::PowerRTF::Remeshing_options remeshing;
-  std::string traits; ///< "cpu", "exact", "cuda", or "auto": "cuda" if there is a GPU, else "cpu"
-  bool check = false;  ///< compare the cells with the oracle at the end
+  std::string traits;  ///< "cpu", "exact", "cuda", or "auto": "cuda" if there is a GPU, else "cpu"
+  bool check = false;  ///< compare the cells with the exact ones at the end
   int check_every = 0; ///< and every so many iterations; 0: only at the end
-  int threads = 0;    ///< 0: all
+  int threads = 0;     ///< 0: all
   bool write_mesh = true;
   Encoding encoding = Encoding::binary; ///< of PLY and STL
   bool quiet = false;

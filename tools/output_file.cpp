@@ -6,10 +6,8 @@
 #include <cstring>
 #include <unistd.h>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 namespace fs = std::filesystem;
 
@@ -42,8 +40,8 @@ fs::path target_of(const std::string& file)
     const fs::path canonical = fs::canonical(path, error);
     return error ? path : canonical;
   }
-  constexpr int most_links = 40; // as the system follows
-  for (int i = 0; i < most_links && fs::is_symlink(path, error); ++i)
+  constexpr int max_links = 40; // as the system follows
+  for (int i = 0; i < max_links && fs::is_symlink(path, error); ++i)
     path = path.parent_path() / fs::read_symlink(path, error);
   const fs::path canonical = fs::weakly_canonical(path, error);
   return error ? path : canonical;

@@ -10,17 +10,15 @@
 #include <stdexcept>
 #include <string>
 
-namespace tools
-{
+namespace tools {
 
 /// An output cannot be written; the program ends with exit code 5.
-class Output_error : public std::runtime_error
-{
+class Output_error : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// The file that `file` stands for: where symbolic links lead, whether there is one or not. (The
+/// The file that `file` refers to when symbolic links are followed, whether it exists or not. (The
 /// links stay when it is written.)
 std::filesystem::path target_of(const std::string& file);
 
@@ -28,11 +26,10 @@ std::filesystem::path target_of(const std::string& file);
 /// \throws Output_error naming file and reason
 void check_writable(const std::string& file);
 
-/// Writes to a temporary file in the target's folder, which takes the target's place at `commit()`;
-/// until then the target stays as it was, and without it for good. (A device or a pipe is written
-/// directly.) The target is where symbolic links lead.
-class Output_file
-{
+/// Writes to a temporary file in the target's folder, which replaces the target at `commit()`.
+/// Without `commit()` the target stays as it was. (A device or a pipe is written directly.)
+/// Symbolic links are followed.
+class Output_file {
 public:
   /// \throws Output_error when the temporary file cannot be made
   explicit Output_file(const std::string& file);
@@ -41,7 +38,7 @@ public:
   Output_file& operator=(const Output_file&) = delete;
 
   std::ostream& stream() { return m_stream; }
-  /// Brings all that was written to the disk. \throws Output_error when that fails
+  /// Flushes all that was written. \throws Output_error when that fails
   void close();
   /// Replaces the target; after `close()`. \throws Output_error when that fails
   void commit();

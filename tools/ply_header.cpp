@@ -5,12 +5,8 @@
 #include <iterator>
 #include <map>
 
-namespace tools
-{
-namespace ply
-{
-namespace
-{
+namespace tools::ply {
+namespace {
 
 using CGAL::PowerRTF::Invalid_input_error;
 
@@ -25,18 +21,17 @@ Role role_of(const Element& element, const Property& property)
   return name == "x" ? Role::x : name == "y" ? Role::y : name == "z" ? Role::z : Role::none;
 }
 
-/// Reads the header from `words`, which stay at its last word.
-class Header_reader
-{
+/// Reads the header; the tokenizer stays at its last token.
+class Header_reader {
 public:
-  explicit Header_reader(Words& words) : m_words(words) {}
+  explicit Header_reader(Tokenizer& tokens) : m_tokens(tokens) {}
 
   Header read()
   {
-    if (!m_words.next() || m_words.word() != "ply")
+    if (!m_tokens.next() || m_tokens.token() != "ply")
       throw Invalid_input_error("it is not a PLY file: it does not begin with ply");
     while (next_line() != "end_header") {
-      const std::string_view keyword = m_words.word();
+      const std::string_view keyword = m_tokens.token();
       if (keyword == "format")
         m_header.body = body();
       else if (keyword == "element")
@@ -44,47 +39,47 @@ public:
       else if (keyword == "property")
         add_property();
       else if (keyword != "comment" && keyword != "obj_info")
-        m_words.reject("is not known in the header of a PLY file");
+        m_tokens.reject("is not known in the header of a PLY file");
     }
     check();
     return std::move(m_header);
   }
 
 private:
-  /// Its first word.
+  /// The first token of the next line.
   std::string_view next_line()
   {
-    m_words.skip_line();
-    if (!m_words.next()) throw Invalid_input_error("the file is truncated in its header");
-    return m_words.word();
+    m_tokens.skip_line();
+    if (!m_tokens.next()) throw Invalid_input_error("the file is truncated in its header");
+    return m_tokens.token();
   }
 
-  /// The next word of the line.
+  /// The next token of the line.
   std::string_view next(const char* what)
   {
-    if (!m_words.next_in_line()) throw Invalid_input_error(m_words.at() + what + " is missing");
-    return m_words.word();
+    if (!m_tokens.next_in_line()) throw Invalid_input_error(m_tokens.at() + what + " is missing");
+    return m_tokens.token();
   }
 
   Body body()
   {
-    const std::string_view word = next("the format");
-    if (word == "ascii") return Body::text;
-    if (word == "binary_little_endian") return Body::little_endian;
-    if (word == "binary_big_endian") return Body::big_endian;
-    m_words.reject("is not a format of PLY");
+    const std::string_view format = next("the format");
+    if (format == "ascii") return Body::text;
+    if (format == "binary_little_endian") return Body::little_endian;
+    if (format == "binary_big_endian") return Body::big_endian;
+    m_tokens.reject("is not a format of PLY");
   }
 
-  /// The type that the word is.
+  /// The type that the token names.
   Type type() const
   {
     constexpr const char* names[][2] = {
         {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
         {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
     for (std::size_t i = 0; i < std::size(names); ++i)
-      if (m_words.word() == names[i][0] || m_words.word() == names[i][1])
+      if (m_tokens.token() == names[i][0] || m_tokens.token() == names[i][1])
         return static_cast<Type>(i);
-    m_words.reject("is not a type of PLY");
+    m_tokens.reject("is not a type of PLY");
   }
 
   void add_element()
@@ -92,8 +87,8 @@ private:
     Element element;
     element.name = next("the element's name");
     next("the number of elements");
-    const long long count = m_words.whole_number();
-    if (count < 0) m_words.reject("is not a number of elements");
+    const long long count = m_tokens.whole_number();
+    if (count < 0) m_tokens.reject("is not a number of elements");
     element.count = static_cast<std::size_t>(count);
     m_header.elements.push_back(std::move(element));
   }
@@ -101,21 +96,21 @@ private:
   void add_property()
   {
     if (m_header.elements.empty())
-      throw Invalid_input_error(m_words.at() + "a property stands before the first element");
+      throw Invalid_input_error(m_tokens.at() + "a property stands before the first element");
     Element& element = m_header.elements.back();
     Property property;
     if (next("the property's type") == "list") {
       next("the type of the list's length");
       property.length = type();
-      if (is_real(*property.length)) m_words.reject("is not a type of whole numbers");
+      if (is_real(*property.length)) m_tokens.reject("is not a type of whole numbers");
       next("the type of the list's entries");
     }
     property.type = type();
     property.name = next("the property's name");
     property.role = role_of(element, property);
-    if (property.role != Role::none && element.has(property.role)) m_words.reject("occurs twice");
+    if (property.role != Role::none && element.has(property.role)) m_tokens.reject("occurs twice");
     if (property.role == Role::corners && is_real(property.type))
-      m_words.reject("is no list of whole numbers");
+      m_tokens.reject("is no list of whole numbers");
     element.properties.push_back(std::move(property));
   }
 
@@ -134,13 +129,13 @@ private:
     if (facets == 0) throw Invalid_input_error("it has no facets");
   }
 
-  Words& m_words;
+  Tokenizer& m_tokens;
   Header m_header;
 };
 
 } // namespace
 
-Header read_header(Words& words) { return Header_reader(words).read(); }
+Header read_header(Tokenizer& tokens) { return Header_reader(tokens).read(); }
 
 std::set<std::string> attributes(const Header& header)
 {
@@ -178,5 +173,4 @@ std::set<std::string> attributes(const Header& header)
   return found;
 }
 
-} // namespace ply
-} // namespace tools
+} // namespace tools::ply

@@ -5,17 +5,14 @@
 #ifndef POWER_RTF_TOOLS_PLY_HEADER_H
 #define POWER_RTF_TOOLS_PLY_HEADER_H
 
-#include "Words.h"
+#include "Tokenizer.h"
 
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-namespace tools
-{
-namespace ply
-{
+namespace tools::ply {
 
 enum class Body { text, little_endian, big_endian };
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -49,15 +46,14 @@ struct Header {
   std::vector<Element> elements;
 };
 
-/// Reads the header of `words`, the body of which follows after the line of their last word: all
-/// vertices have coordinates, all facets have corners, and there are some.
+/// Reads the header; the body follows after the line of the last token. All vertices have
+/// coordinates, all facets have corners, and there are some.
 /// \throws Invalid_input_error the reason, with the line where it has one
-Header read_header(Words& words);
+Header read_header(Tokenizer& tokens);
 
 /// What the file holds beside points and facets, in words: "normals".
 std::set<std::string> attributes(const Header& header);
 
-} // namespace ply
-} // namespace tools
+} // namespace tools::ply
 
 #endif // POWER_RTF_TOOLS_PLY_HEADER_H

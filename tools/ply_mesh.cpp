@@ -8,10 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using namespace ply;
 using CGAL::PowerRTF::Invalid_input_error;
@@ -23,37 +21,34 @@ using CGAL::PowerRTF::Invalid_input_error;
                             std::to_string(item + 1) + " of " + std::to_string(element.count));
 }
 
-/// The values of a text, one word each.
-class Text_values
-{
+/// The values of a text, one token each.
+class Text_values {
 public:
-  explicit Text_values(const Words& words) : m_words(words) {}
+  explicit Text_values(const Tokenizer& tokens) : m_tokens(tokens) {}
 
-  /// The least number of bytes that a value takes.
+  /// The least size of a value, in bytes.
   static std::size_t size(Type) { return 1; }
-  std::string at() const { return m_words.at(); }
-  std::size_t bytes_left() const { return m_words.rest().size(); }
-  bool next(Type) { return m_words.next(); }
+  std::string at() const { return m_tokens.at(); }
+  std::size_t bytes_left() const { return m_tokens.rest().size(); }
+  bool next(Type) { return m_tokens.next(); }
   bool skip(Type, std::size_t count)
   {
-    while (count > 0 && m_words.next()) --count;
+    while (count > 0 && m_tokens.next()) --count;
     return count == 0;
   }
-  double number() const { return m_words.number(); }
-  long long whole_number() const { return m_words.whole_number(); }
+  double number() const { return m_tokens.number(); }
+  long long whole_number() const { return m_tokens.whole_number(); }
 
 private:
-  Words m_words;
+  Tokenizer m_tokens;
 };
 
 /// The values of binary data.
-class Binary_values
-{
+class Binary_values {
 public:
   Binary_values(std::string_view data, Body body)
       : m_data(data), m_big_endian(body == Body::big_endian)
-  {
-  }
+  {}
 
   static std::size_t size(Type type)
   {
@@ -114,11 +109,10 @@ private:
   Type m_type = Type::int8;
 };
 
-/// Appends what the header announces to the mesh. Room is made only for what the rest of the data
-/// is large enough for.
+/// Appends the elements that the header announces to the mesh. Memory is reserved only for as many
+/// as the rest of the data can hold.
 template <class Values>
-class Body_reader
-{
+class Body_reader {
 public:
   Body_reader(Values values, Polygon_mesh& mesh) : m_values(std::move(values)), m_mesh(mesh) {}
 
@@ -186,15 +180,15 @@ void read_body(Values values, const Header& header, Polygon_mesh& mesh)
 
 Polygon_mesh parse_ply(std::string_view data)
 {
-  Words words(data, '\n');
-  const Header header = read_header(words);
+  Tokenizer tokens(data, '\n');
+  const Header header = read_header(tokens);
   Polygon_mesh mesh;
   mesh.attributes = attributes(header);
-  words.skip_line();
+  tokens.skip_line();
   if (header.body == Body::text)
-    read_body(Text_values(words), header, mesh);
+    read_body(Text_values(tokens), header, mesh);
   else // after the end of the line
-    read_body(Binary_values(words.rest().substr(words.rest().empty() ? 0 : 1), *header.body),
+    read_body(Binary_values(tokens.rest().substr(tokens.rest().empty() ? 0 : 1), *header.body),
               header, mesh);
   return mesh;
 }

@@ -6,16 +6,15 @@
 #ifndef POWER_RTF_TOOLS_PLY_MESH_H
 #define POWER_RTF_TOOLS_PLY_MESH_H
 
-#include "mesh_io.h"
+#include "Polygon_mesh.h"
 
 #include <string_view>
 
-namespace tools
-{
+namespace tools {
 
 /// Reads text or binary of either byte order. Points and facets may have any further properties,
-/// and other elements may stand between them. Nothing takes more memory than the file's size
-/// allows. \throws Invalid_input_error the reason, with the line where it has one
+/// and other elements may stand between them. The memory used is bounded by the file's size.
+/// \throws Invalid_input_error the reason, with the line where it has one
 Polygon_mesh parse_ply(std::string_view data);
 
 } // namespace tools

@@ -14,9 +14,8 @@
 #endif
 #include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
-#include <CGAL/PowerRTF/surface/output_grid.h>
+#include <CGAL/PowerRTF/geometry/output_grid.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -32,8 +31,7 @@
 #include <new>
 #include <optional>
 
-namespace
-{
+namespace {
 
 using namespace CGAL::PowerRTF;
 using namespace tools;
@@ -51,7 +49,7 @@ enum Exit_code {
   cancelled = 128 // and the number of the signal
 };
 
-/// \throws Output_error when one of the files cannot be written in the end
+/// Checks before any work that all files can be written. \throws Output_error
 void check_outputs(const Program_options& o)
 {
   if (o.write_mesh && format_of(o.output) == Format::unknown)
@@ -65,7 +63,8 @@ void check_outputs(const Program_options& o)
     if (!file.empty()) check_writable(file);
 }
 
-/// What `make` returns. \throws Invalid_input_error what it throws, with the input's name
+/// Returns what `make` returns. \throws Invalid_input_error with the input's name before the
+/// message that `make` throws
 template <class Make>
 auto about_input(const Program_options& options, const Make& make)
 {
@@ -80,7 +79,7 @@ auto about_input(const Program_options& options, const Make& make)
 void check_number_of_samples(const Program_options& options)
 {
   about_input(options, [&] { return validate(options.remeshing); }); // the rest has been checked
-  const double bytes_per_sample = 1000; // a low estimate: refuses only what surely does not fit
+  const double bytes_per_sample = 1000; // a low estimate: only what surely does not fit is refused
   const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
   const double most = memory / bytes_per_sample;
   if (double(options.remeshing.number_of_samples) > most)
@@ -89,31 +88,16 @@ void check_number_of_samples(const Program_options& options)
                               " samples fit into the memory of this machine");
 }
 
-/// The surface of the input; `run` receives what it took and what is lost.
-Surface load(const Program_options& options, Run& run)
+/// Whether the output's coordinates are of single precision.
+bool writes_floats(const Program_options& options)
 {
-  Remeshing_report& report = run.report;
-  Polygon_mesh mesh;
-  {
-    Stopwatch watch(report.seconds.load);
-    mesh = read_mesh(options.input);
-  }
-  run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
-  stop_if_interrupted();
-  Stopwatch watch(report.seconds.surface);
-  return about_input(options, [&] {
-    Surface surface = import_soup(mesh.points, mesh.polygons, report.repairs,
-                                  options.remeshing.repair);
-    set_creases(surface, options.remeshing);
-    set_density(surface, options.remeshing);
-    return surface;
-  });
+  return options.write_mesh && holds_floats(format_of(options.output), options.encoding);
 }
 
 /// \throws Output_error when the coordinates of a binary file cannot hold the result
 void check_precision(Surface& surface, const Program_options& options)
 {
-  if (!options.write_mesh || !holds_floats(format_of(options.output), options.encoding)) return;
+  if (!writes_floats(options)) return;
   try {
     set_output_grid(surface, options.remeshing);
   } catch (const Invalid_input_error& e) {
@@ -122,9 +106,26 @@ void check_precision(Surface& surface, const Program_options& options)
   }
 }
 
-/// The files of one run: all appear at the end, or none.
-class Outputs
+/// The surface of the input. `run` receives the repairs, the seconds and what is lost.
+Surface load(Run& run)
 {
+  const Program_options& options = run.options;
+  Polygon_mesh mesh;
+  {
+    const Stopwatch watch(run.report.seconds.load);
+    mesh = read_mesh(options.input);
+  }
+  run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
+  stop_if_interrupted();
+  Surface surface = about_input(options, [&] {
+    return prepare_surface(mesh.points, mesh.polygons, options.remeshing, run.report);
+  });
+  check_precision(surface, options);
+  return surface;
+}
+
+/// The files of one run. All of them appear at the end, or none.
+class Outputs {
 public:
   template <class Write>
   void add(const std::string& file, Write&& write)
@@ -153,41 +154,34 @@ Exit_code fail(Exit_code code, const std::string& message)
   return code;
 }
 
-/// Says what the input has and the mesh has not.
+/// Tells what the input has that the output does not have.
 void print_losses(const Run& run)
 {
   if (!run.options.write_mesh || run.not_carried_over.empty()) return;
   std::string list;
   for (const std::string& name : run.not_carried_over) list += (list.empty() ? "" : ", ") + name;
-  std::cerr << "power_rtf_remesh: " << run.options.input << ": not carried over to the output: "
-            << list << '\n';
+  std::cerr << "power_rtf_remesh: " << run.options.input
+            << ": not carried over to the output: " << list << '\n';
 }
 
-/// The cells of a remesher against the oracle (--check).
+/// Compares the cells of a remesher with the exact ones (--check).
 template <class Remesher>
 Check check(Remesher& remesher, std::size_t iterations)
 {
   const double cos_angle = compatibility_cosine(remesher.options().normal_angle);
-  // The CUDA traits' cells are in single precision.
-  const double epsilon =
-      CGAL::PowerRTF::internal::Runs_on_device<typename Remesher::Engine>::value
-          ? std::numeric_limits<float>::epsilon()
-          : std::numeric_limits<double>::epsilon();
   return {iterations,
           check_cells<Concurrency>(remesher.sites(), remesher.cells(), cos_angle,
-                                   epsilon, remesher.options().guard_factor)};
+                                   remesher.epsilon(), remesher.options().guard_factor)};
 }
 
 /// The progress of a run that compares its cells every so many iterations (--check-every).
 template <class Remesher>
-class Checking_progress : public Progress
-{
+class Checking_progress : public Progress {
 public:
   Checking_progress(const Program_options& options, Remesher& remesher, std::vector<Check>& checks)
       : Progress(options.quiet), m_every(options.check_every), m_remesher(remesher),
         m_checks(checks)
-  {
-  }
+  {}
   void on_iteration(const Iteration_report& report, double progress)
   {
     Progress::on_iteration(report, progress);
@@ -202,34 +196,12 @@ private:
   std::vector<Check>& m_checks;
 };
 
-/// \param gpu_not_used why any traits will do, but not those for a GPU
-template <class Traits>
-Exit_code remesh_with(Program_options options, const std::string& gpu_not_used = {})
+/// Distributes the samples and triangulates them, and checks the cells where that is asked for.
+/// \throws Cancelled
+template <class Remesher>
+Extracted_mesh make_mesh(Remesher& remesher, Run& run)
 {
-  using Remesher = CGAL::PowerRTF_remesher<Traits>;
-  options.traits = Traits::name();
-  if (options.write_mesh && holds_floats(format_of(options.output), options.encoding))
-    options.remeshing.coordinates = Coordinates::single_precision;
-  Run run;
-  run.options = options;
-  run.gpu_not_used = gpu_not_used;
-  Outputs outputs;
-  std::optional<Stopwatch> total(run.report.seconds.total);
-#ifdef CGAL_LINKED_WITH_TBB
-  run.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(run.threads));
-#endif
-  check_number_of_samples(options);
-  check_outputs(options);
-
-  Progress reading(options.quiet);
-  const internal::Cancellation cancellation(reading);
-  reading.on_stage("surface");
-  Surface surface = load(options, run);
-  check_precision(surface, options);
-  Remesher remesher = about_input(
-      options, [&] { return Remesher(std::move(surface), options.remeshing); });
+  const Program_options& options = run.options;
   Checking_progress<Remesher> progress(options, remesher, run.checks);
   if (!about_input(options, [&] { return remesher.optimize(progress); })) throw Cancelled();
   Extracted_mesh mesh;
@@ -239,37 +211,55 @@ Exit_code remesh_with(Program_options options, const std::string& gpu_not_used =
     progress.on_stage("check");
     run.checks.push_back(check(remesher, remesher.report().outer_iterations));
   }
-  progress.clear();
+  return mesh;
+}
 
-  const Stage_seconds before = run.report.seconds;
-  const Repair_counts repairs = run.report.repairs;
-  run.report = remesher.report();
-  run.report.repairs = repairs;
-  run.report.seconds.load = before.load;
-  run.report.seconds.surface = before.surface;
-  if (options.write_mesh) run.missed = run.report.missed_guarantees();
-  {
-    Stopwatch watch(run.report.seconds.write);
-    const Normalization& normalization = remesher.surface().normalization;
-    for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
-    if (options.write_mesh)
-      outputs.add(options.output, [&](std::ostream& out) {
-        write_mesh(out, format_of(options.output), options.encoding, mesh.points, mesh.triangles);
-      });
-    outputs.add(options.cells_file, [&](std::ostream& out) {
-      write_cells(out, format_of(options.cells_file), options.encoding, remesher.cells(),
+/// Writes all files but the report.
+template <class Remesher>
+void write_results(Remesher& remesher, Extracted_mesh& mesh, const Program_options& options,
+                   Outputs& outputs)
+{
+  const Normalization& normalization = remesher.surface().normalization;
+  for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
+  if (options.write_mesh)
+    outputs.add(options.output, [&](std::ostream& out) {
+      write_mesh(out, format_of(options.output), options.encoding, mesh.points, mesh.triangles);
+    });
+  outputs.add(options.cells_file, [&](std::ostream& out) {
+    write_cells(out, format_of(options.cells_file), options.encoding, remesher.cells(),
+                normalization);
+  });
+  outputs.add(options.samples_file, [&](std::ostream& out) {
+    write_samples(out, format_of(options.samples_file), options.encoding, remesher.samples(),
                   normalization);
-    });
-    outputs.add(options.samples_file, [&](std::ostream& out) {
-      write_samples(out, format_of(options.samples_file), options.encoding, remesher.samples(),
-                    normalization);
-    });
-  }
-  total.reset();
-  outputs.add(options.report_file, [&](std::ostream& out) { write_json(out, run); });
-  stop_if_interrupted();
-  outputs.commit();
+  });
+}
 
+/// Goes from the input to the files, which are not yet in their places; the report is not written.
+template <class Traits>
+void make_results(Run& run, Outputs& outputs)
+{
+  using Remesher = CGAL::PowerRTF_remesher<Traits>;
+  const Program_options& options = run.options;
+  const Stopwatch total(run.report.seconds.total);
+  check_number_of_samples(options);
+  check_outputs(options);
+  Progress reading(options.quiet);
+  const internal::Cancellation cancellation(reading);
+  reading.on_stage("surface");
+  Surface surface = load(run);
+  Remesher remesher = about_input(
+      options, [&] { return Remesher(std::move(surface), options.remeshing, run.report); });
+  Extracted_mesh mesh = make_mesh(remesher, run);
+  run.report = remesher.report();
+  const Stopwatch watch(run.report.seconds.write);
+  write_results(remesher, mesh, options, outputs);
+}
+
+/// Tells the user how the run ended.
+Exit_code conclude(const Run& run)
+{
+  const Program_options& options = run.options;
   if (!options.quiet) {
     print_table(std::cout, run);
     print_losses(run);
@@ -285,8 +275,31 @@ Exit_code remesh_with(Program_options options, const std::string& gpu_not_used =
   return run.missed.empty() ? done : missed_guarantee;
 }
 
-/// By the traits that the options name. A GPU that fails is reason to use the CPU, if any traits
-/// will do.
+/// \param gpu_not_used why no GPU is used although any traits will do
+template <class Traits>
+Exit_code remesh_with(const Program_options& options, const std::string& gpu_not_used = {})
+{
+  Run run;
+  run.options = options;
+  run.options.traits = Traits::name();
+  if (writes_floats(options)) run.options.remeshing.coordinates = Coordinates::single_precision;
+  run.gpu_not_used = gpu_not_used;
+#ifdef CGAL_LINKED_WITH_TBB
+  run.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(run.threads));
+#endif
+  Outputs outputs;
+  make_results<Traits>(run, outputs);
+  if (options.write_mesh) run.missed = run.report.missed_guarantees();
+  outputs.add(options.report_file, [&](std::ostream& out) { write_json(out, run); });
+  stop_if_interrupted();
+  outputs.commit();
+  return conclude(run);
+}
+
+/// Remeshes with the traits that the options name. If any traits will do, the CPU stands in for a
+/// GPU that fails.
 Exit_code remesh(const Program_options& options)
 {
   using Cpu_traits = CGAL::PowerRTF_traits_3<Kernel, Concurrency>;

@@ -9,10 +9,8 @@
 #include <ostream>
 #include <type_traits>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using Json = nlohmann::ordered_json;
 using namespace CGAL::PowerRTF;
@@ -172,9 +170,8 @@ void write_json(std::ostream& out, const Run& run)
   json["repairs"] = to_json(r.repairs);
   json["seconds"] = to_json(r.seconds);
   if (!r.device.name.empty())
-    json["device"] = {{"name", r.device.name},
-                      {"seconds", r.device.seconds},
-                      {"bytes", r.device.bytes}};
+    json["device"] = {
+        {"name", r.device.name}, {"seconds", r.device.seconds}, {"bytes", r.device.bytes}};
   if (run.options.check) json["checks"] = checks(run.checks);
   json["parameters"] = parameters(run.options.remeshing);
   json["iterations"] = iterations(r);

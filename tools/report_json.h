@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The report as JSON and as a table to read.
+// The report as JSON and as a table.
 #ifndef POWER_RTF_TOOLS_REPORT_JSON_H
 #define POWER_RTF_TOOLS_REPORT_JSON_H
 
@@ -14,12 +14,11 @@
 #include <string>
 #include <vector>
 
-namespace tools
-{
+namespace tools {
 
-/// A comparison of the cells with the oracle.
+/// A comparison of the cells with the exact ones.
 struct Check {
-  std::size_t iterations; ///< done before
+  std::size_t iterations; ///< done before the comparison
   CGAL::PowerRTF::Cell_comparison result;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stl_mesh.h"
 
-#include "Words.h"
+#include "Tokenizer.h"
 
 #include <boost/functional/hash.hpp>
 
@@ -11,18 +11,15 @@
 #include <cstring>
 #include <unordered_map>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using CGAL::PowerRTF::Invalid_input_error;
 
 constexpr std::size_t header_size = 84, facet_size = 50; // bytes, of a binary file
 
-/// The mesh of triangles that come one by one.
-class Triangle_collector
-{
+/// Collects triangles one by one into a mesh.
+class Triangle_collector {
 public:
   using Corner = std::array<double, 3>;
 
@@ -44,7 +41,7 @@ private:
   std::unordered_map<Corner, std::size_t, boost::hash<Corner>> m_indices;
 };
 
-/// A number of the file, in which the byte of least weight comes first.
+/// A number of the file, which is little-endian.
 std::uint32_t load_bits(const char* bytes)
 {
   std::uint32_t bits = 0;
@@ -83,51 +80,52 @@ Polygon_mesh parse_binary(std::string_view data)
   return std::move(triangles.mesh());
 }
 
-/// Reads what follows the word "facet" up to "endfacet".
-std::array<Triangle_collector::Corner, 3> read_facet(Words& words)
+/// Reads what follows the token "facet" up to "endfacet".
+std::array<Triangle_collector::Corner, 3> read_facet(Tokenizer& tokens)
 {
   std::array<Triangle_collector::Corner, 3> corners{};
   std::size_t count = 0;
-  const auto next = [&words] {
-    if (!words.next()) throw Invalid_input_error("the file is truncated: it ends in a facet");
-    return words.word();
+  const auto next = [&tokens] {
+    if (!tokens.next()) throw Invalid_input_error("the file is truncated: it ends in a facet");
+    return tokens.token();
   };
-  while (next() != "endfacet") { // what else stands there says nothing more
-    if (words.word() != "vertex") continue;
-    if (count == 3) throw Invalid_input_error(words.at() + "a facet with more than three vertices");
+  while (next() != "endfacet") { // other tokens carry no information
+    if (tokens.token() != "vertex") continue;
+    if (count == 3)
+      throw Invalid_input_error(tokens.at() + "a facet with more than three vertices");
     for (double& x : corners[count]) {
       next();
-      x = words.number();
+      x = tokens.number();
     }
     ++count;
   }
-  if (count < 3) throw Invalid_input_error(words.at() + "a facet with fewer than three vertices");
+  if (count < 3) throw Invalid_input_error(tokens.at() + "a facet with fewer than three vertices");
   return corners;
 }
 
-/// Goes past the words of a name, which may be any but those of a solid's parts.
-void skip_name(Words& words)
+/// Skips the name of a solid: all tokens but those that begin or end its parts.
+void skip_name(Tokenizer& tokens)
 {
-  for (Words ahead = words;
-       ahead.next_in_line() && ahead.word() != "facet" && ahead.word() != "endsolid";)
-    words = ahead;
+  for (Tokenizer ahead = tokens;
+       ahead.next_in_line() && ahead.token() != "facet" && ahead.token() != "endsolid";)
+    tokens = ahead;
 }
 
 Polygon_mesh parse_text(std::string_view data)
 {
   Triangle_collector triangles;
-  Words words(data, '\n');
+  Tokenizer tokens(data, '\n');
   std::size_t solids = 0;
   bool ended = false;
-  while (words.next()) {
-    if (words.word() == "facet")
-      triangles.add(read_facet(words));
-    else if (words.word() == "vertex" || words.word() == "endfacet")
-      words.reject("stands outside of a facet");
-    else if (words.word() == "solid" || words.word() == "endsolid") {
-      ended = words.word() == "endsolid";
+  while (tokens.next()) {
+    if (tokens.token() == "facet")
+      triangles.add(read_facet(tokens));
+    else if (tokens.token() == "vertex" || tokens.token() == "endfacet")
+      tokens.reject("stands outside of a facet");
+    else if (tokens.token() == "solid" || tokens.token() == "endsolid") {
+      ended = tokens.token() == "endsolid";
       solids += !ended;
-      skip_name(words);
+      skip_name(tokens);
     }
   }
   if (!ended) throw Invalid_input_error("the file is truncated: it does not end with endsolid");
@@ -146,8 +144,8 @@ bool is_binary_stl(std::string_view beginning, std::uintmax_t size)
 Polygon_mesh parse_stl(std::string_view data)
 {
   if (is_binary_stl(data, data.size())) return parse_binary(data);
-  Words words(data);
-  const bool is_text = words.next() && words.word().substr(0, 5) == "solid";
+  Tokenizer tokens(data);
+  const bool is_text = tokens.next() && tokens.token().substr(0, 5) == "solid";
   return is_text ? parse_text(data) : parse_binary(data);
 }
 

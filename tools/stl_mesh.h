@@ -5,16 +5,15 @@
 #ifndef POWER_RTF_TOOLS_STL_MESH_H
 #define POWER_RTF_TOOLS_STL_MESH_H
 
-#include "mesh_io.h"
+#include "Polygon_mesh.h"
 
 #include <cstdint>
 #include <string_view>
 
-namespace tools
-{
+namespace tools {
 
 /// Whether the beginning of a file of `size` bytes announces as many facets as a binary STL file of
-/// this size has. What else it looks like is then no matter: its first 80 bytes are free.
+/// this size has. Then it is one, whatever its first 80 bytes are: they are free.
 bool is_binary_stl(std::string_view beginning, std::uintmax_t size);
 
 /// Reads text or binary; corners at the same place become one point.

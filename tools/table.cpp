@@ -5,10 +5,8 @@
 #include <cstdio>
 #include <ostream>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using namespace CGAL::PowerRTF;
 
@@ -19,7 +17,7 @@ std::string number(double x, int digits)
   return text;
 }
 
-/// Of any size: a length in the input's unit.
+/// A length in the input's unit, of any magnitude.
 std::string figure(double x)
 {
   char text[64];
@@ -57,8 +55,9 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
   counts(out, "borders", a.border_loops, b.border_loops);
   row(out, "self-intersections", std::to_string(r.self_intersections));
   if (r.feature_edges > 0)
-    row(out, "creases and borders", std::to_string(r.feature_edges - r.lost_feature_edges) + " of " +
-                                        std::to_string(r.feature_edges) + " edges kept");
+    row(out, "creases and borders",
+        std::to_string(r.feature_edges - r.lost_feature_edges) + " of " +
+            std::to_string(r.feature_edges) + " edges kept");
   const Quality_statistics& q = r.quality;
   row(out, "triangle quality, least", number(q.q_min, 4));
   row(out, "triangle quality, mean", number(q.q_avg, 4));
@@ -106,7 +105,7 @@ void print_check(std::ostream& out, const Check& check)
   const Cell_comparison& r = check.result;
   out << "  compared with the exact cells after " << check.iterations << " iterations\n";
   const auto count = [&out](const char* what, std::size_t n) { row(out, what, std::to_string(n)); };
-  count("  cells with the same neighbours", r.equal_cycles);
+  count("  cells with the same neighbors", r.equal_cycles);
   count("  certified and wrong", r.certified_wrong);
   count("  not certified, right", r.uncertified_right);
   count("  not certified, wrong", r.uncertified_wrong);
@@ -132,15 +131,14 @@ void print_table(std::ostream& out, const Run& run)
     row(out, "left out of that: no weights suffice", std::to_string(r.capacity.left_out));
   row(out, "capacity, RMS deviation", percent(r.capacity.rms));
   if (r.cells.guarded > 0)
-    row(out, "cells with too few neighbours", std::to_string(r.cells.guarded));
+    row(out, "cells with too few neighbors", std::to_string(r.cells.guarded));
   if (r.cells.empty > 0) row(out, "empty cells", std::to_string(r.cells.empty));
   if (r.cells.incomplete > 0) row(out, "incomplete cells", std::to_string(r.cells.incomplete));
   print_repairs(out, r.repairs);
   for (const Check& check : run.checks) print_check(out, check);
   row(out, "constructions of all cells", std::to_string(r.constructions));
   row(out, "seconds", number(r.seconds.total, 2));
-  if (!r.device.name.empty())
-    row(out, "seconds on " + r.device.name, number(r.device.seconds, 4));
+  if (!r.device.name.empty()) row(out, "seconds on " + r.device.name, number(r.device.seconds, 4));
   for (const auto& [name, file] :
        {std::pair{"cells", &o.cells_file}, std::pair{"samples", &o.samples_file},
         std::pair{"report", &o.report_file}})

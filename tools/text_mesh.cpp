@@ -2,33 +2,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text_mesh.h"
 
-#include "Words.h"
+#include "Tokenizer.h"
 
 #include <array>
 #include <iterator>
 
-namespace tools
-{
-namespace
-{
+namespace tools {
+namespace {
 
 using CGAL::PowerRTF::Invalid_input_error;
 using CGAL::PowerRTF::Vec3d;
 
 [[noreturn]] void reject(const std::string& reason) { throw Invalid_input_error(reason); }
 
-std::string out_of_range(const Words& words, std::size_t facet, long long vertex, std::size_t count)
+std::string out_of_range(const Tokenizer& tokens, std::size_t facet, long long vertex,
+                         std::size_t count)
 {
-  return words.at() + "facet " + std::to_string(facet + 1) + " refers to vertex " +
+  return tokens.at() + "facet " + std::to_string(facet + 1) + " refers to vertex " +
          std::to_string(vertex) + ": the index is out of range, there are " +
          std::to_string(count) + " vertices";
 }
 
-/// Statements of OBJ that say more than points and facets.
+/// Statements of OBJ for data other than points and facets.
 struct Obj_attribute {
   std::string_view keyword;
   const char* meaning;
-  std::size_t meaningless = 0; ///< so many of them say nothing
+  std::size_t meaningless = 0; ///< so many of them carry no information
 };
 constexpr Obj_attribute obj_attributes[] = {
     {"vt", "texture coordinates"}, {"vn", "normals"}, {"usemtl", "materials"}, {"g", "groups", 1},
@@ -39,14 +38,14 @@ constexpr Obj_attribute obj_attributes[] = {
 
 Polygon_mesh parse_off(std::string_view text)
 {
-  Words words(text);
-  // OFF, with prefixes for more values per vertex: ST (texture), C (colour), N (normal)
-  const bool is_off = words.next() && words.word().size() <= 7 && words.word().size() >= 3 &&
-                      words.word().substr(words.word().size() - 3) == "OFF";
+  Tokenizer tokens(text);
+  // OFF, with prefixes for more values per vertex: ST (texture), C (color), N (normal)
+  const bool is_off = tokens.next() && tokens.token().size() <= 7 && tokens.token().size() >= 3 &&
+                      tokens.token().substr(tokens.token().size() - 3) == "OFF";
   if (!is_off) reject("it is not an OFF file: it does not begin with OFF");
-  const std::string_view prefixes = words.word().substr(0, words.word().size() - 3);
+  const std::string_view prefixes = tokens.token().substr(0, tokens.token().size() - 3);
   if (prefixes.find_first_not_of("STCN") != std::string_view::npos)
-    words.reject("is a kind of OFF that is not read");
+    tokens.reject("is a kind of OFF that is not read");
   Polygon_mesh mesh;
   for (const auto& [letter, meaning] :
        {std::pair{'S', "texture coordinates"}, {'C', "colors"}, {'N', "normals"}})
@@ -54,13 +53,13 @@ Polygon_mesh parse_off(std::string_view text)
 
   std::size_t counts[2]; // vertices, facets
   for (std::size_t& count : counts) {
-    if (!words.next()) reject("the file is truncated in its header");
-    if (words.word() == "BINARY") words.reject("is a kind of OFF that is not read");
-    const long long value = words.whole_number();
-    if (value < 0) words.reject("is not a number of vertices or facets");
+    if (!tokens.next()) reject("the file is truncated in its header");
+    if (tokens.token() == "BINARY") tokens.reject("is a kind of OFF that is not read");
+    const long long value = tokens.whole_number();
+    if (value < 0) tokens.reject("is not a number of vertices or facets");
     count = static_cast<std::size_t>(value);
   }
-  words.skip_line(); // the number of edges
+  tokens.skip_line(); // the number of edges
   const std::string announced = ", its header announces " + std::to_string(counts[0]) +
                                 " vertices and " + std::to_string(counts[1]) + " facets";
   // every vertex and every facet takes a few bytes
@@ -73,29 +72,29 @@ Polygon_mesh parse_off(std::string_view text)
   for (std::size_t i = 0; i < counts[0]; ++i) {
     Vec3d& p = mesh.points[i];
     for (double* x : {&p.x, &p.y, &p.z}) {
-      if (!words.next())
+      if (!tokens.next())
         reject("the file is truncated: it ends in vertex " + std::to_string(i + 1) + announced);
-      *x = words.number();
+      *x = tokens.number();
     }
-    if (!prefixes.empty()) words.skip_line();
+    if (!prefixes.empty()) tokens.skip_line();
   }
   bool has_colors = false;
   for (std::size_t i = 0; i < counts[1]; ++i) {
     const auto next = [&] {
-      if (!words.next())
+      if (!tokens.next())
         reject("the file is truncated: it ends in facet " + std::to_string(i + 1) + announced);
-      return words.whole_number();
+      return tokens.whole_number();
     };
     const long long size = next();
-    if (size < 0) words.reject("is not a number of vertices");
+    if (size < 0) tokens.reject("is not a number of vertices");
     for (long long k = 0; k < size; ++k) {
       const long long v = next();
       if (v < 0 || v >= static_cast<long long>(counts[0]))
-        reject(out_of_range(words, i, v, counts[0]));
+        reject(out_of_range(tokens, i, v, counts[0]));
       mesh.polygons[i].push_back(static_cast<std::size_t>(v));
     }
-    has_colors = has_colors || words.next_in_line();
-    words.skip_line();
+    has_colors = has_colors || tokens.next_in_line();
+    tokens.skip_line();
   }
   if (has_colors) mesh.attributes.insert("colors");
   return mesh;
@@ -103,48 +102,49 @@ Polygon_mesh parse_off(std::string_view text)
 
 Polygon_mesh parse_obj(std::string_view text)
 {
-  Words words(text);
+  Tokenizer tokens(text);
   Polygon_mesh mesh;
-  long long largest = 0; // index of all facets, and where it is
-  Words at_largest = words;
+  long long largest = 0; // index of a facet's vertex, and where it is
+  Tokenizer at_largest = tokens;
   std::size_t facet_of_largest = 0;
   std::array<std::size_t, std::size(obj_attributes)> counts{};
-  while (words.next()) {
-    if (words.word() == "v") {
+  while (tokens.next()) {
+    if (tokens.token() == "v") {
       Vec3d p{0, 0, 0};
       for (double* x : {&p.x, &p.y, &p.z}) {
-        if (!words.next_in_line())
-          reject(words.at() + "a vertex with fewer than three coordinates (a truncated file?)");
-        *x = words.number();
+        if (!tokens.next_in_line())
+          reject(tokens.at() + "a vertex with fewer than three coordinates (a truncated file?)");
+        *x = tokens.number();
       }
       mesh.points.push_back(p);
       int more = 0; // a weight, or a color of three numbers
-      while (words.next_in_line()) ++more;
+      while (tokens.next_in_line()) ++more;
       if (more >= 3) mesh.attributes.insert("colors");
-    } else if (words.word() == "f") {
+    } else if (tokens.token() == "f") {
       std::vector<std::size_t> polygon;
       const long long n = static_cast<long long>(mesh.points.size());
-      while (words.next_in_line()) {
-        const long long v = words.whole_number(true);
+      while (tokens.next_in_line()) {
+        const long long v = tokens.whole_number(true);
         if (v == 0 || v < -n)
-          reject(out_of_range(words, mesh.polygons.size(), v, mesh.points.size()));
+          reject(out_of_range(tokens, mesh.polygons.size(), v, mesh.points.size()));
         polygon.push_back(
             static_cast<std::size_t>(v > 0 ? v - 1 : n + v)); // negative: from the last
         if (v <= largest) continue;
         largest = v;
-        at_largest = words;
+        at_largest = tokens;
         facet_of_largest = mesh.polygons.size();
       }
       if (polygon.size() < 3)
-        reject(words.at() + "a facet with fewer than three vertices (a truncated file?)");
+        reject(tokens.at() + "a facet with fewer than three vertices (a truncated file?)");
       mesh.polygons.push_back(std::move(polygon));
-    } else if (words.word() == "s" && words.next_in_line()) {
-      if (words.word() != "off" && words.word() != "0") mesh.attributes.insert("smoothing groups");
+    } else if (tokens.token() == "s" && tokens.next_in_line()) {
+      if (tokens.token() != "off" && tokens.token() != "0")
+        mesh.attributes.insert("smoothing groups");
     } else {
       for (std::size_t k = 0; k < counts.size(); ++k)
-        counts[k] += words.word() == obj_attributes[k].keyword;
+        counts[k] += tokens.token() == obj_attributes[k].keyword;
     }
-    words.skip_line();
+    tokens.skip_line();
   }
   if (mesh.points.empty()) reject("it is not an OBJ file: it has no vertices");
   if (largest > static_cast<long long>(mesh.points.size()))

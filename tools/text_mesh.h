@@ -1,17 +1,16 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Strict readers of OFF and OBJ text. (CGAL's take a facet that they cannot parse for another one,
-// and stop at OBJ statements that they do not know.)
+// Strict readers of OFF and OBJ text. (CGAL's readers misread facets that they cannot parse, and
+// stop at OBJ statements that they do not know.)
 #ifndef POWER_RTF_TOOLS_TEXT_MESH_H
 #define POWER_RTF_TOOLS_TEXT_MESH_H
 
-#include "mesh_io.h"
+#include "Polygon_mesh.h"
 
 #include <string_view>
 
-namespace tools
-{
+namespace tools {
 
 /// \throws Invalid_input_error the reason, with the line where it has one
 Polygon_mesh parse_off(std::string_view text);

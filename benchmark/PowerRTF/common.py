@@ -9,7 +9,6 @@ import os
 import pathlib
 import platform
 import re
-import shlex
 import subprocess
 import sys
 import venv
@@ -17,8 +16,6 @@ import venv
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/release"
 DATA = ROOT / "build/data/meshes"
-PACKAGES = ("libcgal-dev libeigen3-dev libtbb-dev libboost-program-options-dev "
-            "nlohmann-json3-dev libbenchmark-dev python3-venv")
 
 
 def notice(text):
@@ -26,14 +23,8 @@ def notice(text):
 
 
 def build(targets):
-    """Installs what is missing, builds the targets and fetches CGAL's models, by tools/setup.sh."""
-    script = (f"set -euo pipefail; root={shlex.quote(str(ROOT))}; . \"$root/tools/setup.sh\"; "
-              f"install_missing {PACKAGES}; "
-              'if [ -e "$build/CMakeCache.txt" ]; then configure -DPOWER_RTF_BUILD_BENCHMARKS=ON; '
-              "else configure -DPOWER_RTF_BUILD_BENCHMARKS=ON -DPOWER_RTF_BUILD_TESTING=OFF; fi; "
-              f"build_targets --target {' '.join(targets)}; "
-              "fetch_models || say 'The models of CGAL cannot be had here'")
-    subprocess.run(["bash", "-c", script], check=True)
+    """Installs what is missing, builds the targets and fetches CGAL's models."""
+    subprocess.run([pathlib.Path(__file__).with_name("build.sh"), *targets], check=True)
 
 
 def python_environment(folder, packages):

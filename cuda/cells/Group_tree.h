@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sites as warps see them: a packed tree of arity 32 over sites in Morton order, so that one
+// The sites as warps see them: a packed tree of arity 32 over sites in Hilbert order, so that one
 // lane looks at one child. Every node carries the largest weight below it; a search that skips a
 // node has a proof that none of its sites can cut, as with the tree of arity 8 of the CPU.
 #ifndef CGAL_POWER_RTF_CUDA_GROUP_TREE_H
@@ -9,12 +9,10 @@
 
 #include "quick_math.h"
 
-#include <CGAL/PowerRTF/cells/Packed_tree.h>
 #include <CGAL/PowerRTF/cells/Sites_view.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// A `Site`, aligned for loads of 16 bytes.
 template <class Real>
@@ -42,15 +40,15 @@ struct alignas(16) Group_node {
 /// How the nodes lie in one array.
 using Group_layout = Basic_tree_layout<32, 7>;
 
-/// The nodes that wait in a warp's depth-first search: `at_once` are taken together as long as
-/// there are few, then one at a time.
+/// The stack of a warp's depth-first search. `at_once` nodes are popped together as long as there
+/// are few, then one at a time.
 struct Search_stack {
   static constexpr int at_once = 2, crowded = 128;
   int nodes[crowded + at_once * Group_layout::arity +
             (Group_layout::arity - 1) * Group_layout::max_levels];
 };
 
-/// Non-owning view of the sites in Morton order; `place` is the index there.
+/// Non-owning view of the sites in Hilbert order; `place` is the index there.
 template <class Real>
 struct Group_view {
   const Packed_site<Real>* sites = nullptr;
@@ -59,7 +57,7 @@ struct Group_view {
   const int* caller = nullptr; ///< the site's index in the caller's arrays
   const Group_node<Real>* nodes = nullptr;
   Group_layout tree;
-  int cells = 0; ///< sites whose index in the caller's arrays is below this have a cell
+  int cells = 0;             ///< sites whose index in the caller's arrays is below this have a cell
   bool has_features = false; ///< cells next to the other sites are cut at chords
   Real cos_angle = -2, guard_factor = 3;
 };
@@ -90,8 +88,6 @@ struct Group_query {
   }
 };
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_GROUP_TREE_H

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What one lane of a warp does for its cell: list the gathered sites that may cut it, clip, and say
-// whether the result is proved. Also for the host, where the tests run the lanes one after another.
+// The cell of one lane of a warp: lists the gathered sites that may cut it. Also for the host,
+// where the tests run the lanes one after another.
 #ifndef CGAL_POWER_RTF_CUDA_LANE_CELL_H
 #define CGAL_POWER_RTF_CUDA_LANE_CELL_H
 
@@ -11,9 +11,7 @@
 
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 #ifdef __CUDACC__
 /// By loads of 16 bytes, each made by `load_word(address)`.
@@ -48,28 +46,28 @@ CGAL_POWER_RTF_HD inline T load(const T* p)
 /// are clipped.
 template <class Real>
 struct Warp_memory {
-  static constexpr int most_candidates = 224, most_listed = 32;
+  static constexpr int max_candidates = 224, max_listed = 32;
   struct Candidates {
-    Packed_site<Real> sites[most_candidates];
-    int places[most_candidates];
+    Packed_site<Real> sites[max_candidates];
+    int places[max_candidates];
   };
   union {
     Candidates candidates;
     Ring_memory<Real, 32> polygons;
   };
-  int listed[most_listed * 32]; ///< places of the sites that may cut a lane's cell, one column each
+  int listed[max_listed * 32]; ///< places of the sites that may cut a lane's cell, one column each
   Search_stack stack;
 
   CGAL_POWER_RTF_HD Warp_memory() {}
 };
 
-/// One lane's cell and what is known about its neighbours.
+/// One lane's cell and what is known about its neighbors.
 template <class Real>
 struct Lane_cell {
   int place;
   Packed_site<Real> site;
   Real radius;
-  int listed = 0, near = 0; ///< sites listed; sites within radius / guard_factor, itself too
+  int listed = 0, near = 0;   ///< sites listed; sites within radius / guard_factor, itself too
   Real outside2 = Real(1e30); ///< least squared distance of the gathered sites that are not listed
 
   CGAL_POWER_RTF_HD void clear()
@@ -84,8 +82,7 @@ struct Lane_cell {
   {
     int* const column = memory.listed + lane;
     list(memory.candidates, count, guard_factor, begin, step, [&](int number, int k) {
-      if (number < Warp_memory<Real>::most_listed)
-        column[number * 32] = memory.candidates.places[k];
+      if (number < Warp_memory<Real>::max_listed) column[number * 32] = memory.candidates.places[k];
     });
   }
 
@@ -129,7 +126,9 @@ struct Listed_polygon {
     const int* column;
     int stride;
     CGAL_POWER_RTF_HD int operator[](int k) const
-    { return column[std::size_t(ring.edge(k)) * stride]; }
+    {
+      return column[std::size_t(ring.edge(k)) * stride];
+    }
   };
   int size;
   X x;
@@ -147,13 +146,13 @@ struct Listed_polygon {
 /// `hopeless`: it is not, and will not be for any radius.
 template <class Real>
 CGAL_POWER_RTF_HD inline bool clip_listed(const Group_view<Real>& view, Lane_cell<Real>& cell,
-                                   const Packed_normal<Real>& own, const Tangent_frame<Real>& frame,
-                                   const int* column, Ring_polygon<Real, 32>& polygon,
-                                   bool& hopeless)
+                                          const Packed_normal<Real>& own,
+                                          const Tangent_frame<Real>& frame, const int* column,
+                                          Ring_polygon<Real, 32>& polygon, bool& hopeless)
 {
   polygon.set_square(cell.radius);
   hopeless = false;
-  if (cell.listed > Warp_memory<Real>::most_listed) return false;
+  if (cell.listed > Warp_memory<Real>::max_listed) return false;
   for (int k = 0; k < cell.listed; ++k) {
     const int j = column[k * 32];
     const Packed_site<Real> other = load(view.sites + j);
@@ -163,8 +162,10 @@ CGAL_POWER_RTF_HD inline bool clip_listed(const Group_view<Real>& view, Lane_cel
     const Vec3<Real> offset = other.point - cell.site.point;
     const Real power = squared_length(offset) + (cell.site.weight - other.weight);
     const Real a = dot(offset, frame.u), b = dot(offset, frame.v);
-    if (a * a + b * b > 0) polygon.clip(a, b, power / 2, k);
-    else if (!(power > 0)) polygon.size = 0; // a duplicate or a plane parallel to the tangent plane
+    if (a * a + b * b > 0)
+      polygon.clip(a, b, power / 2, k);
+    else if (!(power > 0))
+      polygon.size = 0; // a duplicate or a plane parallel to the tangent plane
   }
   hopeless = polygon.size == 0 || polygon.overflow;
   return !hopeless && !polygon.touches_square() &&
@@ -174,15 +175,13 @@ CGAL_POWER_RTF_HD inline bool clip_listed(const Group_view<Real>& view, Lane_cel
 /// Whether an edge is that of a site without a cell.
 template <class Real>
 CGAL_POWER_RTF_HD inline bool touches_fixed(const Group_view<Real>& view,
-                                     const Listed_polygon<Real>& polygon)
+                                            const Listed_polygon<Real>& polygon)
 {
   for (int k = 0; k < polygon.size; ++k)
     if (view.caller[polygon.neighbor[k]] >= view.cells) return true;
   return false;
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_LANE_CELL_H

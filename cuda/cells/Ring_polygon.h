@@ -10,15 +10,15 @@
 
 #include "quick_math.h"
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// The memory of the polygons of `Columns` lanes; vertex `slot` of a lane is at [slot * Columns].
 template <class Real, int Columns>
 struct Ring_memory {
   static constexpr int capacity = 16;
-  struct alignas(2 * sizeof(Real)) Point { Real x, y; };
+  struct alignas(2 * sizeof(Real)) Point {
+    Real x, y;
+  };
   Point points[capacity * Columns];
   unsigned char edges[capacity * Columns];
 };
@@ -140,7 +140,7 @@ public:
     const Real px = p_in.x + ti * (p_begin.x - p_in.x), py = p_in.y + ti * (p_begin.y - p_in.y);
     const Real qx = p_out.x + to * (p_end.x - p_out.x), qy = p_out.y + to * (p_end.y - p_out.y);
 
-    int last = in; // of the kept vertices, counted from the old first vertex
+    int last = in;   // of the kept vertices, counted from the old first vertex
     if (in >= out) { // the kept chain does not wrap around: it becomes the front
       m_head += out;
       last -= out;
@@ -171,15 +171,15 @@ private:
   }
   /// Explicit: a compiler that contracted it in one place only would make the signs disagree.
   CGAL_POWER_RTF_HD static Real side(Real a, Real b, Real c, const typename Memory::Point& p)
-  { return std::fma(a, p.x, std::fma(b, p.y, -c)); }
+  {
+    return std::fma(a, p.x, std::fma(b, p.y, -c));
+  }
 
   typename Memory::Point* m_points;
   unsigned char* m_edges;
   int m_head = 0; // m_head & (capacity - 1): where vertex 0 lies
 };
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_RING_POLYGON_H

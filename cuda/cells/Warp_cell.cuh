@@ -7,8 +7,8 @@
 // What is known. `gather(reach)` lists every site j of the patch but those with
 //   d >= reach  and  d^2 - 2 d reach > w_j - w_i                                            (*)
 // whose planes pass beyond `reach`. When weights change, these pass beyond reach - g / (2 reach) as
-// long as w_j - w_i has grown by no more than g (see Kept_lists.h). With k > guard radius known in
-// this way the cell within the guard square is
+// long as w_j - w_i has grown by no more than g (see Verlet_lists.h). With k > guard radius known
+// in this way the cell within the guard square is
 // - empty, when the listed lines leave nothing;
 // - ok, when they leave a polygon of radius at most the guard radius: no other line reaches it;
 // - guarded, when the listed lines, the incompatible ones too, leave a polygon of radius at most k:
@@ -19,9 +19,7 @@
 
 #include "Warp_lines.cuh"
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 template <class Real>
 class Warp_cell : public Warp_lines<Real> {
@@ -106,6 +104,13 @@ public:
   }
 
 private:
+  using Base::clip;
+  using Base::cutting_query;
+  using Base::gather;
+  using Base::guess_edges;
+  using Base::has_corner_beyond;
+  using Base::keep_corner;
+  using Base::keep_edges;
   using Base::m_flushes;
   using Base::m_lane;
   using Base::m_memory;
@@ -114,13 +119,6 @@ private:
   using Base::m_polygon;
   using Base::m_view;
   using Base::m_wide;
-  using Base::clip;
-  using Base::cutting_query;
-  using Base::gather;
-  using Base::guess_edges;
-  using Base::has_corner_beyond;
-  using Base::keep_corner;
-  using Base::keep_edges;
   using Base::renew_lines;
   using Base::set_lines;
   using Base::start;
@@ -128,10 +126,9 @@ private:
   __device__ void find_guard(Real& guard, Real guess)
   {
     if (guard > 0) return;
-    guard = m_view.guard_factor *
-            neighbor_distances(m_view, m_memory.stack, m_place, guess, {Real(-2), Real(-2)}, 6,
-                               m_lane)
-                .sixth;
+    guard = m_view.guard_factor * neighbor_distances(m_view, m_memory.stack, m_place, guess,
+                                                     {Real(-2), Real(-2)}, 6, m_lane)
+                                      .sixth;
   }
 
   static constexpr Real narrow_part = Real(1.02);
@@ -145,7 +142,7 @@ private:
                   [&](bool reached, int group) {
                     const unsigned lanes = __ballot_sync(full_warp, reached);
                     const int k = kept.groups + __popc(lanes & ((1u << m_lane) - 1));
-                    if (reached && k < Warp_cell_memory<Real>::most_groups)
+                    if (reached && k < Warp_cell_memory<Real>::max_groups)
                       m_memory.groups[k] = group;
                     kept.groups += __popc(lanes);
                   });
@@ -163,11 +160,11 @@ private:
         return reach - quick_quotient(growth, 2 * reach);
       };
       Real growth = weights.all_growth;
-      if (kept.groups <= Warp_cell_memory<Real>::most_groups) {
+      if (kept.groups <= Warp_cell_memory<Real>::max_groups) {
         growth = 0;
         for (int k = m_lane; k < kept.groups; k += 32)
           growth = fmax(growth, weights.growth_of(m_memory.groups[k]));
-        growth = fmax(warp_greatest(growth) - weights.own_growth, Real(0));
+        growth = fmax(warp_max_nonnegative(growth) - weights.own_growth, Real(0));
       }
       return fmin(radius(kept.reach, growth), radius(2 * kept.reach, weights.all_growth)) -
              kept.reach * rounding();
@@ -182,7 +179,7 @@ private:
     const bool is_whole = m_flushes == 0;
     if (kept.is_plain) { // within the square of what is known
       const Real f = m_view.guard_factor;
-      known = fmin(known, fmax(guard, f * std::sqrt(warp_least(m_nearest2))));
+      known = fmin(known, fmax(guard, f * std::sqrt(warp_min_nonnegative(m_nearest2))));
       guard = kept.reach;
     }
     const bool is_guarded =
@@ -215,11 +212,8 @@ private:
       if (keep) keep_corner();
     }
   }
-
 };
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WARP_CELL_CUH

@@ -1,17 +1,16 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A warp's polygon and the lines in its memory: all that wait are tried against it together, and
-// the nearest one that cuts it is cut off. It begins with edges that are known or guessed.
+// Clips a warp's polygon by the lines in shared memory: all lines are tested together and the
+// polygon is clipped by the nearest one that cuts it. The initial polygon has known or guessed
+// edges.
 #ifndef CGAL_POWER_RTF_CUDA_WARP_CLIPPING_CUH
 #define CGAL_POWER_RTF_CUDA_WARP_CLIPPING_CUH
 
 #include "Warp_cell_memory.cuh"
 #include "Warp_polygon.cuh"
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// Cells with more than 32 edges overflow.
 template <class Real>
@@ -24,7 +23,7 @@ public:
   const __device__ Warp_polygon<Real>& polygon() const { return m_polygon; }
   /// One that another object has made in the same memory.
   __device__ void set_polygon(const Warp_polygon<Real>& polygon) { m_polygon = polygon; }
-  /// The neighbour of the lane's edge, or the number of a side of the square.
+  /// The neighbor of the lane's edge, or the number of a side of the square.
   __device__ int neighbor() const
   {
     const int edge = m_polygon.edge;
@@ -37,11 +36,15 @@ protected:
   static constexpr unsigned compatible_lines = 1, other_lines = 2, all_lines = 3;
 
   __device__ static int place_of_line(int neighbor)
-  { return neighbor < 0 ? -1 - neighbor : neighbor; }
+  {
+    return neighbor < 0 ? -1 - neighbor : neighbor;
+  }
 
   /// Edges carry the numbers of lines; those of lines that are forgotten carry -5 - place.
   __device__ int place_of_edge(int edge) const
-  { return edge < 0 ? -5 - edge : place_of_line(m_memory.neighbor[edge]); }
+  {
+    return edge < 0 ? -5 - edge : place_of_line(m_memory.neighbor[edge]);
+  }
 
   __device__ void keep_edges(int which)
   {
@@ -60,13 +63,13 @@ protected:
     };
     int best = 0x7fffffff, edge = 0;
     for (int k = m_lane; k < lines; k += 32) {
-      const int order = is_wanted(k) ? order_of_line(m_memory.a[k], m_memory.b[k], m_memory.c[k])
-                                     : 0x7fffffff;
+      const int order =
+          is_wanted(k) ? order_of_line(m_memory.a[k], m_memory.b[k], m_memory.c[k]) : 0x7fffffff;
       if (!(order < best)) continue;
       best = order;
       edge = k;
     }
-    const int least = warp_least(best);
+    const int least = warp_min(best);
     if (least < 0 || least == 0x7fffffff) return; // the site is not inside, or there is no line
     edge = __shfl_sync(full_warp, edge, lowest_bit(__ballot_sync(full_warp, best == least)));
 
@@ -92,7 +95,7 @@ protected:
       if (m_lane < 4) meet(-1 - m_lane, line_of_edge(-1 - m_lane, half));
       for (int k = m_lane; k < lines; k += 32)
         if (is_wanted(k)) meet(k, Line{m_memory.a[k], m_memory.b[k], m_memory.c[k]});
-      const float t = warp_least(nearest);
+      const float t = warp_min_nonnegative(nearest);
       edge = __shfl_sync(full_warp, edge, lowest_bit(__ballot_sync(full_warp, nearest == t)));
       x -= t * line.b;
       y += t * line.a;
@@ -108,7 +111,7 @@ protected:
   {
     const bool is_vertex = m_lane < m_polygon.size;
     const Real r2 = is_vertex ? m_polygon.x * m_polygon.x + m_polygon.y * m_polygon.y : Real(0);
-    const Real most = warp_greatest(r2);
+    const Real most = warp_max_nonnegative(r2);
     const int vertex = lowest_bit(__ballot_sync(full_warp, is_vertex && r2 == most));
     const int before = vertex > 0 ? vertex - 1 : m_polygon.size - 1;
     const int first = __shfl_sync(full_warp, m_polygon.edge, before);
@@ -221,8 +224,12 @@ protected:
   /// The right one is side 0 of the square, the upper one side 1.
   __device__ static Side_normal normal_of_side(int side)
   {
-    return {side == 0 ? Real(1) : side == 2 ? Real(-1) : Real(0),
-            side == 1 ? Real(1) : side == 3 ? Real(-1) : Real(0)};
+    return {side == 0   ? Real(1)
+            : side == 2 ? Real(-1)
+                        : Real(0),
+            side == 1   ? Real(1)
+            : side == 3 ? Real(-1)
+                        : Real(0)};
   }
 
   /// Which of the lane's lines `left` cut the polygon: bit k for line k * 32 + lane.
@@ -304,7 +311,7 @@ protected:
         b = lb;
         c = lc;
       }
-      const int least = warp_least(nearest);
+      const int least = warp_min(nearest);
       const int owner = lowest_bit(__ballot_sync(full_warp, nearest == least));
       if (m_lane == owner) left &= ~(1u << number / 32);
       polygon.clip(__shfl_sync(full_warp, a, owner), __shfl_sync(full_warp, b, owner),
@@ -317,8 +324,6 @@ protected:
   Warp_polygon<Real> m_polygon; // by compatible lines; at the end the cell
 };
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WARP_CLIPPING_CUH

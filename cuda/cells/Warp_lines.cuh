@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The lines that may cut a warp's cell, in its memory: the sites are gathered once, a lane looks at
-// one site. Where only weights change, the lines stay but for their distances.
+// The lines that may cut a warp's cell, in shared memory. The sites are gathered once, one site per
+// lane. When only weights change, only the distances of the lines are computed again.
 #ifndef CGAL_POWER_RTF_CUDA_WARP_LINES_CUH
 #define CGAL_POWER_RTF_CUDA_WARP_LINES_CUH
 
@@ -11,9 +11,7 @@
 
 #include <CGAL/PowerRTF/cells/construct_cell.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 template <class Real>
 class Warp_lines : public Warp_clipping<Real> {
@@ -22,8 +20,8 @@ class Warp_lines : public Warp_clipping<Real> {
 public:
   __device__ Warp_lines(const Group_view<Real>& view, Warp_cell_memory<Real>& memory, int place,
                         int lane)
-      : Base(memory, lane), m_view(view), m_place(place),
-        m_site(load(view.sites + place)), m_own(load(view.normals + place)), m_frame(m_own.normal)
+      : Base(memory, lane), m_view(view), m_place(place), m_site(load(view.sites + place)),
+        m_own(load(view.normals + place)), m_frame(m_own.normal)
   {}
 
   const __device__ Packed_site<Real>& site() const { return m_site; }
@@ -72,7 +70,7 @@ protected:
         lanes[l] = __ballot_sync(full_warp, offered);
         found += __popc(lanes[l]);
       }
-      if (kept.lines + found > Warp_cell_memory<Real>::most_lines) {
+      if (kept.lines + found > Warp_cell_memory<Real>::max_lines) {
         flush(kept, half, weights);
         return false; // so that the batch need not stay in registers meanwhile
       }
@@ -100,9 +98,9 @@ protected:
   {
     const Real power = d2 + (own_weight - weight);
     if (has_direction) return power / 2;
-    // Parallel to the tangent plane, or a duplicate: the first one stays.
+    // Parallel to the tangent plane, or a duplicate: the first one wins.
     const bool cuts_all =
-        power < 0 || (power == 0 && d2 == 0 && m_view.caller[place] < m_view.caller[m_place]);
+        power < 0 || (power == 0 && m_view.caller[place] < m_view.caller[m_place]);
     return cuts_all ? Real(-1) : Real(1); // 0 <= c is true nowhere or everywhere
   }
 
@@ -205,8 +203,6 @@ protected:
   Real m_nearest2;           // of the waiting lines' sites, the lane's ones
 };
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WARP_LINES_CUH

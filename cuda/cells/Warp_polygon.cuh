@@ -8,9 +8,7 @@
 
 #include "warp_search.cuh"
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// Counter-clockwise: lane k holds vertex k and the number of edge k, which runs to vertex k + 1;
 /// the sides of the initial square have the numbers -1 .. -4. `size` and `overflow` are the same on
@@ -32,10 +30,14 @@ struct Warp_polygon {
   }
 
   __device__ Real squared_radius(int lane) const
-  { return warp_greatest(lane < size ? x * x + y * y : Real(0)); }
+  {
+    return warp_max_nonnegative(lane < size ? x * x + y * y : Real(0));
+  }
 
   __device__ bool touches_square(int lane) const
-  { return __any_sync(full_warp, lane < size && edge < 0 && edge >= -4); }
+  {
+    return __any_sync(full_warp, lane < size && edge < 0 && edge >= -4);
+  }
 
   __device__ Real area(int lane) const
   {
@@ -96,8 +98,6 @@ struct Warp_polygon {
   }
 };
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WARP_POLYGON_CUH

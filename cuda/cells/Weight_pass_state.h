@@ -3,51 +3,56 @@
 #ifndef CGAL_POWER_RTF_CUDA_WEIGHT_PASS_STATE_H
 #define CGAL_POWER_RTF_CUDA_WEIGHT_PASS_STATE_H
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
 
-/// What the passes leave behind.
+#include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
+
+namespace CGAL::PowerRTF::device {
+
+/// Input of the weight passes by the paper's rule.
+template <class Real>
+struct Weight_pass_input {
+  Sites_arrays<Real> arrays;         ///< the sites that are set
+  Site<Real>* sites = nullptr;       ///< those of `arrays`: the weights are written here
+  const Real* density = nullptr;     ///< rho of each cell
+  const Real* first = nullptr;       ///< see `Cell_builder::neighbor_distances()`, compatible
+  const Real* sixth = nullptr;       ///< the same; both null: computed, in one kernel only
+  Multiplicative_weight_rule rule{}; ///< its mean mass is that of the cells
+  int passes = 0;                    ///< at most
+  Cell_outputs<Real> out;            ///< of the cells of the last weights; with areas
+};
+
+/// Result of the weight passes.
 struct Weight_pass_state {
   int done = 0;  ///< changes of the weights
   int equal = 0; ///< all masses are inside the interval
   double mean_mass = 0;
 };
 
-/// What a warp tells of its site: the weight of the last cells, the distance that the rule takes
-/// for it, and the cell's mass.
+/// What a warp publishes about its site: the weight of the last cells, the distance that the rule
+/// uses for it, and the mass of the cell.
 template <class Real>
 struct alignas(16) Pass_record {
   Real weight, distance;
   double mass;
 };
 
-/// What cells have in common in a pass.
+/// Totals over the cells of a pass.
 struct Pass_totals {
-  double mass = 0, most = 0, least = 1e300; ///< sum and extremes of the masses
-  double growth = 0;                        ///< the most that a weight will have grown
+  double mass = 0, max_mass = 0, min_mass = 1e300; ///< sum and extremes of the masses
+  double growth = 0;                               ///< upper bound of the growth of the weights
 };
 
-/// What the warps tell each other, at first zero; arrays: one entry per pass, used in turn.
+/// Counters shared by all warps, initially zero. Arrays: one entry per pass, used in turn.
 template <class Real>
 struct Pass_counters {
-  static constexpr int most_groups = 256, turns = 3;
-  using Bits = unsigned long long;                         ///< of numbers that are not negative
-  Bits most[turns], not_least[turns], all_growth[turns];   ///< see `Pass_totals`
-  unsigned arrivals;                                       ///< of blocks, at barriers
-  Real growth[turns][most_groups];                         ///< of groups, see `Kept_lists`
+  static constexpr int max_groups = 256, turns = 3;
+  using Bits = unsigned long long; ///< of numbers that are not negative
+  Bits max_mass[turns], not_min_mass[turns], all_growth[turns]; ///< see `Pass_totals`
+  unsigned arrivals;                                            ///< of blocks, at barriers
+  Real growth[turns][max_groups];                               ///< of groups, see `Verlet_lists`
 };
 
-/// Also the counters of the passes by lists; arrays: one entry per pass.
-struct List_pass_state : Weight_pass_state {
-  static constexpr int most_passes = 64;
-  int specials = 0; ///< cells without a list
-  int outside[most_passes] = {};
-  unsigned long long mass[most_passes] = {}; ///< see `Mass_sum`
-};
-
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WEIGHT_PASS_STATE_H

@@ -5,18 +5,16 @@
 #include "Cell_builder_passes.h"
 #include "clip_lists.cuh"
 #include "search_lists.cuh"
-#include "second_pass.cuh"
 #include "sort_sites.cuh"
+#include "warp_cells.cuh"
 
 #include <algorithm>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 namespace {
-// Calls of set_sites(): samples move by less than a spacing, so that their order serves for a
-// while.
+// Calls of set_sites() between two sorts: samples move by less than a spacing, so that their order
+// remains good for a while.
 constexpr unsigned sort_every = 8;
 } // namespace
 
@@ -33,18 +31,18 @@ Cell_builder<Real>::Cell_builder(Cuda_backend& backend, int max_sites, Real cos_
   m_nodes.allocate(backend, Group_layout(max_sites).nodes());
   m_radius.allocate(backend, max_sites);
   m_guard.allocate(backend, max_sites);
-  m_rest.allocate(backend, max_sites);
-  m_rest_counts.allocate(backend, 2);
-  m_tickets.allocate(backend, 2);
+  m_deferred.allocate(backend, max_sites);
+  m_deferred_counts.allocate(backend, 2);
+  m_ticket.allocate(backend, 1);
   m_keys.allocate(backend, max_sites);
   const int groups = Group_layout(max_sites).nodes(0);
-  m_list_neighbors.allocate(backend, std::size_t(Kept_lists<Real>::capacity) * max_sites);
+  m_list_neighbors.allocate(backend, std::size_t(Verlet_lists<Real>::capacity) * max_sites);
   m_list_sizes.allocate(backend, max_sites);
   m_list_radius.allocate(backend, max_sites);
   m_list_outside.allocate(backend, max_sites);
   m_list_weights.allocate(backend, max_sites);
   m_group_radius.allocate(backend, groups);
-  m_groups.allocate(backend, std::size_t(Kept_lists<Real>::most_groups) * groups);
+  m_groups.allocate(backend, std::size_t(Verlet_lists<Real>::max_groups) * groups);
   m_group_sizes.allocate(backend, groups);
   m_growth.allocate(backend, groups);
   m_all_growth.allocate(backend, 1);
@@ -52,8 +50,8 @@ Cell_builder<Real>::Cell_builder(Cuda_backend& backend, int max_sites, Real cos_
   m_open_lanes.allocate(backend, groups);
   m_open_counts.allocate(backend, 2);
   backend.fill(m_open_counts.data(), 0, 2);
-  backend.fill(m_rest_counts.data(), 0, 2);
-  backend.fill(m_tickets.data(), 0u, 2);
+  backend.fill(m_deferred_counts.data(), 0, 2);
+  backend.fill(m_ticket.data(), 0u, 1);
   m_bytes = backend.bytes() - before;
 }
 
@@ -75,9 +73,9 @@ Group_view<Real> Cell_builder<Real>::view() const
 }
 
 template <class Real>
-Kept_lists<Real> Cell_builder<Real>::lists()
+Verlet_lists<Real> Cell_builder<Real>::lists()
 {
-  Kept_lists<Real> l;
+  Verlet_lists<Real> l;
   l.neighbors = m_list_neighbors.data();
   l.sizes = m_list_sizes.data();
   l.radius = m_list_radius.data();
@@ -93,15 +91,32 @@ Kept_lists<Real> Cell_builder<Real>::lists()
 }
 
 template <class Real>
-void Cell_builder<Real>::take(const Sites_arrays<Real>& arrays, bool positions)
+void Cell_builder<Real>::gather_sites(const Sites_arrays<Real>& arrays, bool positions)
 {
   if (m_sites == 0) return;
   if (!positions) m_backend.fill(m_all_growth.data(), Real(0), 1);
-  take_sites_kernel<<<blocks(m_sites, take_threads), take_threads, 0, m_backend.stream()>>>(
+  gather_sites_kernel<<<blocks(m_sites, gather_threads), gather_threads, 0, m_backend.stream()>>>(
       arrays, positions, m_order.data(), m_packed.data(), m_packed_normals.data(),
-      m_density_root.data(), m_nodes.data(), Group_layout(m_sites), lists(),
-      m_list_use == List_use::read, m_guard.data(), m_tickets.data());
+      m_density_root.data(), m_nodes.data(), Group_layout(m_sites), lists(), are_lists_valid(),
+      m_guard.data(), m_ticket.data());
   check(cudaGetLastError(), "sorting the sites");
+  m_gathered_weights = m_stamps.weights;
+}
+
+template <class Real>
+void Cell_builder<Real>::gather_new_weights()
+{
+  if (m_gathered_weights != m_stamps.weights) gather_sites(m_arrays, false);
+}
+
+template <class Real>
+bool Cell_builder<Real>::are_lists_valid() const
+{
+  if (m_listed.positions != m_stamps.positions) return false;
+  const unsigned changes = m_stamps.weights - m_listed.weights;
+  // The first lists of positions are not made to outlive a change.
+  return changes == 0 ||
+         (m_listed.weights != m_first_weights && changes < Verlet_lists<Real>::max_changes);
 }
 
 template <class Real>
@@ -111,24 +126,25 @@ void Cell_builder<Real>::set_sites(const Sites_arrays<Real>& arrays)
   m_sites = arrays.sites_size;
   m_cells = arrays.cells;
   m_has_features = arrays.next != nullptr;
-  if (others) {
-    m_settings = 0;
-    m_backend.fill(m_radius.data(), Real(0), m_cells);
-  }
-  if (m_settings % sort_every == 0 && m_sites > 0) {
-    morton_keys_kernel<<<blocks(m_sites, 256), 256, 0, m_backend.stream()>>>(
-        m_sites, arrays.sites, m_keys.data());
-    check(cudaGetLastError(), "sorting the sites");
-    m_backend.sort_order(m_sites, m_keys.data(), m_order.data());
-    if (m_has_features) link_features(arrays);
-    m_are_lists_in_order = false;
-  }
-  ++m_settings;
-  m_list_use = List_use::none;
+  ++m_stamps.positions;
+  m_first_weights = ++m_stamps.weights;
+  if (others) m_backend.fill(m_radius.data(), Real(0), m_cells);
+  if (others || m_stamps.positions - m_sorted_positions >= sort_every) sort(arrays);
   m_arrays = arrays;
-  m_are_weights_old = false;
-  m_has_lists = m_are_lists_current = false;
-  take(arrays, true);
+  gather_sites(arrays, true);
+}
+
+template <class Real>
+void Cell_builder<Real>::sort(const Sites_arrays<Real>& arrays)
+{
+  if (m_sites == 0) return;
+  hilbert_keys_kernel<<<blocks(m_sites, 256), 256, 0, m_backend.stream()>>>(m_sites, arrays.sites,
+                                                                            m_keys.data());
+  check(cudaGetLastError(), "sorting the sites");
+  m_backend.sort_order(m_sites, m_keys.data(), m_order.data());
+  if (m_has_features) link_features(arrays);
+  ++m_stamps.order;
+  m_sorted_positions = m_stamps.positions;
 }
 
 template <class Real>
@@ -153,65 +169,59 @@ void Cell_builder<Real>::link_features(const Sites_arrays<Real>& arrays)
 template <class Real>
 void Cell_builder<Real>::set_weights(const Sites_arrays<Real>& arrays)
 {
-  m_list_use = m_has_lists && ++m_list_age < list_every ? List_use::read : List_use::make;
-  m_are_lists_current = m_list_use == List_use::read;
+  ++m_stamps.weights;
   m_arrays = arrays;
-  m_are_weights_old = false;
-  take(arrays, false);
+  gather_sites(arrays, false);
 }
 
 template <class Real>
-void Cell_builder<Real>::construct(Cell_targets<Real>& targets, bool keep_lists)
+void Cell_builder<Real>::construct(Cell_targets<Real>& targets)
 {
   if (m_cells == 0) return;
-  if (!keep_lists && m_sites <= most_by_warps()) return construct_by_warps(targets);
+  if (m_sites <= max_by_warps()) return construct_by_warps(targets);
   const unsigned turn = m_constructions++ % 2;
   targets.radius = m_radius.data();
   targets.guard = m_guard.data();
-  targets.rest = m_rest.data();
-  targets.rest_count = m_rest_counts.data() + turn;
+  targets.deferred = m_deferred.data();
+  targets.deferred_count = m_deferred_counts.data() + turn;
   const Group_view<Real> v = view();
   const cudaStream_t stream = m_backend.stream();
 
-  // Few groups: blocks of one warp spread over the multiprocessors; few cells: several lanes each.
+  // Few cells: several lanes each.
   const int groups = blocks(m_sites, 32), processors = m_backend.multiprocessors();
-  if (!keep_lists && groups <= 8 * processors) {
-    constexpr int lanes = 4;
-    const int warps = groups * lanes <= 4 * processors ? 1 : group_warps<Real>;
+  if (groups <= 8 * processors) {
+    constexpr int lanes = 4, warps = group_warps<Real>;
     group_cells_kernel<Real, lanes>
         <<<blocks(groups * lanes, warps), 32 * warps, 0, stream>>>(v, targets);
   } else {
-    const int warps = groups <= 4 * processors ? 1 : group_warps<Real>;
+    constexpr int warps = group_warps<Real>;
     const int grid = blocks(groups, warps), threads = 32 * warps;
-    const bool make = m_list_use == List_use::make, search = !m_are_lists_current;
     const unsigned now = m_list_constructions++ % 2;
     const Open_groups open{m_open_groups.data(), m_open_lanes.data(), m_open_counts.data() + now,
                            m_open_counts.data() + (1 - now)};
-    if (search) {
+    if (!are_lists_valid()) {
       // What a list should outlive: a step of the sites, or several changes of the weights.
       const int search_grid = blocks(groups, search_warps<Real>);
       search_lists_kernel<<<search_grid, 32 * search_warps<Real>, 0, stream>>>(
-          v, lists(), m_radius.data(), Real(make ? 1.4 : 1.15), m_are_lists_in_order, make);
-      check(cudaGetLastError(), "searching neighbours");
-      m_are_lists_current = m_are_lists_in_order = true;
-      m_has_lists = make;
-      m_list_age = 0;
+          v, lists(), m_radius.data(), Real(have_weights_changed() ? 1.4 : 1.15),
+          m_listed.order == m_stamps.order, have_weights_changed());
+      check(cudaGetLastError(), "searching neighbors");
+      m_listed = m_stamps;
     }
-    const bool have_grown = m_list_use == List_use::read;
+    const bool have_grown = m_listed.weights != m_stamps.weights;
     const bool moments = targets.out.mass || targets.out.offset;
     const auto clip = have_grown ? moments ? clip_lists_kernel<Real, true, true>
                                            : clip_lists_kernel<Real, true, false>
-                      : moments  ? clip_lists_kernel<Real, false, true>
+                      : moments ? clip_lists_kernel<Real, false, true>
                                  : clip_lists_kernel<Real, false, false>;
     clip<<<grid, threads, 0, stream>>>(v, targets, lists(), open);
     open_groups_kernel<<<std::min(grid, 4 * processors), threads, 0, stream>>>(v, targets, open);
   }
   check(cudaGetLastError(), "constructing cells");
-  const int most_blocks = 4 * processors;
-  const int all = blocks(m_cells, second_warps<Real>);
+  const int grid = std::min(blocks(m_cells, cell_warps<Real>), 4 * processors);
   const Feature_links links{m_next.data(), m_previous.data()};
-  second_pass_kernel<<<all < most_blocks ? all : most_blocks, 32 * second_warps<Real>, 0, stream>>>(
-      v, targets, links, m_rest_counts.data() + (1 - turn));
+  deferred_cells_kernel<<<grid, 32 * cell_warps<Real>, 0, stream>>>(
+      v, targets, links, m_deferred_counts.data() + (1 - turn));
   check(cudaGetLastError(), "constructing cells");
 }
 
@@ -221,7 +231,7 @@ void Cell_builder<Real>::construct_by_warps(Cell_targets<Real>& targets)
   targets.radius = m_radius.data();
   targets.guard = m_guard.data();
   const Feature_links links{m_next.data(), m_previous.data()};
-  warp_cells_kernel<<<blocks(m_sites, second_warps<Real>), 32 * second_warps<Real>, 0,
+  warp_cells_kernel<<<blocks(m_sites, cell_warps<Real>), 32 * cell_warps<Real>, 0,
                       m_backend.stream()>>>(view(), targets, links);
   check(cudaGetLastError(), "constructing cells");
 }
@@ -229,7 +239,7 @@ void Cell_builder<Real>::construct_by_warps(Cell_targets<Real>& targets)
 template <class Real>
 void Cell_builder<Real>::build(const Cell_outputs<Real>& out)
 {
-  if (m_are_weights_old) set_weights(m_arrays);
+  gather_new_weights();
   Cell_targets<Real> targets;
   targets.out = out;
   construct(targets);
@@ -239,7 +249,7 @@ template <class Real>
 void Cell_builder<Real>::polygons(int begin, int end, int* size, Real* x, Real* y, int* neighbor,
                                   unsigned char* status)
 {
-  if (m_are_weights_old) set_weights(m_arrays);
+  gather_new_weights();
   Cell_targets<Real> targets;
   targets.out.status = status;
   targets.polygons = {begin, end, size, x, y, neighbor};
@@ -250,15 +260,13 @@ template <class Real>
 void Cell_builder<Real>::neighbor_distances(bool compatible, Real* first, Real* sixth)
 {
   if (m_cells == 0) return;
-  neighbor_distances_kernel<<<blocks(m_sites, second_warps<Real>), 32 * second_warps<Real>, 0,
-                              m_backend.stream()>>>(
-      view(), compatible ? m_cos_angle : Real(-2), m_radius.data(), first, sixth);
+  neighbor_distances_kernel<<<blocks(m_sites, cell_warps<Real>), 32 * cell_warps<Real>, 0,
+                              m_backend.stream()>>>(view(), compatible ? m_cos_angle : Real(-2),
+                                                    m_radius.data(), first, sixth);
   check(cudaGetLastError(), "distances of sites");
 }
 
 template class Cell_builder<float>;
 template class Cell_builder<double>;
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device

@@ -6,20 +6,22 @@
 #ifndef CGAL_POWER_RTF_CUDA_CELL_BUILDER_H
 #define CGAL_POWER_RTF_CUDA_CELL_BUILDER_H
 
-#include "../device/Cuda_backend.h"
-#include "Kept_lists.h"
-#include "Large_pass_state.h"
+#include "../backend/Cuda_backend.h"
+#include "Verlet_lists.h"
 #include "Weight_pass_state.h"
-#include "cell_arrays.h"
 
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
 #include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 template <class Real>
 struct Cell_targets;
+
+/// How often something about the sites has changed. What is made from them notes the counts.
+struct Site_stamps {
+  unsigned order = 0, positions = 0, weights = 0;
+};
 
 /// Constructs cells on the backend's stream; all calls return before the work is done. Arrays are
 /// in the caller's order, which should follow a space-filling curve: then memory is read in runs.
@@ -43,25 +45,21 @@ public:
   /// Constructs the cells of the current sites.
   void build(const Cell_outputs<Real>& out);
 
-  /// Up to `passes` passes of the paper's rule over the weights, each with the cells of the last
-  /// one (Algorithm 2, lines 3 to 10), until all masses `density` * area are inside `rule`'s
-  /// interval; then constructs the cells, as `build()`. `first`, `sixth`: see
-  /// `neighbor_distances()`, compatible. Writes the weights to `arrays.sites`; without features
-  /// their mean is 0. Waits for the device. Returns the number of passes, each of which is a
-  /// construction.
-  int paper_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
-                          const Real* first, const Real* sixth,
-                          const Multiplicative_weight_rule& rule, int passes,
-                          const Cell_outputs<Real>& out);
-
-  /// The same without waiting, where each site finds a warp; returns false where not, and does
-  /// nothing. `first` and `sixth` may both be null: they are found on the way. `arrays` must live
-  /// until the next sites or weights are set.
+  /// Starts up to `passes` passes of the paper's rule over the weights, each with the cells of the
+  /// last one (Algorithm 2, lines 3 to 10), until all masses `density` * area are inside `rule`'s
+  /// interval; then constructs the cells, as `build()`. All in one kernel, when each site finds a
+  /// warp; else returns false and does nothing. `first`, `sixth`: see `neighbor_distances()`,
+  /// compatible; both null: they are found on the way. Writes the weights to `sites`, those of
+  /// `arrays`; without features their mean is 0. `arrays` must live until the next sites or weights
+  /// are set.
   bool start_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
                            const Real* first, const Real* sixth,
                            const Multiplicative_weight_rule& rule, int passes,
-                           const Cell_outputs<Real>& out);
-  /// What the passes started last have come to, on the device.
+                           const Cell_outputs<Real>& out)
+  {
+    return start_resident_passes({arrays, sites, density, first, sixth, rule, passes, out});
+  }
+  /// The result of the passes started last, on the device.
   const Weight_pass_state* weight_pass_state() const { return m_pass_state.data(); }
 
   /// Distances of the cells' sites to the first and to the sixth nearest site, `compatible` or of
@@ -69,7 +67,7 @@ public:
   void neighbor_distances(bool compatible, Real* first, Real* sixth);
 
   /// The cells [begin, end) in full. Vertex and edge k < 64 of cell i: at [(i - begin) * 64 + k];
-  /// x and y in its `Tangent_frame`; neighbours below 0 are sides of the guard square.
+  /// x and y in its `Tangent_frame`; neighbors below 0 are sides of the guard square.
   void polygons(int begin, int end, int* size, Real* x, Real* y, int* neighbor,
                 unsigned char* status);
 
@@ -80,36 +78,34 @@ private:
   template <class T>
   using Buffer = Cuda_backend::Buffer<T>;
 
-  void take(const Sites_arrays<Real>& arrays, bool positions);
+  void sort(const Sites_arrays<Real>& arrays);
+  void gather_sites(const Sites_arrays<Real>& arrays, bool positions);
+  /// Gathers the weights of `m_arrays` where they are newer.
+  void gather_new_weights();
+  /// Whether the lists serve for the current weights, with a proof for each cell.
+  bool are_lists_valid() const;
+  bool have_weights_changed() const { return m_stamps.weights != m_first_weights; }
   Group_view<Real> view() const;
-  Kept_lists<Real> lists();
-  void construct(Cell_targets<Real>& targets, bool keep_lists = false);
+  Verlet_lists<Real> lists();
+  void construct(Cell_targets<Real>& targets);
   void construct_by_warps(Cell_targets<Real>& targets);
   /// Sites: so few that a warp for each takes less time than one for 32 of them.
-  int most_by_warps() const { return 128 * m_backend.multiprocessors(); }
+  int max_by_warps() const { return 128 * m_backend.multiprocessors(); }
   void link_features(const Sites_arrays<Real>& arrays);
-  int list_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
-                         const Real* first, const Real* sixth,
-                         const Multiplicative_weight_rule& rule, int passes,
-                         const Cell_outputs<Real>& out);
-  int large_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
-                          const Real* first, const Real* sixth,
-                          const Multiplicative_weight_rule& rule, int passes,
-                          const Cell_outputs<Real>& out);
+  Weight_pass_state* pass_state();
+  bool start_resident_passes(const Weight_pass_input<Real>& in);
 
   Cuda_backend& m_backend;
   std::size_t m_bytes = 0;
   Real m_cos_angle, m_guard_factor;
   int m_cells = 0, m_sites = 0;
   bool m_has_features = false;
-  Sites_arrays<Real> m_arrays;    // of the last call
-  bool m_are_weights_old = false; // they are in `m_arrays` only
-  unsigned m_settings = 0;     // calls of set_sites() for these sites
-  List_use m_list_use = List_use::none;
-  bool m_has_lists = false;    // of the current positions, for several weights
-  bool m_are_lists_in_order = false; // they name places of the current order
-  bool m_are_lists_current = false;  // no search is needed
-  unsigned m_list_age = 0;     // calls of set_weights() since they were made
+  Sites_arrays<Real> m_arrays;     // of the last call
+  Site_stamps m_stamps;            // the caller's sites
+  Site_stamps m_listed;            // those that the lists were made for
+  unsigned m_first_weights = 0;    // when the positions were set
+  unsigned m_gathered_weights = 0; // those of `m_packed`
+  unsigned m_sorted_positions = 0;
   unsigned m_constructions = 0, m_list_constructions = 0;
 
   Buffer<int> m_order; // place -> the caller's index
@@ -117,25 +113,22 @@ private:
   Buffer<Packed_normal<Real>> m_packed_normals;
   Buffer<Real> m_density_root;
   Buffer<Group_node<Real>> m_nodes;
-  Buffer<Real> m_radius;       // the caller's order
-  Buffer<Real> m_guard;        // guard radii by place; 0: not known
-  Buffer<int> m_rest;          // cells for the second pass
-  Buffer<int> m_rest_counts;   // 2, used in turn
-  Buffer<unsigned> m_tickets;  // 2
-  Buffer<int> m_list_neighbors; // see `Kept_lists`
+  Buffer<Real> m_radius;         // the caller's order
+  Buffer<Real> m_guard;          // guard radii by place; 0: not known
+  Buffer<int> m_deferred;        // cells that warps make
+  Buffer<int> m_deferred_counts; // 2, used in turn
+  Buffer<unsigned> m_ticket;
+  Buffer<int> m_list_neighbors; // see `Verlet_lists`
   Buffer<unsigned short> m_list_sizes;
   Buffer<Real> m_list_radius, m_list_outside, m_group_radius;
   Buffer<int> m_groups, m_group_sizes;
   Buffer<Real> m_list_weights, m_growth, m_all_growth;
   Buffer<int> m_open_groups, m_open_counts; // see `Open_groups`
   Buffer<unsigned> m_open_lanes;
-  Buffer<Real> m_area;         // paper_weight_passes() only, as what follows
-  Buffer<double> m_partials;
-  Buffer<List_pass_state> m_list_state;
+  Buffer<double> m_partials; // of the weight passes, as what follows
   Buffer<Weight_pass_state> m_pass_state;
   Buffer<Pass_record<Real>> m_pass_records;
   Buffer<Pass_counters<Real>> m_pass_counters;
-  Buffer<Large_pass_state> m_large_state;
   Buffer<int> m_places, m_next, m_previous; // with features only
   Buffer<std::uint64_t> m_keys;
 };
@@ -143,8 +136,6 @@ private:
 extern template class Cell_builder<float>;
 extern template class Cell_builder<double>;
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_CELL_BUILDER_H

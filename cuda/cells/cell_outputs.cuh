@@ -1,19 +1,17 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What both passes of the construction write for a cell.
+// Writes the results of the construction for a cell.
 #ifndef CGAL_POWER_RTF_CUDA_CELL_OUTPUTS_CUH
 #define CGAL_POWER_RTF_CUDA_CELL_OUTPUTS_CUH
 
 #include "Lane_cell.h"
-#include "cell_arrays.h"
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
 
 #include <CGAL/PowerRTF/cells/cell_moments.h>
 #include <CGAL/PowerRTF/cells/construct_cell.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// The cells [begin, end) in full: vertex and edge k of cell i at [(i - begin) * 64 + k].
 template <class Real>
@@ -28,10 +26,10 @@ struct Polygon_outputs {
 /// Where the construction writes; indices are the caller's.
 template <class Real>
 struct Cell_targets {
-  Real* radius = nullptr; ///< R of the last construction; 0: unknown, < 0: by the second pass
-  Real* guard = nullptr;  ///< guard radius of the site at each place; 0: not known
-  int* rest = nullptr;    ///< places of the cells left to the second pass
-  int* rest_count = nullptr;
+  Real* radius = nullptr;  ///< R of the last construction; 0: unknown, < 0: it was deferred
+  Real* guard = nullptr;   ///< guard radius of the site at each place; 0: not known
+  int* deferred = nullptr; ///< places of the cells that a warp makes
+  int* deferred_count = nullptr;
   Cell_outputs<Real> out;
   Polygon_outputs<Real> polygons;
 };
@@ -58,9 +56,8 @@ __device__ inline void write_edges(const Group_view<Real>& view, const Cell_outp
 }
 
 template <class Real, class Polygon>
-__device__ inline void write_polygon(const Group_view<Real>& view,
-                                     const Polygon_outputs<Real>& out, int id,
-                                     const Polygon& polygon)
+__device__ inline void write_polygon(const Group_view<Real>& view, const Polygon_outputs<Real>& out,
+                                     int id, const Polygon& polygon)
 {
   if (id < out.begin || id >= out.end) return;
   const std::size_t first = std::size_t(id - out.begin) * Polygon_outputs<Real>::capacity;
@@ -103,16 +100,14 @@ __device__ inline void write_cell(const Group_view<Real>& view, const Cell_outpu
   if (out.area && !out.mass && !out.offset) {
     out.area[id] = cell_area(polygon);
   } else if (out.area || out.mass || out.offset) {
-    write_moments(
-        out, id, cell_moments(polygon, place, [&](int j) { return __ldg(view.density_root + j); }),
-        frame);
+    write_moments(out, id,
+                  cell_moments(polygon, place, [&](int j) { return __ldg(view.density_root + j); }),
+                  frame);
   }
   if (out.status) out.status[id] = static_cast<unsigned char>(status);
   if (out.edge_count) write_edges(view, out, place, id, polygon, frame);
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_CELL_OUTPUTS_CUH

@@ -9,20 +9,20 @@
 
 #include "group_cells.cuh"
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 template <class Real, bool WithMoments>
-constexpr int clip_blocks = sizeof(Real) == 8 ? 4 : WithMoments ? 6 : 8; // of a multiprocessor
+constexpr int clip_blocks = sizeof(Real) == 8 ? 4
+                            : WithMoments     ? 6
+                                              : 8; // of a multiprocessor
 
 /// `HaveGrown`: the weights may differ from those that the lists were made for. `WithMoments`: more
 /// than areas is wanted.
 template <class Real, bool HaveGrown, bool WithMoments>
 __global__ void __launch_bounds__(32 * group_warps<Real>, clip_blocks<Real, WithMoments>)
-clip_lists_kernel(const __grid_constant__ Group_view<Real> view,
-                  const __grid_constant__ Cell_targets<Real> targets,
-                  const __grid_constant__ Kept_lists<Real> lists, Open_groups open)
+    clip_lists_kernel(const __grid_constant__ Group_view<Real> view,
+                      const __grid_constant__ Cell_targets<Real> targets,
+                      const __grid_constant__ Verlet_lists<Real> lists, Open_groups open)
 {
   constexpr int warps = group_warps<Real>;
   __shared__ Ring_memory<Real, 32> polygons[warps];
@@ -65,8 +65,8 @@ clip_lists_kernel(const __grid_constant__ Group_view<Real> view,
   };
 
   const bool has_cell = place < view.tree.items && view.caller[place] < view.cells;
-  const int sizes = has_cell ? lists.sizes[place] : Kept_lists<Real>::none;
-  const bool has_list = sizes != Kept_lists<Real>::none;
+  const int sizes = has_cell ? lists.sizes[place] : Verlet_lists<Real>::none;
+  const bool has_list = sizes != Verlet_lists<Real>::none;
   Lane_cell<Real> own;
   own.place = place;
   Chain_result<Real> chain;
@@ -113,8 +113,6 @@ clip_lists_kernel(const __grid_constant__ Group_view<Real> view,
   }
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_CLIP_LISTS_CUH

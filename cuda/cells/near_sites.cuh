@@ -1,17 +1,15 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A warp's look at the sites near one site, and their distances.
+// The sites near one site and their distances, by a warp.
 #ifndef CGAL_POWER_RTF_CUDA_NEAR_SITES_CUH
 #define CGAL_POWER_RTF_CUDA_NEAR_SITES_CUH
 
 #include "warp_search.cuh"
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
-/// Up to two groups of sites: the lane's ones. Their loads wait together.
+/// The lane's sites of up to two groups, loaded together to overlap the latencies.
 template <class Real>
 struct Site_batch {
   static constexpr int size = 2;
@@ -59,7 +57,7 @@ struct Neighbor_angles {
 
 /// Distances of the site at `place` to the nearest and to the sixth site of its patch that are
 /// compatible by `angles`; see `distance_to_neighbor()`. `guess` is where the search begins;
-/// `wanted`: 1 or 6. (A call of its own: its registers would be those of all that need it.)
+/// `wanted`: 1 or 6. (Not inlined: its registers would count for every caller.)
 template <class Real>
 __device__ __noinline__ Neighbor_distances<Real>
 neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place, Real guess,
@@ -97,10 +95,10 @@ neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place,
       }
       return true;
     });
-    first = warp_least(first);
+    first = warp_min_nonnegative(first);
     Real last = 0, needed = first;
     for (int k = 0; k < 6 && wanted == 6; ++k) { // the least of all lanes
-      const Real least = warp_least(nearest[0]);
+      const Real least = warp_min_nonnegative(nearest[0]);
       const unsigned lanes = __ballot_sync(full_warp, nearest[0] == least);
       if (lane == __ffs(int(lanes)) - 1) {
 #pragma unroll
@@ -116,8 +114,6 @@ neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place,
   }
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_NEAR_SITES_CUH

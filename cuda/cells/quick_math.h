@@ -1,11 +1,11 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What takes the device one instruction.
+// Fast approximate intrinsics.
 #ifndef CGAL_POWER_RTF_CUDA_QUICK_MATH_H
 #define CGAL_POWER_RTF_CUDA_QUICK_MATH_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
 
 /// In front of a loop whose arrays are to stay in registers.
 #ifdef __CUDA_ARCH__
@@ -14,9 +14,7 @@
 #define CGAL_POWER_RTF_UNROLL
 #endif
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 // On the device these are off by a few units in the last place.
 CGAL_POWER_RTF_HD inline float quick_sqrt(float x)
@@ -42,7 +40,9 @@ CGAL_POWER_RTF_HD inline double quick_quotient(double a, double b) { return a / 
 
 template <class Real>
 CGAL_POWER_RTF_HD inline Real greatest(Real a, Real b, Real c)
-{ return std::fmax(std::fmax(a, b), c); }
+{
+  return std::fmax(std::fmax(a, b), c);
+}
 
 #ifdef __CUDA_ARCH__
 CGAL_POWER_RTF_HD inline int lowest_bit(unsigned bits) { return __ffs(int(bits)) - 1; }
@@ -52,8 +52,6 @@ CGAL_POWER_RTF_HD inline int lowest_bit(unsigned bits) { return __builtin_ctz(bi
 CGAL_POWER_RTF_HD inline int highest_bit(unsigned bits) { return 31 - __builtin_clz(bits); }
 #endif
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_QUICK_MATH_H

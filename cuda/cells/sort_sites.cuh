@@ -1,24 +1,22 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Brings the caller's sites into Morton order and makes the tree of arity 32 over them.
+// Brings the caller's sites into Hilbert order and makes the tree of arity 32 over them.
 #ifndef CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
 #define CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
 
-#include "../engine/morton_code.h"
-#include "cell_arrays.h"
-#include "Kept_lists.h"
+#include "Verlet_lists.h"
 #include "warp_search.cuh"
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
+#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 template <class Real>
-__global__ void morton_keys_kernel(int n, const Site<Real>* sites, std::uint64_t* keys)
+__global__ void hilbert_keys_kernel(int n, const Site<Real>* sites, std::uint64_t* keys)
 {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
-  if (i < n) keys[i] = morton_code(sites[i].point);
+  if (i < n) keys[i] = hilbert_code(sites[i].point);
 }
 
 /// `places[id]`: where the caller's site `id` lies.
@@ -30,7 +28,7 @@ static __global__ void invert_order_kernel(int n, const int* order, int* places)
 
 /// The boundaries' links between the caller's sites as links between places.
 static __global__ void link_places_kernel(int n, const int* order, const int* places,
-                                   const int* caller_links, int* links)
+                                          const int* caller_links, int* links)
 {
   const int place = blockIdx.x * blockDim.x + threadIdx.x;
   if (place >= n) return;
@@ -51,21 +49,43 @@ __device__ inline Group_node<Real> join_lanes(Group_node<Real> node, bool exists
   return node;
 }
 
-constexpr int take_threads = 1024; // a block makes the nodes of levels 0 and 1 of its sites
+/// Makes the nodes of the levels above 1, by a block of 32 warps.
+template <class Real>
+__device__ inline void make_upper_nodes(Group_node<Real>* nodes, const Group_layout& tree, int warp,
+                                        int lane)
+{
+  for (int level = 2; level < tree.levels; ++level) {
+    for (int k = warp; k < tree.nodes(level); k += 32) {
+      const int child = k * Group_layout::arity + lane;
+      const bool is_child = child < tree.nodes(level - 1);
+      Group_node<Real> node{};
+      if (is_child) {
+        const volatile Group_node<Real>& c = nodes[tree.first[level - 1] + child];
+        node = {{c.lo.x, c.lo.y, c.lo.z}, c.max_weight, {c.hi.x, c.hi.y, c.hi.z}, 0};
+      }
+      node = join_lanes(node, is_child);
+      if (lane == 0) nodes[tree.first[level] + k] = node;
+    }
+    __threadfence_block();
+    __syncthreads();
+  }
+}
 
-/// Copies the sites into Morton order (`positions`: everything, else their weights only), notes how
-/// their weights compare with those that the lists were made for, or are to be, and makes the
+constexpr int gather_threads = 1024; // a block makes the nodes of levels 0 and 1 of its sites
+
+/// Copies the sites into Hilbert order (`positions`: everything, else their weights only), notes
+/// how their weights compare with those that the lists were made for, or are to be, and makes the
 /// tree's nodes; the block that ends last does the levels above 1.
 template <class Real>
-__global__ void __launch_bounds__(take_threads)
-take_sites_kernel(Sites_arrays<Real> arrays, bool positions, const int* order,
-                  Packed_site<Real>* sites, Packed_normal<Real>* normals, Real* density_root,
-                  Group_node<Real>* nodes, const __grid_constant__ Group_layout tree,
-                  const __grid_constant__ Kept_lists<Real> lists, bool compare, Real* guard,
-                  unsigned* ticket)
+__global__ void __launch_bounds__(gather_threads)
+    gather_sites_kernel(Sites_arrays<Real> arrays, bool positions, const int* order,
+                        Packed_site<Real>* sites, Packed_normal<Real>* normals, Real* density_root,
+                        Group_node<Real>* nodes, const __grid_constant__ Group_layout tree,
+                        const __grid_constant__ Verlet_lists<Real> lists, bool compare, Real* guard,
+                        unsigned* ticket)
 {
   const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
-  const int place = blockIdx.x * take_threads + threadIdx.x;
+  const int place = blockIdx.x * gather_threads + threadIdx.x;
   const bool exists = place < tree.items;
   Packed_site<Real> site{};
   if (exists) {
@@ -83,8 +103,10 @@ take_sites_kernel(Sites_arrays<Real> arrays, bool positions, const int* order,
   Group_node<Real> node{site.point, site.weight, site.point, 0};
   Real growth = 0;
   if (exists) {
-    if (compare) growth = fmax(site.weight - lists.weights[place], Real(0));
-    else lists.weights[place] = site.weight;
+    if (compare)
+      growth = fmax(site.weight - lists.weights[place], Real(0));
+    else
+      lists.weights[place] = site.weight;
   }
   growth = warp_max(growth);
   node = join_lanes(node, exists);
@@ -101,7 +123,7 @@ take_sites_kernel(Sites_arrays<Real> arrays, bool positions, const int* order,
   __syncthreads();
   if (warp == 0) {
     growth = warp_max(growths[lane]);
-    if (lane == 0 && growth > 0) atomic_raise(lists.all_growth, growth);
+    if (lane == 0 && growth > 0) atomic_max_nonnegative(lists.all_growth, growth);
     if (tree.levels > 1) {
       node = join_lanes(of_warps[lane], true); // warps without sites are empty boxes
       if (lane == 0) nodes[tree.first[1] + blockIdx.x] = node;
@@ -116,25 +138,10 @@ take_sites_kernel(Sites_arrays<Real> arrays, bool positions, const int* order,
   __syncthreads();
   if (!is_last) return;
   __threadfence();
-  for (int level = 2; level < tree.levels; ++level) {
-    for (int k = warp; k < tree.nodes(level); k += 32) {
-      const int child = k * Group_layout::arity + lane;
-      const bool is_child = child < tree.nodes(level - 1);
-      if (is_child) {
-        const volatile Group_node<Real>& c = nodes[tree.first[level - 1] + child];
-        node = {{c.lo.x, c.lo.y, c.lo.z}, c.max_weight, {c.hi.x, c.hi.y, c.hi.z}, 0};
-      }
-      node = join_lanes(node, is_child);
-      if (lane == 0) nodes[tree.first[level] + k] = node;
-    }
-    __threadfence_block();
-    __syncthreads();
-  }
+  make_upper_nodes(nodes, tree, warp, lane);
   if (threadIdx.x == 0) *ticket = 0;
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_SORT_SITES_CUH

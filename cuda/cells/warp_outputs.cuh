@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a warp writes of its cell.
+// Writes the results for the cell of a warp.
 #ifndef CGAL_POWER_RTF_CUDA_WARP_OUTPUTS_CUH
 #define CGAL_POWER_RTF_CUDA_WARP_OUTPUTS_CUH
 
@@ -10,9 +10,7 @@
 
 #include <CGAL/PowerRTF/cells/clip_at_features.h>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// The links of the patches' boundaries, as places; null: no features.
 struct Feature_links {
@@ -41,7 +39,7 @@ __device__ inline Tangent_polygon<Real>& cell_in_memory(const Warp_cell<Real>& c
   return result;
 }
 
-/// A call of its own: few cells need it, and its registers would be those of all.
+/// Not inlined: few cells need it, and inlined its registers would count for all.
 template <class Real>
 __device__ __noinline__ void
 cut_at_features(const Group_view<Real>& view, const Feature_links& links,
@@ -83,11 +81,10 @@ __device__ inline Cell_moments<Real> warp_moments(const Group_view<Real>& view,
 
 /// Writes what is wanted of the warp's cell.
 template <class Real>
-__device__ inline void write_warp_cell(const Group_view<Real>& view,
-                                       const Cell_targets<Real>& targets,
-                                       const Feature_links& links, Warp_cell_memory<Real>& memory,
-                                       const Warp_cell<Real>& cell, int place, int id,
-                                       Cell_status status, int lane)
+__device__ inline void
+write_warp_cell(const Group_view<Real>& view, const Cell_targets<Real>& targets,
+                const Feature_links& links, Warp_cell_memory<Real>& memory,
+                const Warp_cell<Real>& cell, int place, int id, Cell_status status, int lane)
 {
   const Cell_outputs<Real>& out = targets.out;
   if (view.has_features || targets.polygons.size || out.edge_count) {
@@ -106,8 +103,6 @@ __device__ inline void write_warp_cell(const Group_view<Real>& view,
   if (out.status) out.status[id] = static_cast<unsigned char>(status);
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WARP_OUTPUTS_CUH

@@ -1,95 +1,15 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A warp's search in the tree of arity 32: one lane looks at one child, several nodes at a time, so
-// that their loads wait together.
+// A warp's search in the tree of arity 32: one child per lane, several nodes at a time to overlap
+// the latencies of their loads.
 #ifndef CGAL_POWER_RTF_CUDA_WARP_SEARCH_CUH
 #define CGAL_POWER_RTF_CUDA_WARP_SEARCH_CUH
 
 #include "Lane_cell.h"
+#include "warp_reductions.cuh"
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
-
-constexpr unsigned full_warp = 0xffffffffu;
-
-template <class Real>
-__device__ inline Real warp_min(Real x)
-{
-#pragma unroll
-  for (int step = 16; step > 0; step /= 2)
-    x = fmin(x, __shfl_xor_sync(full_warp, x, step));
-  return x;
-}
-template <class Real>
-__device__ inline Real warp_max(Real x)
-{
-#pragma unroll
-  for (int step = 16; step > 0; step /= 2)
-    x = fmax(x, __shfl_xor_sync(full_warp, x, step));
-  return x;
-}
-
-template <class Real>
-__device__ inline Real warp_sum(Real x)
-{
-#pragma unroll
-  for (int step = 16; step > 0; step /= 2) x += __shfl_xor_sync(full_warp, x, step);
-  return x;
-}
-
-/// The least of numbers that are not negative, and of integers.
-__device__ inline int warp_least(int x)
-{
-#if __CUDA_ARCH__ >= 800
-  return __reduce_min_sync(full_warp, x);
-#else
-#pragma unroll
-  for (int step = 16; step > 0; step /= 2) x = min(x, __shfl_xor_sync(full_warp, x, step));
-  return x;
-#endif
-}
-__device__ inline float warp_least(float x)
-{ return __int_as_float(warp_least(__float_as_int(x))); }
-/// The greatest of numbers that are not negative.
-__device__ inline float warp_greatest(float x)
-{
-#if __CUDA_ARCH__ >= 800
-  return __int_as_float(__reduce_max_sync(full_warp, __float_as_int(x)));
-#else
-  return warp_max(x);
-#endif
-}
-__device__ inline double warp_greatest(double x)
-{
-#if __CUDA_ARCH__ >= 800
-  const int high = __reduce_max_sync(full_warp, __double2hiint(x));
-  const unsigned low = __double2hiint(x) == high ? __double2loint(x) : 0;
-  return __hiloint2double(high, int(__reduce_max_sync(full_warp, low)));
-#else
-  return warp_max(x);
-#endif
-}
-__device__ inline double warp_least(double x)
-{
-#if __CUDA_ARCH__ >= 800
-  const int high = __reduce_min_sync(full_warp, __double2hiint(x));
-  const unsigned low = __double2hiint(x) == high ? __double2loint(x) : 0xffffffffu;
-  return __hiloint2double(high, int(__reduce_min_sync(full_warp, low)));
-#else
-  return warp_min(x);
-#endif
-}
-
-/// The larger one, whatever the order; for numbers that are not negative.
-__device__ inline void atomic_raise(float* p, float x)
-{ atomicMax(reinterpret_cast<int*>(p), __float_as_int(x)); }
-__device__ inline void atomic_raise(double* p, double x)
-{
-  atomicMax(reinterpret_cast<unsigned long long*>(p),
-            static_cast<unsigned long long>(__double_as_longlong(x)));
-}
+namespace CGAL::PowerRTF::device {
 
 /// Calls `on_sites(reached, site, place)` on all lanes together for every group of 32 sites that
 /// the query reaches; `reached`: the lane's site is one that the query is about. `stack`: the
@@ -151,15 +71,15 @@ __device__ inline void search_sites(const Group_view<Real>& view, Search_stack& 
 }
 
 /// Calls `on_groups(reached, group)` on all lanes together; `reached`: the query is about sites of
-/// the lane's `group`. Small trees are searched without their upper levels: all loads wait
-/// together.
+/// the lane's `group`. Small trees are searched without their upper levels, to overlap
+/// the latencies of all loads.
 template <class Real, class F>
 __device__ inline void search_groups(const Group_view<Real>& view, Search_stack& stack,
                                      const Group_query<Real>& query, int lane, F&& on_groups)
 {
-  constexpr int most_rows = 4; // of 32 groups
+  constexpr int max_rows = 4; // of 32 groups
   const int groups = view.tree.nodes(0);
-  const bool is_small = groups <= 32 * most_rows;
+  const bool is_small = groups <= 32 * max_rows;
   int size = 1;
   if (!is_small && lane == 0) stack.nodes[0] = view.tree.nodes() - 1;
   __syncwarp();
@@ -170,7 +90,7 @@ __device__ inline void search_groups(const Group_view<Real>& view, Search_stack&
     if (is_small) {
       rows = (groups + 31) / 32;
 #pragma unroll
-      for (int k = 0; k < most_rows; ++k) {
+      for (int k = 0; k < max_rows; ++k) {
         const int group = 32 * k + lane;
         if (group >= groups) continue;
         const Group_node<Real> box = load(view.nodes + group);
@@ -200,8 +120,6 @@ __device__ inline void search_groups(const Group_view<Real>& view, Search_stack&
   }
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WARP_SEARCH_CUH

@@ -4,53 +4,30 @@
 // Algorithm 2, lines 3 to 10, where each site finds a warp: the passes of the paper's rule over the
 // weights in one cooperative kernel. A warp keeps its cell and the sites that may cut it.
 //
-// A pass has one barrier, after the cells: a warp tells the mass of its cell, and each warp that
-// keeps the site finds its next weight by itself, as all find the same mean mass. What certifies a
-// cell, how much the weights near it have grown (see Kept_lists.h), must be told before the
-// barrier: a bound of the growth, for a mean mass up to a limit (the rule's change increases with
-// it); where the mean has passed the limit, nothing is certified.
+// A pass has one barrier, after the cells. A warp publishes the mass of its cell; every warp that
+// keeps the site computes its next weight itself, as all find the same mean mass. The certificate
+// of a cell needs the growth of the weights near it (see Verlet_lists.h) before the barrier: an
+// upper bound of it, valid for mean masses up to a limit, as the rule's change increases with the
+// mean. When the mean exceeds the limit, no cell is certified.
 #ifndef CGAL_POWER_RTF_CUDA_WARP_WEIGHT_PASSES_CUH
 #define CGAL_POWER_RTF_CUDA_WARP_WEIGHT_PASSES_CUH
 
-#include "Weight_pass_state.h"
-#include "second_pass.cuh"
+#include "Pass_exchange.cuh"
+#include "warp_cells.cuh"
 
-#include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
-
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
-
-/// Of a block, at most: 3000 sites find a warp each on 132 multiprocessors, with 80 registers.
-template <class Real>
-constexpr int most_pass_warps = sizeof(Real) == 4 ? 24 : 12;
+namespace CGAL::PowerRTF::device {
 
 /// Of the mean mass from pass to pass; see above.
-constexpr double most_increase = 1.1;
+constexpr double max_increase = 1.1;
 
-template <class Real>
-struct Warp_pass_arguments {
-  Group_view<Real> view; ///< with the weights to begin with
-  Cell_targets<Real> targets;
-  Feature_links links;
-  Site<Real>* caller_sites = nullptr;
-  const Real *density = nullptr, *first = nullptr, *sixth = nullptr; ///< the caller's order
-  Multiplicative_weight_rule rule{};
-  int passes = 0;
-  Pass_record<Real>* records = nullptr; ///< 2 for each place, used in turn
-  double* masses = nullptr;             ///< sums of the cells' masses, 2 for each block
-  Pass_counters<Real>* counters = nullptr;
-  Weight_pass_state* state = nullptr;
-};
-
-/// What other multiprocessors have written during the kernel.
+/// Loads what other multiprocessors may have written during the kernel.
 template <class T>
 __device__ inline T load_from_all(const T* p)
 {
   return load_words(p, [](const int4* word) { return __ldcg(word); });
 }
 
-/// The weights of a pass: what the sites were gathered for are those to begin with.
+/// The weights of a pass. The sites were gathered for the initial weights.
 template <class Real>
 struct Pass_weights {
   static constexpr bool keeps = true;
@@ -65,28 +42,32 @@ struct Pass_weights {
   __device__ Record record(int place) const { return load_from_all(records + place); }
   __device__ Real current(const Record& r) const { return next_weight(r, rule); }
   __device__ Real current(const Packed_site<Real>& site, int place) const
-  { return records ? current(record(place)) : site.weight; }
+  {
+    return records ? current(record(place)) : site.weight;
+  }
   __device__ Real growth_of(int group) const { return __ldcg(growth + group) + unknown_growth; }
   __device__ Real reach_for(Real radius) const { return reach_after_growth(radius, all_growth); }
 
   __device__ static Real next_weight(const Pass_record<Real>& r,
                                      const Multiplicative_weight_rule& rule)
-  { return r.weight + Real(rule(r.mass, r.distance)); }
+  {
+    return r.weight + Real(rule(r.mass, r.distance));
+  }
 };
 
-/// A bound of the rule's change of a weight for mean masses up to `most_mean`.
+/// A bound of the rule's change of a weight for mean masses up to `max_mean`.
 template <class Real>
-__device__ inline Real most_change(const Pass_record<Real>& r,
-                                   const Multiplicative_weight_rule& rule, double most_mean)
+__device__ inline Real max_change(const Pass_record<Real>& r,
+                                  const Multiplicative_weight_rule& rule, double max_mean)
 {
   const Real d2 = r.distance * r.distance, rounding = 1 + 64 * internal::epsilon<Real>();
   if (!(r.mass > 0)) return Real(0.2) * d2 * rounding;
-  const Real lack = 1 - quick_quotient(Real(r.mass), Real(fmin(most_mean, 1e30)));
+  const Real lack = 1 - quick_quotient(Real(r.mass), Real(fmin(max_mean, 1e30)));
   return lack > 0 ? Real(rule.step) * (lack + 64 * internal::epsilon<Real>()) * d2 / 2 * rounding
                   : Real(0);
 }
 
-/// What a cell that is made anew leaves in registers.
+/// Result of `remake_cell()`, in registers.
 template <class Real>
 struct Remade_cell {
   Kept_sites<Real> kept;
@@ -95,254 +76,190 @@ struct Remade_cell {
   Warp_polygon<Real> polygon;
 };
 
-/// `Warp_cell::construct()`: a call of its own, as its registers would be those of all passes.
+/// `Warp_cell::construct()`, not inlined: its registers would count for all passes.
 template <class Real>
-__device__ __noinline__ void remake_cell(const Group_view<Real>& view,
-                                         Warp_cell_memory<Real>& memory, int place, Real radius,
-                                         const Pass_weights<Real>& weights, int lane,
-                                         Remade_cell<Real>& result)
+__device__ __noinline__ void
+remake_cell(const Group_view<Real>& view, Warp_cell_memory<Real>& memory, int place, Real radius,
+            const Pass_weights<Real>& weights, int lane, Remade_cell<Real>& result)
 {
   Warp_cell<Real> cell(view, memory, place, lane);
-  result.status = cell.construct(weights, radius, result.guard, guess_of_sixth(view, radius),
-                                 result.kept);
+  result.status =
+      cell.construct(weights, radius, result.guard, guess_of_sixth(view, radius), result.kept);
   result.polygon = cell.polygon();
 }
 
-/// The parts of the kernel that all warps do together.
+/// A warp's site in all passes: its cell, the sites that the warp keeps for it, and its weight.
 template <class Real>
-class Pass_exchange {
-  using Counters = Pass_counters<Real>;
-
+class Resident_cell {
 public:
-  struct Memory {
-    Pass_totals of_warps[most_pass_warps<Real>];
-    Pass_totals of_all;
-  };
-
-  __device__ Pass_exchange(const Warp_pass_arguments<Real>& a, Memory& memory)
-      : m(a), m_memory(memory), m_warp(threadIdx.x / 32), m_lane(threadIdx.x % 32)
-  {}
-
-  /// Hands in the warp's part; returns that of all warps when all have come. Sums in a fixed order.
-  __device__ Pass_totals totals(int pass, const Pass_totals& own)
+  __device__ Resident_cell(const Warp_pass_arguments<Real>& a, Warp_cell_memory<Real>& memory,
+                           int place, int lane)
+      : m(a), m_memory(memory), m_place(place), m_lane(lane), m_is_site(place < a.view.tree.items),
+        m_id(m_is_site ? a.view.caller[place] : -1), m_is_cell(m_is_site && m_id < a.view.cells),
+        m_cell(a.view, memory, m_is_site ? place : 0, lane),
+        m_weight_before(m_cell.site().weight), m_record{m_weight_before, 0, 0}
   {
-    if (m_lane == 0) m_memory.of_warps[m_warp] = own;
-    __syncthreads();
-    if (m_warp == 0) {
-      const bool is_warp = m_lane < int(blockDim.x) / 32;
-      const Pass_totals part = is_warp ? m_memory.of_warps[m_lane] : Pass_totals();
-      const double mass = warp_sum(part.mass), most = warp_greatest(part.most);
-      const double least = warp_least(part.least), growth = warp_greatest(part.growth);
-      Counters& counters = *m.counters;
-      const int turn = pass % Counters::turns;
-      double* const of_blocks = m.masses + pass % 2 * gridDim.x;
-      if (m_lane == 0) {
-        of_blocks[blockIdx.x] = mass;
-        atomicMax(counters.most + turn, bits_of(most));
-        atomicMax(counters.not_least + turn, ~bits_of(least));
-        atomicMax(counters.all_growth + turn, bits_of(growth));
-        arrive(&counters.arrivals);
-        const unsigned expected = (pass + 1) * gridDim.x;
-        while (*static_cast<volatile unsigned*>(&counters.arrivals) < expected) {}
-        __threadfence(); // one for the block: it empties the L1 cache of put-away registers, too
-      }
-      __syncwarp();
-      Pass_totals all;
-      all.most = number_of(__ldcg(counters.most + turn));
-      all.least = number_of(~__ldcg(counters.not_least + turn));
-      all.growth = number_of(__ldcg(counters.all_growth + turn));
-      constexpr int at_once = 5; // their loads wait together
-      for (int first = m_lane; first < int(gridDim.x); first += 32 * at_once) {
-        double masses[at_once];
-#pragma unroll
-        for (int k = 0; k < at_once; ++k)
-          masses[k] =
-              first + 32 * k < int(gridDim.x) ? __ldcg(of_blocks + first + 32 * k) : 0;
-#pragma unroll
-        for (int k = 0; k < at_once; ++k) all.mass += masses[k];
-      }
-      all.mass = warp_sum(all.mass);
-      if (m_lane == 0) m_memory.of_all = all;
+    if (!m_is_cell) return;
+    m_density = a.in.density[m_id];
+    m_last = a.targets.radius[m_id];
+    if (m_last == 0) m_last = guess_of_radius(a.view, place, lane);
+    // Both distances that nearly all need, in one search: that of the rule, and the guard's.
+    const Neighbor_distances<Real> found =
+        neighbor_distances(a.view, memory.stack, place, guess_of_sixth(a.view, m_last),
+                           {a.view.cos_angle, Real(-2)}, 6, lane);
+    m_guard = a.view.guard_factor * found.sixth;
+    m_distance = a.in.first ? a.in.first[m_id] : found.first;
+  }
+
+  /// Makes the cell of the current weights and publishes its record. `max_mean`: what the growth of
+  /// weights is bounded for; `all_growth`: that of all weights so far, `unknown_growth` with it.
+  __device__ Pass_totals make(int pass, const Multiplicative_weight_rule& rule, double max_mean,
+                              Real all_growth, Real unknown_growth)
+  {
+    Pass_totals own;
+    if (m_is_cell) {
+      const Real own_growth = m_record.weight - m_weight_before;
+      construct({pass > 0 ? m.records + (pass - 1) % 2 * m.view.tree.items : nullptr, rule,
+                 m.counters->growth[(pass + turns - 1) % turns], m_weight_before, m_record.weight,
+                 own_growth, fmax(all_growth - own_growth, Real(0)), unknown_growth});
+      m_record.mass = double(m_density) * area();
+      m_record.distance = m_record.mass > 0 ? m_distance : distance_of_empty();
+      const Real growth = own_growth + max_change(m_record, rule, max_mean);
+      own.mass = m_record.mass;
+      own.max_mass = own.min_mass = fmax(m_record.mass, 0.0); // rounding may make it negative
+      own.growth = fmax(growth, Real(0));
+      if (m_lane == 0 && growth > 0)
+        atomic_max_nonnegative(&m.counters->growth[pass % turns][m_place / 32], growth);
     }
-    __syncthreads();
-    return m_memory.of_all;
+    if (m_is_site && m_lane == 0) m.records[pass % 2 * m.view.tree.items + m_place] = m_record;
+    return own;
   }
 
-  /// Clears the counters of the pass after `pass`: all have done with those of the one before it.
-  __device__ void clear_next(int pass)
+  __device__ void change_weight(const Multiplicative_weight_rule& rule)
   {
-    if (blockIdx.x != 0) return;
-    const int turn = (pass + 1) % Counters::turns;
-    for (int k = threadIdx.x; k < m.view.tree.nodes(0); k += blockDim.x)
-      m.counters->growth[turn][k] = 0;
-    if (threadIdx.x == 0)
-      m.counters->most[turn] = m.counters->not_least[turn] = m.counters->all_growth[turn] = 0;
+    if (m_is_cell) m_record.weight = Pass_weights<Real>::next_weight(m_record, rule);
   }
 
-  /// The mean weight of the last cells; all blocks find the same.
-  __device__ double mean_weight(int pass)
+  /// Writes the cell, and its weight less the `mean` one.
+  __device__ void write(double mean)
   {
-    const Pass_record<Real>* const records = m.records + pass % 2 * m.view.tree.items;
-    double sum = 0;
-    for (int k = threadIdx.x; k < m.view.tree.items; k += blockDim.x)
-      sum += __ldcg(&records[k].weight);
-    sum = warp_sum(sum);
-    if (m_lane == 0) m_memory.of_warps[m_warp].mass = sum;
-    __syncthreads();
-    sum = 0;
-    for (int w = 0; w < int(blockDim.x) / 32; ++w) sum += m_memory.of_warps[w].mass;
-    return sum / m.view.tree.items;
+    if (!m_is_cell) return;
+    // Large cells begin by the sites within the guard square the next time, too.
+    const Real now = m_cell.radius();
+    const bool is_plain = m_status == Cell_status::ok && (m_kept.is_plain || 3 * now < m_guard);
+    const Real radius = is_plain ? now : -m_guard;
+    if (m_lane == 0) {
+      m.in.sites[m_id].weight = Real(m_record.weight - mean);
+      m.targets.guard[m_place] = m_guard;
+      if (radius != 0) m.targets.radius[m_id] = radius;
+    }
+    // Made here so that its frame occupies no registers before.
+    Warp_cell<Real> cell(m.view, m_memory, m_place, m_lane);
+    cell.set_polygon(m_cell.polygon());
+    write_warp_cell(m.view, m.targets, m.links, m_memory, cell, m_place, m_id, m_status, m_lane);
   }
 
 private:
-  /// All that the block has written is seen by those who see this and fence after it.
-  __device__ static void arrive(unsigned* arrivals)
-  { asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrivals) : "memory"); }
+  static constexpr int turns = Pass_counters<Real>::turns;
 
-  using Bits = unsigned long long; // numbers that are not negative, in the same order
+  /// By the sites that are kept, or anew.
+  __device__ void construct(const Pass_weights<Real>& weights)
+  {
+    const bool has_kept = m_kept.place == m_place;
+    if (has_kept && m_cell.renew(weights, m_kept, m_guard, m_status)) return;
+    if (has_kept) m_last = m_cell.radius_to_begin(m_kept, m_status, m_guard);
+    const Pass_weights<Real> copy = weights; // so that `weights` itself can stay in registers
+    Remade_cell<Real> made;
+    made.guard = m_guard;
+    remake_cell(m.view, m_memory, m_place, m_last, copy, m_lane, made);
+    m_guard = made.guard;
+    m_kept = made.kept;
+    m_status = made.status;
+    m_cell.set_polygon(made.polygon);
+    m_last = m_status == Cell_status::ok ? m_cell.radius() : -m_guard;
+  }
 
-  __device__ static Bits bits_of(double x) { return Bits(__double_as_longlong(x)); }
-  __device__ static double number_of(Bits x)
-  { return __longlong_as_double(static_cast<long long>(x)); }
+  /// Of the cell's part on its patch.
+  __device__ Real area()
+  {
+    const Real area = m_cell.polygon().area(m_lane);
+    if (!m.view.has_features) return area;
+    Tangent_polygon<Real>& polygon = cell_in_memory(m_cell, m_memory, m_lane);
+    Real part = 0;
+    if (m_lane == 0) {
+      const Tangent_frame<Real> frame(load(m.view.normals + m_place).normal);
+      cut_at_features(m.view, m.links, frame, m_place, polygon);
+      part = cell_area(polygon);
+    }
+    return __shfl_sync(full_warp, part, 0);
+  }
+
+  /// What the rule takes where the cell is empty: the distance of the sixth site.
+  __device__ Real distance_of_empty()
+  {
+    if (m_sixth < 0)
+      m_sixth = m.in.sixth ? m.in.sixth[m_id]
+                           : neighbor_distances(m.view, m_memory.stack, m_place, 2 * m_distance,
+                                                {m.view.cos_angle, m.view.cos_angle}, 6, m_lane)
+                                 .sixth;
+    return m_sixth;
+  }
 
   const Warp_pass_arguments<Real>& m;
-  Memory& m_memory;
-  int m_warp, m_lane;
+  Warp_cell_memory<Real>& m_memory;
+  int m_place, m_lane;
+  bool m_is_site;
+  int m_id;
+  bool m_is_cell;
+  Warp_cell<Real> m_cell;
+  Real m_weight_before;
+  Pass_record<Real> m_record;
+  Real m_density = 0, m_last = 0;
+  Cell_status m_status = Cell_status::incomplete;
+  Kept_sites<Real> m_kept;
+  Real m_guard = 0, m_distance = 0, m_sixth = -1; // the latter: not known
 };
 
 /// One block on each multiprocessor; dynamic memory: a `Warp_cell_memory` for each warp.
 template <class Real>
-__global__ void __launch_bounds__(32 * most_pass_warps<Real>, 1)
-warp_weight_passes_kernel(const __grid_constant__ Warp_pass_arguments<Real> a)
+__global__ void __launch_bounds__(32 * max_pass_warps<Real>, 1)
+    warp_weight_passes_kernel(const __grid_constant__ Warp_pass_arguments<Real> a)
 {
   extern __shared__ __align__(16) unsigned char dynamic_memory[];
   __shared__ typename Pass_exchange<Real>::Memory exchange_memory;
-  const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
-  Warp_cell_memory<Real>& memory =
-      reinterpret_cast<Warp_cell_memory<Real>*>(dynamic_memory)[warp];
+  const int warp = threadIdx.x / 32;
+  Warp_cell_memory<Real>& memory = reinterpret_cast<Warp_cell_memory<Real>*>(dynamic_memory)[warp];
   Pass_exchange<Real> exchange(a, exchange_memory);
+  // Neighbors lie in different blocks, so that cells that need more time do.
+  Resident_cell<Real> cell(a, memory, warp * gridDim.x + blockIdx.x, threadIdx.x % 32);
 
-  // Neighbours lie in different blocks, so that cells that need more time do.
-  const Group_view<Real>& view = a.view;
-  const int place = warp * gridDim.x + blockIdx.x, items = view.tree.items;
-  const bool is_site = place < items;
-  const int id = is_site ? view.caller[place] : -1;
-  const bool is_cell = is_site && id < view.cells;
-  Warp_cell<Real> cell(view, memory, is_site ? place : 0, lane);
-  const Real weight_before = cell.site().weight;
-  Real density = 0, last = 0;
-  Cell_status status = Cell_status::incomplete;
-  Kept_sites<Real> kept;
-  Real guard = 0;
-  Real distance = 0, sixth = -1; // the latter: not known
-  if (is_cell) {
-    density = a.density[id];
-    last = a.targets.radius[id];
-    if (last == 0) last = guess_of_radius(view, place, lane);
-    // Both distances that nearly all need, in one search: that of the rule, and the guard's.
-    const Neighbor_distances<Real> found =
-        neighbor_distances(view, memory.stack, place, guess_of_sixth(view, last),
-                           {view.cos_angle, Real(-2)}, 6, lane);
-    guard = view.guard_factor * found.sixth;
-    distance = a.first ? a.first[id] : found.first;
-  }
-
-  Pass_record<Real> record{weight_before, 0, 0};
-  Multiplicative_weight_rule rule = a.rule;
-  double most_mean = most_increase * a.state->mean_mass; // of the last call: this serves as well
-  if (!(most_mean > 0)) most_mean = 1e300;
+  Multiplicative_weight_rule rule = a.in.rule;
+  double max_mean = max_increase * a.state->mean_mass; // of the last call: this serves as well
+  if (!(max_mean > 0)) max_mean = 1e300;
   Real all_growth = 0, unknown_growth = 0;
   int pass = 0;
   for (;; ++pass) {
-    Pass_counters<Real>& counters = *a.counters;
-    constexpr int turns = Pass_counters<Real>::turns;
-    Pass_totals own;
-    if (is_cell) {
-      const Real own_growth = record.weight - weight_before;
-      const Pass_weights<Real> weights{
-          pass > 0 ? a.records + (pass - 1) % 2 * items : nullptr,
-          rule,
-          counters.growth[(pass + turns - 1) % turns],
-          weight_before,
-          record.weight,
-          own_growth,
-          fmax(all_growth - own_growth, Real(0)),
-          unknown_growth};
-      if (kept.place != place || !cell.renew(weights, kept, guard, status)) {
-        if (kept.place == place) last = cell.radius_to_begin(kept, status, guard);
-        const Pass_weights<Real> copy = weights; // the address of another is known to the call
-        Remade_cell<Real> made;
-        made.guard = guard;
-        remake_cell(view, memory, place, last, copy, lane, made);
-        guard = made.guard;
-        kept = made.kept;
-        status = made.status;
-        cell.set_polygon(made.polygon);
-        last = status == Cell_status::ok ? cell.radius() : -guard;
-      }
-      Real area = cell.polygon().area(lane);
-      if (view.has_features) {
-        Tangent_polygon<Real>& polygon = cell_in_memory(cell, memory, lane);
-        if (lane == 0) {
-          cut_at_features(view, a.links, Tangent_frame<Real>(load(view.normals + place).normal),
-                          place, polygon);
-          area = cell_area(polygon);
-        }
-        area = __shfl_sync(full_warp, area, 0);
-      }
-      record.mass = double(density) * area;
-      record.distance = distance;
-      if (!(record.mass > 0)) {
-        if (sixth < 0)
-          sixth = a.sixth ? a.sixth[id]
-                          : neighbor_distances(view, memory.stack, place, 2 * distance,
-                                               {view.cos_angle, view.cos_angle}, 6, lane)
-                                .sixth;
-        record.distance = sixth;
-      }
-      const Real growth = own_growth + most_change(record, rule, most_mean);
-      own.mass = record.mass;
-      own.most = own.least = fmax(record.mass, 0.0); // rounding may make it negative
-      own.growth = fmax(growth, Real(0));
-      if (lane == 0 && growth > 0) atomic_raise(&counters.growth[pass % turns][place / 32], growth);
-    }
-    if (is_site && lane == 0) a.records[pass % 2 * items + place] = record;
+    const Pass_totals own = cell.make(pass, rule, max_mean, all_growth, unknown_growth);
     exchange.clear_next(pass);
     const Pass_totals all = exchange.totals(pass, own);
-    const double mean = all.mass / view.cells;
-    const bool is_growth_known = mean <= most_mean;
+    const double mean = all.mass / a.view.cells;
+    const bool is_growth_known = mean <= max_mean;
     rule.mean_mass = mean;
-    most_mean = most_increase * mean;
-    const bool equal = mean > 0 && all.most <= (1 + rule.tolerance) * mean &&
-                       all.least >= (1 - rule.tolerance) * mean;
-    if (equal || pass == a.passes) {
+    max_mean = max_increase * mean;
+    const bool equal = mean > 0 && all.max_mass <= (1 + rule.tolerance) * mean &&
+                       all.min_mass >= (1 - rule.tolerance) * mean;
+    if (equal || pass == a.in.passes) {
       if (blockIdx.x == 0 && threadIdx.x == 0) *a.state = {pass, equal, mean};
       break;
     }
     unknown_growth = is_growth_known ? Real(0) : Real(1e30);
     all_growth = Real(all.growth) + unknown_growth;
-    if (is_cell) record.weight = Pass_weights<Real>::next_weight(record, rule);
+    cell.change_weight(rule);
   }
-
   // Without features the weights are relative to nothing.
-  const double mean = view.cells == items ? exchange.mean_weight(pass) : 0;
-  if (!is_cell) return;
-  // Large cells begin by the sites within the guard square the next time, too.
-  const Real now = cell.radius();
-  const bool is_plain = status == Cell_status::ok && (kept.is_plain || 3 * now < guard);
-  const Real radius = is_plain ? now : -guard;
-  if (lane == 0) {
-    a.caller_sites[id].weight = Real(record.weight - mean);
-    a.targets.guard[place] = guard;
-    if (radius != 0) a.targets.radius[id] = radius;
-  }
-  Warp_cell<Real> made_cell(view, memory, place, lane); // so that its frame is no burden before
-  made_cell.set_polygon(cell.polygon());
-  write_warp_cell(view, a.targets, a.links, memory, made_cell, place, id, status, lane);
+  cell.write(a.view.cells == a.view.tree.items ? exchange.mean_weight(pass) : 0);
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_WARP_WEIGHT_PASSES_CUH

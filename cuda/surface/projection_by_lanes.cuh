@@ -6,15 +6,10 @@
 #ifndef CGAL_POWER_RTF_CUDA_PROJECTION_BY_LANES_CUH
 #define CGAL_POWER_RTF_CUDA_PROJECTION_BY_LANES_CUH
 
-#include "../device/Eight_lanes.cuh"
+#include "../backend/Eight_lanes.cuh"
 #include "tree_by_lanes.cuh"
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace device
-{
+namespace CGAL::PowerRTF::device {
 
 /// The result of `project_to_nearest_facet()` with a `Single_lane`, in all lanes.
 template <class Real>
@@ -44,8 +39,6 @@ project_to_nearest_facet(const Surface_view<Real>& view, const Vec3<Real>& p,
   return nearest_of_lanes(best, best.facet, lanes);
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_PROJECTION_BY_LANES_CUH

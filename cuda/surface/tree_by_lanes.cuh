@@ -5,14 +5,9 @@
 #ifndef CGAL_POWER_RTF_CUDA_TREE_BY_LANES_CUH
 #define CGAL_POWER_RTF_CUDA_TREE_BY_LANES_CUH
 
-#include "Surface_view.h"
+#include <CGAL/PowerRTF/geometry/Surface_view.h>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace device
-{
+namespace CGAL::PowerRTF::device {
 
 /// More than any squared distance.
 constexpr float no_distance = 3e38f;
@@ -93,8 +88,6 @@ __device__ inline Surface_point<Real> nearest_of_lanes(const Surface_point<Real>
       least};
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_TREE_BY_LANES_CUH

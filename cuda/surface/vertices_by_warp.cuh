@@ -6,15 +6,10 @@
 #ifndef CGAL_POWER_RTF_CUDA_VERTICES_BY_WARP_CUH
 #define CGAL_POWER_RTF_CUDA_VERTICES_BY_WARP_CUH
 
-#include "../device/Warp_lanes.cuh"
+#include "../backend/Warp_lanes.cuh"
 #include "tree_by_lanes.cuh"
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace device
-{
+namespace CGAL::PowerRTF::device {
 
 /// In lane l < k: the l-th of the `k` vertices nearest to `p`, at most 32 and all, by a search in
 /// the tree. `within`: a squared distance that is known to hold as many. A call of its own: few
@@ -281,8 +276,6 @@ attributes_near_vertices(const Surface_view<Real>& view, const Vec3<Real>& p, in
       density_neighbors, cos_angle);
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_VERTICES_BY_WARP_CUH

@@ -18,16 +18,14 @@
 #include <thread>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// A cell as both sides give it.
 struct Plain_cell {
   Cell_status status = Cell_status::incomplete;
   double area = 0, mass = 0;
   Vec3d offset{0, 0, 0};
-  std::vector<int> cycle;      ///< neighbours
+  std::vector<int> cycle;      ///< neighbors
   std::vector<double> lengths; ///< of the edges
 };
 
@@ -61,7 +59,12 @@ struct Host_cells {
     for (int level = 0; level < tree.levels; ++level)
       for (int k = 0; k < tree.nodes(level); ++k)
         refit_sites_node(tree, level, k, sites.data(), boxes.data(), max_weights.data());
-    return {sites.data(), normals.data(), boxes.data(), max_weights.data(), tree, guard_factor,
+    return {sites.data(),
+            normals.data(),
+            boxes.data(),
+            max_weights.data(),
+            tree,
+            guard_factor,
             patches.empty() ? nullptr : patches.data()};
   }
 
@@ -111,8 +114,10 @@ inline std::vector<int> twins(const std::vector<Site<double>>& sites)
   std::map<std::array<double, 3>, int> first;
   std::vector<int> twin;
   for (const Site<double>& s : sites)
-    twin.push_back(first.emplace(std::array<double, 3>{s.point.x, s.point.y, s.point.z},
-                                 static_cast<int>(twin.size())).first->second);
+    twin.push_back(first
+                       .emplace(std::array<double, 3>{s.point.x, s.point.y, s.point.z},
+                                static_cast<int>(twin.size()))
+                       .first->second);
   return twin;
 }
 
@@ -168,8 +173,6 @@ inline Cell_comparison compare_cells(std::vector<Plain_cell> cells, std::vector<
   return c;
 }
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_HOST_CELLS_H

@@ -6,8 +6,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include "../cells/cell_builder.h"
-#include "host_cells.h"
+#include "device_case.h"
+#include "plain_weight_passes.h"
 
 #include <cstdio>
 #include <memory>
@@ -17,117 +17,27 @@ using namespace CGAL::PowerRTF::device;
 
 namespace {
 
-std::unique_ptr<Cuda_backend> backend;
-
-template <class Real>
-struct Case {
-  Host_sites<Real> host;
-  std::vector<int> patches;
-  double cos_angle = -0.766, guard_factor = 3;
-};
-
-/// Sites, their builder and its cells.
-template <class Real>
-class Device_case {
-public:
-  explicit Device_case(const Case<Real>& c)
-      : m_case(c), sites(*backend, c.host),
-        cells(*backend, sites.size(), Real(c.cos_angle), Real(c.guard_factor))
-  {
-    if (c.patches.empty()) return;
-    m_patches.allocate(*backend, c.patches.size());
-    backend->upload(m_patches.data(), c.patches.data(), c.patches.size());
-  }
-
-  Sites_arrays<Real> arrays() const
-  {
-    Sites_arrays<Real> a = sites.arrays();
-    if (m_patches.size() > 0) a.patches = m_patches.data();
-    return a;
-  }
-
-  /// The cells of the current state; moments from `build()`, the rest from `polygons()`.
-  std::vector<Plain_cell> download()
-  {
-    constexpr int capacity = Tangent_polygon<Real>::capacity;
-    const int n = sites.size();
-    cells.build(sites.outputs());
-    Cuda_backend::Buffer<int> size, neighbor;
-    Cuda_backend::Buffer<Real> x, y;
-    Cuda_backend::Buffer<unsigned char> status;
-    size.allocate(*backend, n);
-    status.allocate(*backend, n);
-    neighbor.allocate(*backend, std::size_t(n) * capacity);
-    x.allocate(*backend, std::size_t(n) * capacity);
-    y.allocate(*backend, std::size_t(n) * capacity);
-    backend->fill(neighbor.data(), 0, neighbor.size()); // most rows are not full
-    backend->fill(x.data(), Real(0), x.size());
-    backend->fill(y.data(), Real(0), y.size());
-    cells.polygons(0, n, size.data(), x.data(), y.data(), neighbor.data(), status.data());
-    const auto get = [](auto& buffer) {
-      std::vector<std::remove_pointer_t<decltype(buffer.data())>> v(buffer.size());
-      backend->download(v.data(), buffer.data(), v.size());
-      return v;
-    };
-    const auto sizes = get(size), neighbors = get(neighbor);
-    const auto xs = get(x), ys = get(y), areas = get(sites.area), masses = get(sites.mass);
-    const auto offsets = get(sites.offset);
-    const auto states = get(status), again = get(sites.status);
-    CHECK(states == again);
-    std::vector<Plain_cell> result(n);
-    for (int i = 0; i < n; ++i) {
-      Plain_cell& c = result[i];
-      c.status = static_cast<Cell_status>(states[i]);
-      c.area = areas[i];
-      c.mass = masses[i];
-      c.offset = {offsets[i].x, offsets[i].y, offsets[i].z};
-      const std::size_t first = std::size_t(i) * capacity;
-      for (int k = 0; k < sizes[i]; ++k) {
-        const int l = k + 1 < sizes[i] ? k + 1 : 0;
-        c.cycle.push_back(neighbors[first + k]);
-        c.lengths.push_back(
-            std::hypot(xs[first + l] - xs[first + k], ys[first + l] - ys[first + k]));
-      }
-    }
-    return result;
-  }
-
-  /// Compares the current cells with the host's.
-  Cell_comparison compare(const char* name)
-  {
-    const std::vector<Plain_cell> own = download();
-    Host_cells host(sites.download(), m_case.patches, m_case.cos_angle, m_case.guard_factor);
-    const Cell_comparison c = compare_cells(own, host.construct(), twins(host.sites));
-    std::printf("%-28s n %6d ok %6d | other status %d, other cycle %d (edge %.0e) | area p99 %.1e "
-                "most %.1e | centroid p99 %.1e most %.1e\n",
-                name, c.cells, c.ok, c.other_status, c.other_cycle, c.longest_edge, c.area_p99,
-                c.area_most, c.centroid_p99, c.centroid_most);
-    // Cells with more than 32 edges, or on the guard radius.
-    CHECK(c.other_status <= c.cells / 5000);
-    CHECK(c.longest_edge < 1e-4);
-    return c;
-  }
-
-private:
-  Case<Real> m_case;
-  Cuda_backend::Buffer<int> m_patches;
-
-public:
-  Device_sites<Real> sites;
-  Cell_builder<Real> cells;
-};
-
-template <class Real>
-Case<Real> torus_case(int n, double contrast = 1)
+/// The passes of the paper's rule with densities of 1, in one kernel where that is possible and
+/// wanted, else in steps. Returns their number.
+int run_weight_passes(Device_case<float>& d, bool in_one_kernel,
+                      const Multiplicative_weight_rule& rule, int passes)
 {
-  Torus<Real> torus;
-  torus.contrast = contrast;
-  Case<Real> c;
-  c.host = random_torus_sites(torus, n, 1);
-  return c;
+  const int n = d.sites.size();
+  Cuda_backend::Buffer<float> first, sixth, density;
+  for (auto* b : {&first, &sixth, &density}) b->allocate(*backend, n);
+  backend->fill(density.data(), 1.0f, n);
+  d.cells.neighbor_distances(true, first.data(), sixth.data());
+  const auto arrays = d.arrays();
+  Site<float>* const sites = d.sites.sites.data();
+  if (in_one_kernel && d.cells.start_weight_passes(arrays, sites, density.data(), first.data(),
+                                                   sixth.data(), rule, passes, d.sites.outputs())) {
+    Weight_pass_state state;
+    backend->download(&state, d.cells.weight_pass_state(), 1);
+    return state.done;
+  }
+  return plain_weight_passes(*backend, d.cells, d.sites, density.data(), first.data(), sixth.data(),
+                             rule, passes);
 }
-
-double spacing(int n) { return std::sqrt(1.7765 / n); } // area of the torus: 4 pi^2 ring tube
 
 template <class Real>
 void check_errors(const Cell_comparison& c)
@@ -166,8 +76,8 @@ TEST_CASE("weights that change from construction to construction")
   const float h2 = float(spacing(n) * spacing(n));
   for (int k = 0; k < 14; ++k) {
     for (auto& q : s.sites) q.weight += h2 * 0.06f * (float(random() % 1000) / 1000 - 0.5f);
-    if (k == 5) s.sites[77].weight += 2 * h2;   // a cell that swallows its neighbours
-    if (k == 8) s.sites[99].weight -= 2 * h2;   // one that vanishes
+    if (k == 5) s.sites[77].weight += 2 * h2;     // a cell that swallows its neighbors
+    if (k == 8) s.sites[99].weight -= 2 * h2;     // one that vanishes
     if (k == 9) s.sites[1999].weight += 400 * h2; // one that covers the whole surface
     if (k == 11) s.sites[1999].weight -= 400 * h2;
     backend->upload(d.sites.sites.data(), s.sites.data(), n);
@@ -196,7 +106,7 @@ TEST_CASE("many sites: from lists")
   const float h2 = float(spacing(n) * spacing(n));
   for (int k = 0; k < 3; ++k) {
     for (auto& q : s.sites) q.weight += h2 * 0.06f * (float(random() % 1000) / 1000 - 0.5f);
-    if (k == 1) s.sites[77].weight += 2 * h2; // a cell that swallows its neighbours
+    if (k == 1) s.sites[77].weight += 2 * h2; // a cell that swallows its neighbors
     backend->upload(d.sites.sites.data(), s.sites.data(), n);
     d.cells.set_weights(d.arrays());
     check_errors<float>(d.compare("many, weights"));
@@ -212,9 +122,8 @@ TEST_CASE("few sites")
   }
 }
 
-TEST_CASE("adversarial sites")
+void compare_adversarial_sites(int n)
 {
-  const int n = 4000;
   Case<float> c = torus_case<float>(n);
   auto& sites = c.host.sites;
   const float h = float(spacing(n));
@@ -245,14 +154,17 @@ TEST_CASE("adversarial sites")
   }
   SUBCASE("cocircular")
   {
+    const int side = int(std::ceil(std::sqrt(n)));
     for (int i = 0; i < n; ++i) {
-      sites[i].point = {(i % 64) / 128.0f, (i / 64) / 128.0f, 0};
+      sites[i].point = {(i % side) / (2.0f * side), (i / side) / (2.0f * side), 0};
       c.host.normals[i] = {0, 0, 1};
     }
   }
-  SUBCASE("all at one point")
-  {
-    for (auto& q : sites) q.point = sites[0].point;
+  if (n < 5000) { // each site sees all others
+    SUBCASE("all at one point")
+    {
+      for (auto& q : sites) q.point = sites[0].point;
+    }
   }
   Device_case<float> d(c);
   for (int k = 0; k < 2; ++k) { // the second time from the first one's radii
@@ -260,6 +172,9 @@ TEST_CASE("adversarial sites")
     d.compare("adversarial");
   }
 }
+
+TEST_CASE("adversarial sites: by warps") { compare_adversarial_sites(4000); }
+TEST_CASE("adversarial sites: from lists") { compare_adversarial_sites(20000); }
 
 TEST_CASE("the same input gives the same output bit for bit")
 {
@@ -282,6 +197,9 @@ TEST_CASE("the same input gives the same output bit for bit")
 TEST_CASE("the paper's passes with guarded and empty cells")
 {
   const int n = 3000, passes = 12;
+  bool in_one_kernel = true;
+  SUBCASE("in one kernel") {}
+  SUBCASE("in steps") { in_one_kernel = false; }
   Case<float> c = torus_case<float>(n);
   c.guard_factor = 1.2;
   c.cos_angle = 0.5;
@@ -289,15 +207,7 @@ TEST_CASE("the paper's passes with guarded and empty cells")
   const auto arrays = d.arrays();
   d.cells.set_sites(arrays);
   d.compare("before the passes");
-  Cuda_backend::Buffer<float> first, sixth, density;
-  first.allocate(*backend, n);
-  sixth.allocate(*backend, n);
-  density.allocate(*backend, n);
-  backend->fill(density.data(), 1.0f, n);
-  d.cells.neighbor_distances(true, first.data(), sixth.data());
-  const Multiplicative_weight_rule rule{0.04, 1, false, 0};
-  CHECK(d.cells.paper_weight_passes(arrays, d.sites.sites.data(), density.data(), first.data(),
-                                    sixth.data(), rule, passes, d.sites.outputs()) == passes);
+  CHECK(run_weight_passes(d, in_one_kernel, {0.04, 1, false, 0}, passes) == passes);
   // All areas of the last pass are those of the cells.
   std::vector<float> areas(n);
   backend->download(areas.data(), d.sites.area.data(), n);
@@ -314,7 +224,9 @@ TEST_CASE("the paper's passes with guarded and empty cells")
 TEST_CASE("the paper's passes are those of the host")
 {
   int n = 3000, passes = 40;
+  bool in_one_kernel = true;
   SUBCASE("few sites: in one kernel") {}
+  SUBCASE("few sites: in steps") { in_one_kernel = false; }
   SUBCASE("many sites")
   {
     n = 70000;
@@ -327,12 +239,9 @@ TEST_CASE("the paper's passes are those of the host")
   const auto arrays = d.arrays();
   d.cells.set_sites(arrays);
   d.cells.build(d.sites.outputs());
-  Cuda_backend::Buffer<float> first, sixth, density;
+  Cuda_backend::Buffer<float> first;
   first.allocate(*backend, n);
-  sixth.allocate(*backend, n);
-  density.allocate(*backend, n);
-  backend->fill(density.data(), 1.0f, n);
-  d.cells.neighbor_distances(true, first.data(), sixth.data());
+  d.cells.neighbor_distances(true, first.data(), nullptr);
   Host_cells host(d.sites.download(), {}, -0.766, 3);
   const Sites_view<double> v = host.view();
   std::vector<float> nearest(n);
@@ -345,9 +254,7 @@ TEST_CASE("the paper's passes are those of the host")
   CHECK(distance_error < 1e-5);
 
   const Multiplicative_weight_rule rule{0.04, 1, false, 0};
-  const int done = d.cells.paper_weight_passes(arrays, d.sites.sites.data(), density.data(),
-                                               first.data(), sixth.data(), rule, passes,
-                                               d.sites.outputs());
+  const int done = run_weight_passes(d, in_one_kernel, rule, passes);
   std::vector<Plain_cell> cells;
   int host_done = 0;
   for (;; ++host_done) {

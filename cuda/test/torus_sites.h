@@ -6,9 +6,9 @@
 #ifndef CGAL_POWER_RTF_CUDA_TORUS_SITES_H
 #define CGAL_POWER_RTF_CUDA_TORUS_SITES_H
 
-#include "../cells/cell_arrays.h"
-#include "../device/Cuda_backend.h"
-#include "../engine/morton_code.h"
+#include "../backend/Cuda_backend.h"
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
+#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace device {
+namespace CGAL::PowerRTF::device {
 
 /// Around the z axis, in the unit box.
 template <class Real>
@@ -46,7 +44,9 @@ struct Torus {
     return 1 / (spacing * spacing);
   }
   CGAL_POWER_RTF_HD Real density_root(const Vec3d& p) const
-  { return Real(std::cbrt(density(p) / density({0, 0, 0}) * density(p) / density({0, 0, 0}))); }
+  {
+    return Real(std::cbrt(density(p) / density({0, 0, 0}) * density(p) / density({0, 0, 0})));
+  }
 };
 
 template <class Real>
@@ -147,7 +147,7 @@ public:
     return s;
   }
 
-  /// Takes the sites into Morton order.
+  /// Takes the sites into Hilbert order.
   void sort()
   {
     Cuda_backend::Buffer<std::uint64_t> keys;
@@ -156,7 +156,7 @@ public:
     order.allocate(m_backend, size());
     const Site<Real>* const s = sites.data();
     std::uint64_t* const k = keys.data();
-    m_backend.for_each(size(), [=] __device__(int i) { k[i] = morton_code(s[i].point); });
+    m_backend.for_each(size(), [=] __device__(int i) { k[i] = hilbert_code(s[i].point); });
     m_backend.sort_order(size(), keys.data(), order.data());
     const auto permute = [&](auto& buffer) {
       auto* const to = buffer.data();
@@ -202,8 +202,6 @@ private:
   Cuda_backend& m_backend;
 };
 
-} // namespace device
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::device
 
 #endif // CGAL_POWER_RTF_CUDA_TORUS_SITES_H

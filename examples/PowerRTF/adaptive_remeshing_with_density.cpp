@@ -18,8 +18,7 @@ int main()
 {
   Mesh input, output;
   CGAL::make_icosahedron<Mesh, Kernel::Point_3>(input);
-  CGAL::Subdivision_method_3::Loop_subdivision(input,
-                                               CGAL::parameters::number_of_iterations(4));
+  CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(4));
   auto density = input.add_property_map<Mesh::Vertex_index, double>("v:density").first;
   for (const auto v : input.vertices()) density[v] = std::pow(4, input.point(v).z() / 2);
 

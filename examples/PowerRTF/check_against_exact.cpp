@@ -3,8 +3,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/generators.h>
@@ -23,26 +22,23 @@ int main()
 {
   Mesh input, output;
   CGAL::make_icosahedron<Mesh, Kernel::Point_3>(input);
-  CGAL::Subdivision_method_3::Loop_subdivision(input,
-                                               CGAL::parameters::number_of_iterations(3));
+  CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(3));
 
   Remeshing_options options;
   options.number_of_samples = 300;
-  Repair_counts repairs;
-  Surface surface = import_surface(input, CGAL::parameters::default_values(), repairs);
-  set_density(surface, options);
-  Remesher remesher(std::move(surface), options);
+  Remeshing_report report;
+  Surface surface = prepare_surface(input, options, CGAL::parameters::default_values(), report);
+  Remesher remesher(std::move(surface), options, report);
   Remeshing_default_visitor visitor;
   remesher.optimize(visitor);
   const Cell_comparison comparison = check_cells<CGAL::Sequential_tag>(
       remesher.samples(), remesher.cells(), compatibility_cosine(options.normal_angle));
   std::cout << comparison.equal_cycles << " of " << comparison.cells
-            << " cells have the exact neighbours; " << comparison.certified_wrong
+            << " cells have the exact neighbors; " << comparison.certified_wrong
             << " are wrong beyond rounding\n";
 
-  const auto report = CGAL::power_rtf_remeshing(
-      input, 100, output,
-      CGAL::parameters::geom_traits(CGAL::PowerRTF_exact_traits_3<Kernel>()));
+  report = CGAL::power_rtf_remeshing(
+      input, 100, output, CGAL::parameters::geom_traits(CGAL::PowerRTF_exact_traits_3<Kernel>()));
   std::cout << "exact traits: " << num_vertices(output) << " vertices\n";
   return comparison.passed() && report.missed_guarantees().empty() ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -3,8 +3,7 @@
 // without_nvispc.off, and counts the cells that the other sheet cuts.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/PowerRTF/extraction/export_mesh.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
@@ -44,10 +43,10 @@ double remesh(const Mesh& disc, double normal_angle, const std::string& file)
   options.density = Density::uniform;
   options.feature_angle = 180; // the rim is not to be a crease
   options.normal_angle = normal_angle;
-  Repair_counts repairs;
-  Surface surface = import_surface(disc, CGAL::parameters::default_values(), repairs);
-  set_density(surface, options);
-  CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel>> remesher(std::move(surface), options);
+  Remeshing_report report;
+  Surface surface = prepare_surface(disc, options, CGAL::parameters::default_values(), report);
+  CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel>> remesher(std::move(surface), options,
+                                                                    report);
   Remeshing_default_visitor visitor;
   remesher.optimize(visitor);
 

@@ -27,8 +27,7 @@ int main(int argc, char** argv)
     }
   } else {
     CGAL::make_icosahedron<Mesh, Kernel::Point_3>(input);
-    CGAL::Subdivision_method_3::Loop_subdivision(
-        input, CGAL::parameters::number_of_iterations(4));
+    CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(4));
   }
   const std::size_t number_of_vertices = argc > 2 ? std::stoul(argv[2]) : 1000;
 

@@ -3,8 +3,7 @@
 //
 //   paper_preset_cells [input.off]
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
@@ -48,25 +47,23 @@ int main(int argc, char** argv)
     if (!CGAL::IO::read_polygon_mesh(argv[1], input)) return EXIT_FAILURE;
   } else {
     CGAL::make_icosahedron<Mesh, Kernel::Point_3>(input);
-    CGAL::Subdivision_method_3::Loop_subdivision(input,
-                                                 CGAL::parameters::number_of_iterations(3));
+    CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(3));
   }
 
   Remeshing_options options = Remeshing_options::paper_preset();
   options.number_of_samples = 500;
   options.density = Density::uniform;
 
-  Repair_counts repairs;
-  Surface surface = import_surface(input, CGAL::parameters::default_values(), repairs);
-  set_density(surface, options);
-  Remesher remesher(std::move(surface), options);
+  Remeshing_report report;
+  Surface surface = prepare_surface(input, options, CGAL::parameters::default_values(), report);
+  Remesher remesher(std::move(surface), options, report);
   Remeshing_default_visitor visitor;
   remesher.optimize(visitor);
 
-  const Remeshing_report& report = remesher.report();
-  std::cout << report.constructions << " constructions; "
-            << 100 * report.capacity.inside_interval << " % of the cells inside "
-            << 100 * options.capacity_tolerance << " % of the mean capacity\n";
+  report = remesher.report();
+  std::cout << report.constructions << " constructions; " << 100 * report.capacity.inside_interval
+            << " % of the cells inside " << 100 * options.capacity_tolerance
+            << " % of the mean capacity\n";
   std::ofstream out("cells.off");
   write_off(out, remesher.cells(), remesher.surface().normalization);
   return report.capacity.inside_interval == 1 && out.good() ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -33,8 +33,7 @@ int main()
 {
   Polyhedron input;
   CGAL::make_icosahedron<Polyhedron, Point>(input);
-  CGAL::Subdivision_method_3::Loop_subdivision(input,
-                                               CGAL::parameters::number_of_iterations(3));
+  CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(3));
   Mesh output;
   auto remeshed = output.add_property_map<Mesh::Vertex_index, Point>("v:remeshed").first;
 

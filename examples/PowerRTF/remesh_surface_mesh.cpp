@@ -25,8 +25,7 @@ int main(int argc, char** argv)
     }
   } else {
     CGAL::make_icosahedron<Mesh, Kernel::Point_3>(input);
-    CGAL::Subdivision_method_3::Loop_subdivision(
-        input, CGAL::parameters::number_of_iterations(3));
+    CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(3));
   }
   const std::size_t number_of_vertices = argc > 2 ? std::stoul(argv[2]) : 500;
 
@@ -34,9 +33,8 @@ int main(int argc, char** argv)
       CGAL::power_rtf_remeshing(input, number_of_vertices, output);
 
   std::cout << num_vertices(input) << " vertices in, " << num_vertices(output) << " out\n"
-            << "triangle quality: " << report.quality.q_min << " (worst), "
-            << report.quality.q_avg << " (mean); smallest angle " << report.quality.theta_min
-            << " degrees\n"
+            << "triangle quality: " << report.quality.q_min << " (worst), " << report.quality.q_avg
+            << " (mean); smallest angle " << report.quality.theta_min << " degrees\n"
             << "mean distance: " << report.distance.mean << " % of the diagonal\n";
   for (const std::string& guarantee : report.missed_guarantees())
     std::cout << "missed: " << guarantee << '\n';

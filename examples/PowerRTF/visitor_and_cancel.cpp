@@ -22,8 +22,8 @@ struct Watcher : CGAL::PowerRTF::Remeshing_default_visitor {
   void on_iteration(const CGAL::PowerRTF::Iteration_report& iteration, double progress)
   {
     if (++iterations % 20 == 0)
-      std::cout << "  " << int(100 * progress) << " %, the samples are "
-                << iteration.displacement << " of their spacing from their cells' centres\n";
+      std::cout << "  " << int(100 * progress) << " %, the samples are " << iteration.displacement
+                << " of their spacing from their cells' centers\n";
   }
   bool go_further() { return iterations < patience; } // false: stop, and make no mesh
 };
@@ -32,8 +32,7 @@ int main()
 {
   Mesh input, output;
   CGAL::make_icosahedron<Mesh, Kernel::Point_3>(input);
-  CGAL::Subdivision_method_3::Loop_subdivision(input,
-                                               CGAL::parameters::number_of_iterations(3));
+  CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(3));
 
   // std::ref: the visitor itself is used, not a copy.
   Watcher patient(1000), impatient(30);

@@ -12,32 +12,18 @@
 #include <CGAL/PowerRTF/Remeshing_visitor.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
-#include <CGAL/PowerRTF/extraction/improve_mesh.h>
 #include <CGAL/PowerRTF/extraction/one_sided.h>
+#include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
-#include <CGAL/PowerRTF/surface/Surface_patches.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
-#include <type_traits>
 #include <utility>
 
 namespace CGAL {
-
-namespace PowerRTF {
-namespace internal {
-
-/// Whether an engine reports on a device: then it makes several passes over the weights at once.
-template <class Engine, class = void>
-struct Runs_on_device : std::false_type {};
-template <class Engine>
-struct Runs_on_device<Engine, std::void_t<decltype(std::declval<const Engine&>().device_report())>>
-    : std::true_type {};
-
-} // namespace internal
-} // namespace PowerRTF
 
 /// \ingroup PkgPowerRTFRef
 /// Distributes samples on a surface by their restricted tangent faces and triangulates them.
@@ -50,11 +36,12 @@ public:
   using Report = PowerRTF::Remeshing_report;
   using Engine = typename Traits::Engine;
 
-  /// `surface`: from `import_surface()`, its density set. \throws Invalid_input_error when an
-  /// option has a value that is not allowed, or the samples are too few for the surface.
-  PowerRTF_remesher(PowerRTF::Surface surface, const Options& options)
+  /// `surface`: from `prepare_surface()`, and `report` what that has begun. \throws
+  /// Invalid_input_error when an option has a value that is not allowed, or the samples are too few
+  /// for the surface.
+  PowerRTF_remesher(PowerRTF::Surface surface, const Options& options, const Report& report = {})
       : m_surface(std::move(surface)), m_options(PowerRTF::validate(options)),
-        m_patches(m_surface, m_options), m_engine(m_patches.surface(), m_options)
+        m_patches(m_surface, m_options), m_engine(m_patches.surface(), m_options), m_report(report)
   {
     m_report.samples_asked = options.number_of_samples;
     m_report.feature_samples = m_patches.features().size();
@@ -63,7 +50,8 @@ public:
   PowerRTF_remesher(const PowerRTF_remesher&) = delete; // the engine refers to the surface
   PowerRTF_remesher& operator=(const PowerRTF_remesher&) = delete;
 
-  /// Distributes the samples (Algorithm 3, lines 2 to 21). Returns `false` when `visitor` stopped it.
+  /// Distributes the samples (Algorithm 3, lines 2 to 21). Returns `false` when `visitor` stopped
+  /// it.
   template <class Visitor>
   bool optimize(Visitor& visitor)
   {
@@ -79,8 +67,8 @@ public:
   PowerRTF::Extracted_mesh extract(Visitor& visitor)
   {
     PowerRTF::Extracted_mesh mesh;
-    if (!PowerRTF::internal::run_unless_cancelled(visitor, [&] { mesh = judged_mesh(visitor); }))
-      m_report.cancelled = true;
+    m_report.cancelled =
+        !PowerRTF::internal::run_unless_cancelled(visitor, [&] { mesh = judged_mesh(visitor); });
     return mesh;
   }
 
@@ -96,24 +84,22 @@ public:
   }
   /// The sites of the cells: the samples that have one, then the copies of those on creases and
   /// borders, one for each patch at them.
-  PowerRTF::Samples sites() const
-  {
-    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
-      return m_engine.sites(); // as the device has rounded them
-    else
-      return PowerRTF::joined(m_engine.samples(), m_patches.features().sites);
-  }
+  PowerRTF::Samples sites() const { return m_engine.sites(); }
   /// The samples on creases and borders.
   const PowerRTF::Feature_samples& features() const { return m_patches.features(); }
-  /// The cells of the current samples and weights; their neighbours are numbers of sites.
+  /// The cells of the current samples and weights; their neighbors are numbers of sites.
   std::vector<PowerRTF::Cell_polygon> cells() { return m_engine.cells(); }
+  /// The precision of the cells' numbers: the machine epsilon of double, or of float.
+  double epsilon() const { return m_engine.epsilon(); }
 
 private:
   using Weight_method = PowerRTF::Weight_method;
 
   bool all_fixed() const { return m_patches.features().size() == m_options.number_of_samples; }
   int iterations() const
-  { return all_fixed() ? 0 : m_options.relaxation_iterations + m_options.max_iterations; }
+  {
+    return all_fixed() ? 0 : m_options.relaxation_iterations + m_options.max_iterations;
+  }
 
   /// Algorithm 3, lines 2 to 21.
   template <class Visitor>
@@ -124,20 +110,19 @@ private:
     visitor.on_stage("optimization");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.optimization);
     for (int iteration = 0; iteration < iterations() && !m_report.cancelled; ++iteration) { // 5
-      m_engine.build_cells();                                                             // 8, 9
+      m_engine.build_cells();                                                               // 8, 9
       const bool relaxation = iteration < m_options.relaxation_iterations;
-      const bool equal = !relaxation && optimize_weights();                          // 11 to 14
+      const bool equal = !relaxation && optimize_weights(); // 11 to 14
       finish_iteration(visitor, iteration);
       if (equal) break;
       m_engine.move_samples(relaxation ? PowerRTF::Position_method::lloyd
-                                       : m_options.position_method);                 // 15 to 19
+                                       : m_options.position_method); // 15 to 19
     }
     if (!m_report.cancelled && !all_fixed()) equalize_capacities();
     m_report.constructions = m_engine.constructions();
     m_report.cells = m_engine.cell_counts();
     m_report.capacity = m_engine.capacity();
-    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
-      m_report.device = m_engine.device_report();
+    m_report.device = m_engine.device_report();
   }
 
   /// Algorithm 3, lines 2 to 4.
@@ -147,11 +132,12 @@ private:
     visitor.on_stage("sampling");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.sampling);
     const PowerRTF::Feature_samples& features = m_patches.features();
-    m_engine.set_samples(PowerRTF::sample_surface(m_patches.surface(), m_options, features), features);
+    m_engine.set_samples(PowerRTF::sample_surface(m_patches.surface(), m_options, features),
+                         features);
     m_report.iterations.clear();
   }
 
-  /// Algorithm 3, line 22, and its judgement.
+  /// Algorithm 3, line 22, and its judgment.
   template <class Visitor>
   PowerRTF::Extracted_mesh judged_mesh(Visitor& visitor)
   {
@@ -176,15 +162,7 @@ private:
   bool optimize_weights()
   {
     if (m_options.weight_method != Weight_method::multiplicative) return false;
-    if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value) { // the same, without a look between
-      if (m_engine.optimize_weights(m_options.max_weight_iterations)) return true;
-    } else {
-      for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass) {
-        m_engine.update_weights();
-        m_engine.build_cells();
-      }
-      if (inside_interval()) return true;
-    }
+    if (m_engine.optimize_weights(m_options.max_weight_iterations)) return true;
     if (do_weights_harm()) m_engine.clear_weights(); // they begin anew
     return false;
   }
@@ -216,18 +194,15 @@ private:
     PowerRTF::Extracted_mesh mesh;
     {
       PowerRTF::internal::Stopwatch watch(m_report.seconds.extraction);
-      mesh = m_options.extraction == PowerRTF::Extraction_method::insertion
-                 ? PowerRTF::extract_by_insertion(surface, samples, features,
-                                                  !m_surface.seams.empty())
-                 : PowerRTF::extract_restricted_delaunay(surface, samples, features);
+      mesh =
+          m_options.extraction == PowerRTF::Extraction_method::insertion
+              ? PowerRTF::extract_by_insertion(surface, samples, features, !m_surface.seams.empty())
+              : PowerRTF::extract_restricted_delaunay(surface, samples, features);
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       visitor.on_stage("improvement");
       PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
-      if constexpr (PowerRTF::internal::Runs_on_device<Engine>::value)
-        PowerRTF::improve_mesh(m_patches.surface(), mesh);
-      else
-        PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh);
+      PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh);
     }
     return mesh;
   }

@@ -8,26 +8,18 @@
 #include <CGAL/PowerRTF/extraction/export_mesh.h>
 #include <CGAL/PowerRTF/named_parameters.h>
 #include <CGAL/PowerRTF/option_table.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/feature_samples.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Kernel_traits.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
-namespace CGAL
-{
+namespace CGAL {
 
-namespace PowerRTF
-{
-namespace internal
-{
+namespace PowerRTF::internal {
 
 /// Whether the coordinates of a point are of type `float`.
 template <class Point, class = void>
@@ -47,68 +39,31 @@ Remeshing_options options_of(std::size_t number_of_samples, const NamedParameter
   Remeshing_options options =
       choose_parameter(get_parameter(np, remeshing_options_t()), Remeshing_options());
   options.number_of_samples = number_of_samples;
-  if (Has_float_coordinates<Point>::value)
-    options.coordinates = Coordinates::single_precision;
+  if (Has_float_coordinates<Point>::value) options.coordinates = Coordinates::single_precision;
   options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair);
   options.random_seed =
       choose_parameter(get_parameter(np, internal_np::random_seed), options.random_seed);
-  options.max_iterations =
-      choose_parameter(get_parameter(np, internal_np::number_of_iterations), options.max_iterations);
+  options.max_iterations = choose_parameter(get_parameter(np, internal_np::number_of_iterations),
+                                            options.max_iterations);
   return validate(options);
 }
 
-/// Makes creases of the edges of `surface` that `is_constrained` names among those of `mesh`.
-template <class FaceGraph, class EdgeMap>
-void set_creases(Surface& surface, const FaceGraph& mesh, const EdgeMap& is_constrained)
-{
-  auto index = get(CGAL::dynamic_vertex_property_t<int>(), mesh);
-  int count = 0;
-  for (const auto v : vertices(mesh)) put(index, v, count++);
-  std::vector<Edge> constrained;
-  for (const auto e : edges(mesh))
-    if (get(is_constrained, e))
-      constrained.push_back(sorted_edge(get(index, source(e, mesh)), get(index, target(e, mesh))));
-  std::sort(constrained.begin(), constrained.end());
+/// What the named parameters `np` of a run on a mesh of type `InputMesh` choose.
+template <class ConcurrencyTag, class InputMesh, class NamedParameters>
+struct Run_types {
+  using Point_map = typename GetVertexPointMap<InputMesh, NamedParameters>::const_type;
+  using Kernel =
+      typename Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  using Traits =
+      typename internal_np::Lookup_named_param_def<internal_np::geom_traits_t, NamedParameters,
+                                                   PowerRTF_traits_3<Kernel, ConcurrencyTag>>::type;
+  /// A reference.
+  using Visitor =
+      typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParameters,
+                                                   Remeshing_default_visitor>::reference;
+};
 
-  const auto& triangles = surface.triangles;
-  const Facet_adjacency adjacency = facet_adjacency(triangles, surface.points.size());
-  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
-    if (adjacency.opposite[h] < h) continue; // border, or seen
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    if (std::binary_search(constrained.begin(), constrained.end(),
-                           sorted_edge(surface.input_vertices[a], surface.input_vertices[b])))
-      surface.creases.push_back(sorted_edge(a, b));
-  }
-  std::sort(surface.creases.begin(), surface.creases.end());
-}
-
-/// Imports `mesh` and sets the creases and the density that `np` or `options` asks for.
-template <class FaceGraph, class NamedParameters>
-Surface surface_of(const FaceGraph& mesh, const Remeshing_options& options,
-                   const NamedParameters& np, Repair_counts& repairs)
-{
-  Surface surface = import_surface(mesh, np, repairs, options.repair);
-  const auto constrained =
-      CGAL::parameters::get_parameter(np, internal_np::edge_is_constrained);
-  if constexpr (std::is_same<std::decay_t<decltype(constrained)>,
-                             internal_np::Param_not_found>::value)
-    set_creases(surface, options);
-  else
-    set_creases(surface, mesh, constrained);
-  const auto map = CGAL::parameters::get_parameter(np, density_map_t());
-  if constexpr (std::is_same<std::decay_t<decltype(map)>, internal_np::Param_not_found>::value) {
-    set_density(surface, options);
-  } else {
-    std::vector<double> densities;
-    densities.reserve(num_vertices(mesh));
-    for (const auto v : vertices(mesh)) densities.push_back(CGAL::to_double(get(map, v)));
-    set_density(surface, options, densities);
-  }
-  return surface;
-}
-
-} // namespace internal
-} // namespace PowerRTF
+} // namespace PowerRTF::internal
 
 /*!
  * \ingroup PkgPowerRTFRef
@@ -251,52 +206,29 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
                 "density_map, remeshing_options and repair belong into the first chain of named "
                 "parameters; one that began in CGAL::parameters takes them by "
                 "PowerRTF::parameters::combine(chain, density_map(map))");
-  using parameters::choose_parameter;
-  using parameters::get_parameter_reference;
-  using PowerRTF::internal::Stopwatch;
-  using Point_map = typename GetVertexPointMap<InputMesh, NamedParametersIn>::const_type;
-  using Kernel = typename Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
-  using Traits = typename internal_np::Lookup_named_param_def<
-      internal_np::geom_traits_t, NamedParametersIn,
-      PowerRTF_traits_3<Kernel, ConcurrencyTag>>::type;
-  using Default_visitor = PowerRTF::Remeshing_default_visitor;
-  using Visitor =
-      typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParametersIn,
-                                                   Default_visitor>::reference;
-
-  Default_visitor default_visitor;
-  Visitor visitor =
-      choose_parameter(get_parameter_reference(np_in, internal_np::visitor), default_visitor);
+  using Types = PowerRTF::internal::Run_types<ConcurrencyTag, InputMesh, NamedParametersIn>;
   using Output_map = typename GetVertexPointMap<OutputMesh, NamedParametersOut>::type;
   using Output_point = typename boost::property_traits<Output_map>::value_type;
   const PowerRTF::Remeshing_options options =
       PowerRTF::internal::options_of<Output_point>(number_of_samples, np_in);
+  PowerRTF::Remeshing_default_visitor default_visitor;
+  typename Types::Visitor visitor = parameters::choose_parameter(
+      parameters::get_parameter_reference(np_in, internal_np::visitor), default_visitor);
 
   PowerRTF::Remeshing_report report;
-  PowerRTF::Repair_counts repairs;
-  PowerRTF::Stage_seconds seconds;
   const auto run = [&] {
-    Stopwatch total(seconds.total);
-    PowerRTF::Surface surface;
-    {
-      Stopwatch watch(seconds.surface);
-      visitor.on_stage("surface");
-      surface = PowerRTF::internal::surface_of(input, options, np_in, repairs);
-    }
-    PowerRTF_remesher<Traits> remesher(std::move(surface), options);
-    if (remesher.optimize(visitor)) {
-      const PowerRTF::Extracted_mesh mesh = remesher.extract(visitor);
-      Stopwatch watch(seconds.write);
-      if (!remesher.report().cancelled)
-        PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
-    }
+    const PowerRTF::internal::Stopwatch total(report.seconds.total);
+    visitor.on_stage("surface");
+    PowerRTF::Surface surface = PowerRTF::prepare_surface(input, options, np_in, report);
+    PowerRTF_remesher<typename Types::Traits> remesher(std::move(surface), options, report);
+    PowerRTF::Extracted_mesh mesh;
+    if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
     report = remesher.report();
+    if (report.cancelled) return;
+    const PowerRTF::internal::Stopwatch write(report.seconds.write);
+    PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
   };
   if (!PowerRTF::internal::run_unless_cancelled(visitor, run)) report.cancelled = true;
-  report.repairs = repairs;
-  report.seconds.surface = seconds.surface;
-  report.seconds.write = seconds.write;
-  report.seconds.total = seconds.total;
   return report;
 }
 

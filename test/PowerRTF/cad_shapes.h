@@ -8,8 +8,7 @@
 
 #include "sweeps.h"
 
-namespace shapes
-{
+namespace shapes {
 
 /// A polygon around the z axis, moved inwards by `distance`: each side keeps its direction.
 inline Loop inset(const Loop& loop, double distance)

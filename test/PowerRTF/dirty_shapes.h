@@ -172,12 +172,12 @@ inline std::vector<std::pair<std::string, Soup>> dirty_spheres()
   all.emplace_back("far from the origin", translated(sphere, {1e6, -3e6, 2e6}));
   all.emplace_back("tiny", scaled(sphere, 1e-30));
   all.emplace_back("huge", scaled(sphere, 1e30));
-  Soup uneven = sphere; // three facets refined again and again around their centres
+  Soup uneven = sphere; // three facets refined again and again around their centers
   for (std::size_t f = 0, level = 0; level < 30; ++level) {
     const Triangle t = uneven.triangles[f];
     const int m = static_cast<int>(uneven.points.size());
-    uneven.points.push_back(
-        (1. / 3) * (uneven.points[t[0]] + uneven.points[t[1]] + uneven.points[t[2]]));
+    uneven.points.push_back((1. / 3) *
+                            (uneven.points[t[0]] + uneven.points[t[1]] + uneven.points[t[2]]));
     uneven.triangles[f] = {t[0], t[1], m};
     uneven.triangles.push_back({t[1], t[2], m});
     uneven.triangles.push_back({t[2], t[0], m});

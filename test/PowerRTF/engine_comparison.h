@@ -8,10 +8,10 @@
 
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/engines/Cpu_engine.h>
-#include <CGAL/PowerRTF/surface/Surface_patches.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/PowerRTF_traits_3.h>
+#include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
 #include <doctest/doctest.h>
 
@@ -19,8 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace engine_comparison
-{
+namespace engine_comparison {
 
 using namespace CGAL::PowerRTF;
 using doctest::Approx;
@@ -89,15 +88,6 @@ inline Pairing paired(const Samples& a, const Samples& b, double area)
   return p;
 }
 
-template <class Engine>
-void paper_weights(Engine& engine, int passes)
-{
-  for (int pass = 0; pass < passes; ++pass) {
-    engine.update_weights();
-    engine.build_cells();
-  }
-}
-
 /// Runs `Engine` and the CPU engine side by side for some steps of every kind and compares them.
 /// `tolerance`: of positions over the spacing, and of normals, densities and weights.
 template <class Engine>
@@ -149,7 +139,7 @@ void compare(const Case& c, double tolerance)
   move(Position_method::lloyd);
   check("a step of Lloyd's method");
   if (c.options.weight_method == Weight_method::multiplicative) {
-    both([&](auto& engine) { paper_weights(engine, 3); });
+    both([](auto& engine) { engine.optimize_weights(3); });
     check("three passes of the paper's rule");
     move(Position_method::lloyd);
     check("another step");

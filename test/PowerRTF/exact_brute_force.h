@@ -4,9 +4,12 @@
 // Restricted cells by brute force, for tests of the exact cells: all n - 1 half-planes, explicit
 // rational coordinates, O(n^2) per cell; shares nothing with the code under test. Weights (and the
 // square's sides) may be perturbed explicitly by 2^(-bits (rank + 1)), which resolves ties as the
-// symbolic perturbation does when `bits` is large enough for the coordinates.
+// symbolic perturbation does when `bits` is large enough for the coordinates; 0: none, ties are
+// reported.
 #ifndef CGAL_POWER_RTF_TEST_EXACT_BRUTE_FORCE_H
 #define CGAL_POWER_RTF_TEST_EXACT_BRUTE_FORCE_H
+
+#include "sample_families.h"
 
 #include <CGAL/PowerRTF/exact/Exact_cells.h>
 
@@ -18,26 +21,19 @@
 #include <optional>
 #include <vector>
 
-namespace exact_test
-{
+namespace exact_test {
 
 using CGAL::PowerRTF::Exact_square;
 using CGAL::PowerRTF::Vec3d;
+using sample_families::Cloud;
 using Q = CGAL::Exact_rational;
 
-struct Configuration {
-  std::vector<Vec3d> points, normals;
-  std::vector<double> weights;
-  double cos_theta = -2;
-  int bits = 0; // explicit perturbation; 0: none, ties are reported
-};
-
 struct Brute_cell {
-  std::vector<int> neighbours;
+  std::vector<int> neighbors;
   bool contains_site = false, tie = false;
   double area = 0;             // the next three when not empty
   Vec3d centroid{0, 0, 0};     // relative to s_i
-  std::vector<double> lengths; // of the edges, in the order of `neighbours`
+  std::vector<double> lengths; // of the edges, in the order of `neighbors`
 };
 
 struct Q3 {
@@ -116,11 +112,12 @@ inline std::optional<Segment> segment(const std::vector<Row>& rows, const Row& r
 }
 
 /// F_i of `c`, clipped by `square` or by a huge one with sides along the kept coordinate axes.
-inline Brute_cell brute_force(const Configuration& c, int i, const Exact_square* square)
+inline Brute_cell brute_force(const Cloud& c, int bits, int i, const Exact_square* square)
 {
-  const int n_samples = int(c.points.size());
-  const Vec3d normal = c.normals[i];
-  const Q3 n(normal), s_i(c.points[i]);
+  const CGAL::PowerRTF::Samples& samples = c.samples;
+  const int n_samples = int(samples.size());
+  const Vec3d normal = samples.normals[i];
+  const Q3 n(normal), s_i(samples.points[i]);
   const double abs_n[3] = {std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)};
   const double n_k[3] = {normal.x, normal.y, normal.z};
   const Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -128,16 +125,14 @@ inline Brute_cell brute_force(const Configuration& c, int i, const Exact_square*
   const int smallest = int(std::min_element(abs_n, abs_n + 3) - abs_n);
   const Q3 u1 = cross(n, Q3(axes[smallest])), u2 = cross(n, u1);
 
-  const auto eps = [&](int rank) {
-    return c.bits == 0 ? Q(0) : power_of_two(-c.bits * (rank + 1));
-  };
+  const auto eps = [&](int rank) { return bits == 0 ? Q(0) : power_of_two(-bits * (rank + 1)); };
   std::vector<Row> rows;
-  const Q w_i = Q(c.weights[i]) + eps(i);
+  const Q w_i = Q(samples.weights[i]) + eps(i);
   for (int j = 0; j < n_samples; ++j) {
-    if (j == i || !(CGAL::PowerRTF::dot(normal, c.normals[j]) > c.cos_theta)) continue;
-    const Q3 v = minus(Q3(c.points[j]), s_i);
-    rows.push_back(
-        {j, Q(2 * dot(v, u1)), Q(2 * dot(v, u2)), Q(dot(v, v) + w_i - Q(c.weights[j]) - eps(j))});
+    if (j == i || !(CGAL::PowerRTF::dot(normal, samples.normals[j]) > c.cos_angle)) continue;
+    const Q3 v = minus(Q3(samples.points[j]), s_i);
+    rows.push_back({j, Q(2 * dot(v, u1)), Q(2 * dot(v, u2)),
+                    Q(dot(v, v) + w_i - Q(samples.weights[j]) - eps(j))});
   }
   const Vec3d first = n_k[largest] > 0 ? axes[(largest + 1) % 3] : axes[(largest + 2) % 3];
   const Vec3d second = n_k[largest] > 0 ? axes[(largest + 2) % 3] : axes[(largest + 1) % 3];
@@ -184,7 +179,7 @@ inline Brute_cell brute_force(const Configuration& c, int i, const Exact_square*
   const double l1 = std::sqrt(CGAL::to_double(Q(dot(u1, u1))));
   const double l2 = std::sqrt(CGAL::to_double(Q(dot(u2, u2))));
   for (const Segment& s : segments) {
-    result.neighbours.push_back(s.row->id);
+    result.neighbors.push_back(s.row->id);
     const Q px = s.base_x - s.t_min * s.row->b, py = s.base_y + s.t_min * s.row->a;
     const Q qx = s.base_x - s.t_max * s.row->b, qy = s.base_y + s.t_max * s.row->a;
     const Q t = px * qy - py * qx;

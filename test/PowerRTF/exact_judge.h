@@ -22,8 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace judge
-{
+namespace judge {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
@@ -78,8 +77,7 @@ struct Topology {
 };
 
 /// Elements 0 to below `count`, of which some are made equivalent.
-class Classes
-{
+class Classes {
   boost::disjoint_sets_with_storage<> m_sets;
 
 public:

@@ -14,8 +14,7 @@
 
 #include <cmath>
 
-namespace judge
-{
+namespace judge {
 
 inline double angle_in_degrees(const Kernel::Vector_3& a, const Kernel::Vector_3& b)
 {
@@ -24,8 +23,7 @@ inline double angle_in_degrees(const Kernel::Vector_3& a, const Kernel::Vector_3
 }
 
 /// The facets of a mesh that belong to flat faces.
-class Flat_faces
-{
+class Flat_faces {
   using Primitive = CGAL::PowerRTF::internal::AABB_triangle_primitive_3<
       Kernel, std::vector<Kernel::Triangle_3>::iterator>;
   using Tree = CGAL::AABB_tree<CGAL::PowerRTF::internal::AABB_traits_3<Kernel, Primitive>>;
@@ -58,9 +56,9 @@ public:
     double inside = 0; ///< of that: in facets of which all parts are nearest to the same face
   };
 
-  /// How much of `mesh` is nearest to a flat face, with a normal more than `most_degrees` off that
+  /// How much of `mesh` is nearest to a flat face, with a normal more than `max_degrees` off that
   /// face's. Each facet is looked at in 16 parts.
-  Tilted_area tilted_area(const Mesh& mesh, double most_degrees = 0.5) const
+  Tilted_area tilted_area(const Mesh& mesh, double max_degrees = 0.5) const
   {
     const int steps = 4; // along each side of a facet
     Tilted_area result;
@@ -74,7 +72,7 @@ public:
         const std::size_t g = m_tree.closest_point_and_primitive(p).second - m_triangles.begin();
         if (m_face[g] == none) return;
         ++parts[m_face[g]];
-        tilted += angle_in_degrees(normal(t), normal(m_triangles[g])) > most_degrees;
+        tilted += angle_in_degrees(normal(t), normal(m_triangles[g])) > max_degrees;
       };
       for (int i = 0; i < steps; ++i)
         for (int j = 0; i + j < steps; ++j) {

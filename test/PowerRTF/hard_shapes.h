@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The catalogue of shapes that are hard to remesh. Each has a name that can be a file's.
+// The catalog of shapes that are hard to remesh. Each has a name that can be a file's.
 #ifndef CGAL_POWER_RTF_TEST_HARD_SHAPES_H
 #define CGAL_POWER_RTF_TEST_HARD_SHAPES_H
 
@@ -11,8 +11,7 @@
 #include <sstream>
 #include <string>
 
-namespace shapes
-{
+namespace shapes {
 
 using Named_shapes = std::vector<std::pair<std::string, Soup>>;
 

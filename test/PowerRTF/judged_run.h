@@ -24,13 +24,12 @@
 #include <string>
 #include <vector>
 
-namespace judged_run
-{
+namespace judged_run {
 
 namespace fs = std::filesystem;
 
-/// Seconds of one processor for a run, a guard against programs that hang: real time would also count
-/// what else the machine does.
+/// Seconds of one processor for a run, a guard against programs that hang: real time would also
+/// count what else the machine does.
 constexpr int time_limit = 30;
 
 /// The program's path; empty: none is named.
@@ -41,8 +40,7 @@ inline std::string program()
 }
 
 /// A folder that is there as long as the object.
-class Scratch_folder
-{
+class Scratch_folder {
   fs::path m_path;
 
 public:
@@ -91,7 +89,7 @@ struct Settings {
 struct Run {
   std::string input, output; ///< files
   std::size_t samples;
-  int exit_code; ///< 128 and the number of the signal that stopped it
+  int exit_code;         ///< 128 and the number of the signal that stopped it
   std::string message;   ///< on stderr
   nlohmann::json report; ///< null: none was written
 };
@@ -108,11 +106,10 @@ inline Run run(const Scratch_folder& folder, const std::string& name, const shap
   for (const std::string& file : {run.output, report}) fs::remove(file);
   write(run.input, soup);
   const auto quoted = [](const std::string& text) { return " '" + text + "'"; };
-  const std::string command = "ulimit -t " + std::to_string(time_limit) + "; exec" +
-                              quoted(program()) + quoted(run.input) + quoted(run.output) +
-                              " --quiet --threads 1 --samples " + std::to_string(settings.samples) +
-                              " --density " + settings.density + " --report" + quoted(report) +
-                              " 2>" + quoted(messages);
+  const std::string command =
+      "ulimit -t " + std::to_string(time_limit) + "; exec" + quoted(program()) + quoted(run.input) +
+      quoted(run.output) + " --quiet --threads 1 --samples " + std::to_string(settings.samples) +
+      " --density " + settings.density + " --report" + quoted(report) + " 2>" + quoted(messages);
   const int status = std::system(command.c_str());
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.message = content(messages);

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace mesh_data
-{
+namespace mesh_data {
 
 using CGAL::PowerRTF::Invalid_input_error;
 using CGAL::PowerRTF::Vec3d;
@@ -59,8 +58,7 @@ To bits_of(From from)
 }
 
 /// Makes PLY data.
-class Ply
-{
+class Ply {
 public:
   explicit Ply(const std::string& body) : m_body(body)
   {

@@ -10,8 +10,7 @@
 
 #include <set>
 
-namespace shapes
-{
+namespace shapes {
 
 // --- deformed boxes and spheres
 // --------------------------------------------------------------------------------
@@ -38,7 +37,7 @@ inline Soup spiked_sphere(int subdivisions, std::size_t k, double reach)
   return s;
 }
 
-/// A sphere with every vertex at a random distance from the centre, up to `reach`.
+/// A sphere with every vertex at a random distance from the center, up to `reach`.
 inline Soup hedgehog(int subdivisions, double reach, unsigned seed)
 {
   random_input::Random random(seed);

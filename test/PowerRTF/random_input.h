@@ -5,7 +5,7 @@
 #ifndef CGAL_POWER_RTF_TEST_RANDOM_INPUT_H
 #define CGAL_POWER_RTF_TEST_RANDOM_INPUT_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
 
 #include <cstdint>
 #include <random>
@@ -14,8 +14,7 @@ namespace random_input {
 
 using CGAL::PowerRTF::Vec3d;
 
-class Random
-{
+class Random {
   std::mt19937_64 m_engine;
 
 public:

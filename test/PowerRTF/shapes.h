@@ -5,7 +5,7 @@
 #ifndef CGAL_POWER_RTF_TEST_SHAPES_H
 #define CGAL_POWER_RTF_TEST_SHAPES_H
 
-#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/input/import_surface.h>
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,8 @@ inline void add_quad(Soup& soup, int a, int b, int c, int d)
 /// Each triangle from its smallest index on, in lexicographic order: equal for equal meshes.
 inline std::vector<Triangle> sorted(std::vector<Triangle> triangles)
 {
-  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  for (Triangle& t : triangles)
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
@@ -56,20 +57,26 @@ inline Soup tetrahedron()
 inline Soup octahedron()
 {
   return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-          {{{0, 2, 4}}, {{2, 1, 4}}, {{1, 3, 4}}, {{3, 0, 4}},
-           {{2, 0, 5}}, {{1, 2, 5}}, {{3, 1, 5}}, {{0, 3, 5}}}};
+          {{{0, 2, 4}},
+           {{2, 1, 4}},
+           {{1, 3, 4}},
+           {{3, 0, 4}},
+           {{2, 0, 5}},
+           {{1, 2, 5}},
+           {{3, 1, 5}},
+           {{0, 3, 5}}}};
 }
 
 inline Soup icosahedron()
 {
   const double g = (1 + std::sqrt(5.)) / 2;
   Soup s;
-  s.points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-              {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  s.triangles = {{{0, 11, 5}}, {{0, 5, 1}}, {{0, 1, 7}}, {{0, 7, 10}}, {{0, 10, 11}},
-                 {{1, 5, 9}}, {{5, 11, 4}}, {{11, 10, 2}}, {{10, 7, 6}}, {{7, 1, 8}},
-                 {{3, 9, 4}}, {{3, 4, 2}}, {{3, 2, 6}}, {{3, 6, 8}}, {{3, 8, 9}},
-                 {{4, 9, 5}}, {{2, 4, 11}}, {{6, 2, 10}}, {{8, 6, 7}}, {{9, 8, 1}}};
+  s.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+              {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  s.triangles = {{{0, 11, 5}}, {{0, 5, 1}},  {{0, 1, 7}},   {{0, 7, 10}}, {{0, 10, 11}},
+                 {{1, 5, 9}},  {{5, 11, 4}}, {{11, 10, 2}}, {{10, 7, 6}}, {{7, 1, 8}},
+                 {{3, 9, 4}},  {{3, 4, 2}},  {{3, 2, 6}},   {{3, 6, 8}},  {{3, 8, 9}},
+                 {{4, 9, 5}},  {{2, 4, 11}}, {{6, 2, 10}},  {{8, 6, 7}},  {{9, 8, 1}}};
   for (Vec3d& p : s.points) p = normalized(p);
   return s;
 }
@@ -140,8 +147,8 @@ inline Soup box(int divisions)
   const auto vertex = [&](const std::array<int, 3>& p) {
     const auto [it, is_new] = index.insert({p, static_cast<int>(s.points.size())});
     if (is_new)
-      s.points.push_back({2. * p[0] / divisions - 1, 2. * p[1] / divisions - 1,
-                          2. * p[2] / divisions - 1});
+      s.points.push_back(
+          {2. * p[0] / divisions - 1, 2. * p[1] / divisions - 1, 2. * p[2] / divisions - 1});
     return it->second;
   };
   for (int axis = 0; axis < 3; ++axis)
@@ -189,6 +196,24 @@ inline Soup open_cylinder(int nu, int nz, double radius, double height)
   for (int j = 0; j < nz; ++j)
     for (int i = 0; i < nu; ++i)
       add_quad(s, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+  return s;
+}
+
+/// A cylinder with lids around the z axis: two closed creases.
+inline Soup can(int nu, int nz)
+{
+  Soup s = open_cylinder(nu, nz, 1, 2);
+  for (const int z : {0, 2}) {
+    const int center = int(s.points.size()), first = z == 0 ? 0 : nz * nu;
+    s.points.push_back({0, 0, double(z)});
+    for (int i = 0; i < nu; ++i) {
+      const int a = first + i, b = first + (i + 1) % nu;
+      if (z == 0)
+        s.triangles.push_back({center, b, a});
+      else
+        s.triangles.push_back({center, a, b});
+    }
+  }
   return s;
 }
 
@@ -251,8 +276,7 @@ inline Soup rotated(Soup s, double angle, Vec3d axis = {1, 2, 3})
 {
   axis = normalized(axis);
   const double c = std::cos(angle), d = std::sin(angle);
-  for (Vec3d& p : s.points)
-    p = c * p + d * cross(axis, p) + (1 - c) * dot(axis, p) * axis;
+  for (Vec3d& p : s.points) p = c * p + d * cross(axis, p) + (1 - c) * dot(axis, p) * axis;
   return s;
 }
 
@@ -278,7 +302,7 @@ inline Soup permuted(const Soup& s, unsigned seed)
   return result;
 }
 
-/// Two unit spheres whose centres are `distance` apart along x.
+/// Two unit spheres whose centers are `distance` apart along x.
 inline Soup two_spheres(int subdivisions, double distance = 3)
 {
   return joined(icosphere(subdivisions), translated(icosphere(subdivisions), {distance, 0, 0}));

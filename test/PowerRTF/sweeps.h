@@ -8,8 +8,7 @@
 
 #include "shapes.h"
 
-namespace shapes
-{
+namespace shapes {
 
 using Loop = std::vector<Vec3d>;
 

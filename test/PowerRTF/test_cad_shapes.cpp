@@ -11,8 +11,7 @@
 
 using judged_run::Run;
 
-namespace
-{
+namespace {
 
 /// A run that must meet every guarantee.
 Run met_run(const judged_run::Scratch_folder& folder, const shapes::Soup& soup,

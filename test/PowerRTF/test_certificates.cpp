@@ -6,13 +6,13 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
-#include "certificate_families.h"
+#include "fast_cells.h"
 
-using namespace certificates;
+using namespace fast_cells;
+using random_input::Random;
 using Tag = CGAL::Sequential_tag;
 
-namespace
-{
+namespace {
 
 double extent(const Cloud& c)
 {
@@ -24,7 +24,7 @@ double extent(const Cloud& c)
 
 Cell_comparison compare(const Cloud& c, const std::vector<Cell_polygon>& cells)
 {
-  return check_cells<Tag>(c.samples, cells, compatibility_cosine(c.normal_angle));
+  return check_cells<Tag>(c.samples, cells, c.cos_angle);
 }
 
 void attack(const Family& family, int n, std::uint64_t seed)
@@ -36,15 +36,13 @@ void attack(const Family& family, int n, std::uint64_t seed)
   Cloud cloud = family.make(n, r);
   const double guess = extent(cloud) / std::sqrt(double(n)) * std::pow(10., r.real(-1, 0.5));
   Remeshing_options options;
-  Filtered_site_tree<Tag> fast(options);
-  const Cell_comparison c = compare(cloud, construct(cloud, fast, guess));
+  const Cell_comparison c = compare(cloud, construct<Filtered_construction>(cloud, options, guess));
   CHECK(c.certified_wrong == 0);
   CHECK(c.cells == cloud.size());
   CHECK(c.worst_edge <= 1);
 
   options.certified_combinatorics = true;
-  Filtered_site_tree<Tag> certified(options);
-  const Cell_comparison d = compare(cloud, construct(cloud, certified, guess));
+  const Cell_comparison d = compare(cloud, construct<Filtered_construction>(cloud, options, guess));
   CHECK(d.equal_cycles == cloud.size());
   CHECK(d.passed());
   MESSAGE(family.name << ", " << cloud.size() << ": " << c.equal_cycles << " equal, "

@@ -3,14 +3,14 @@
 //
 // The fast cells against the oracle on more than a million cells: the families of
 // test_certificates, and real models (environment variable POWER_RTF_DATA) at several stages of
-// the optimisation.
+// the optimization.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
-#include "certificate_families.h"
+#include "fast_cells.h"
 
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/input/import_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -18,22 +18,22 @@
 
 #include <cstdlib>
 
-using namespace certificates;
+using namespace fast_cells;
+using random_input::Random;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Tag = CGAL::Parallel_if_available_tag;
 using Remesher = CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel, Tag>>;
 
-namespace
-{
+namespace {
 
 void report(const std::string& name, const Cell_comparison& c)
 {
   MESSAGE(name << ": " << c.cells << " cells, " << c.equal_cycles << " equal, wrong "
                << c.certified_wrong << ", incomplete " << c.uncertified_right << " right and "
-               << c.uncertified_wrong << " wrong, " << c.differing_edges
-               << " edges differ, worst " << c.worst_edge << ", area error 99 % " << c.area.p99
-               << " largest " << c.area.max << ", centroid " << c.centroid.p99 << " "
-               << c.centroid.max << ", filtered " << c.predicates.filtered_share());
+               << c.uncertified_wrong << " wrong, " << c.differing_edges << " edges differ, worst "
+               << c.worst_edge << ", area error 99 % " << c.area.p99 << " largest " << c.area.max
+               << ", centroid " << c.centroid.p99 << " " << c.centroid.max << ", filtered "
+               << c.predicates.filtered_share());
   CHECK(c.cells > 0);
   CHECK(c.certified_wrong == 0);
 }
@@ -73,12 +73,10 @@ TEST_CASE("families")
         lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
         hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
       }
-      Filtered_site_tree<Tag> tree{Remeshing_options()};
       const double guess = length(hi - lo) / std::sqrt(double(n)) * std::pow(10., r.real(-1, .5));
-      const auto fast = construct(cloud, tree, guess);
+      const auto fast = construct<Filtered_construction, Tag>(cloud, {}, guess);
       CAPTURE(seed);
-      const Cell_comparison c =
-          check_cells<Tag>(cloud.samples, fast, compatibility_cosine(cloud.normal_angle));
+      const Cell_comparison c = check_cells<Tag>(cloud.samples, fast, cloud.cos_angle);
       report(family.name, c);
       cells += c.cells;
     }
@@ -96,8 +94,8 @@ TEST_CASE("models")
   for (const char* model : {"elk", "homer", "retinal", "fandisk_large"}) {
     std::vector<Kernel::Point_3> points;
     std::vector<std::vector<std::size_t>> polygons;
-    REQUIRE(CGAL::IO::read_polygon_soup(std::string(folder) + "/" + model + ".off", points,
-                                        polygons));
+    REQUIRE(
+        CGAL::IO::read_polygon_soup(std::string(folder) + "/" + model + ".off", points, polygons));
     for (Density density : {Density::uniform, Density::curvature}) {
       Repair_counts repairs;
       Remeshing_options options;

@@ -7,8 +7,9 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
-#include "../../cuda/cells/Kept_lists.h"
-#include "../../cuda/engine/morton_code.h"
+#include "../../cuda/cells/Verlet_lists.h"
+#include "../../cuda/test/listed_cells.h"
+#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 
 #include <CGAL/PowerRTF/cells/cell_moments.h>
 #include <CGAL/PowerRTF/cells/construct_cell.h>
@@ -51,8 +52,10 @@ struct Host_groups {
     const int end = std::min((k + 1) * Group_layout::arity, view.tree.below(level));
     for (int c = k * Group_layout::arity; c < end; ++c) {
       Group_node<Real> child{sites[0].point, sites[0].weight, sites[0].point, 0};
-      if (level == 0) child = {sites[c].point, sites[c].weight, sites[c].point, 0};
-      else child = nodes[view.tree.first[level - 1] + c];
+      if (level == 0)
+        child = {sites[c].point, sites[c].weight, sites[c].point, 0};
+      else
+        child = nodes[view.tree.first[level - 1] + c];
       if (c == k * Group_layout::arity) {
         node = child;
         continue;
@@ -107,9 +110,8 @@ Comparison compare(const std::vector<Vec3d>& points, const std::vector<Vec3d>& s
   const int n = static_cast<int>(points.size());
   std::vector<int> order(n);
   for (int i = 0; i < n; ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return morton_code(points[a]) < morton_code(points[b]);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return hilbert_code(points[a]) < hilbert_code(points[b]); });
   std::vector<Packed_site<Real>> packed(n);
   std::vector<Packed_normal<Real>> packed_normals(n);
   std::vector<Site<double>> sites(n);
@@ -135,7 +137,8 @@ Comparison compare(const std::vector<Vec3d>& points, const std::vector<Vec3d>& s
   for (int level = 0; level < tree.levels; ++level)
     for (int k = 0; k < tree.nodes(level); ++k)
       refit_sites_node(tree, level, k, sites.data(), boxes.data(), max_weights.data());
-  Sites_view<double> shared{sites.data(), normals.data(), boxes.data(), max_weights.data(), tree, 3,
+  Sites_view<double> shared{sites.data(),         normals.data(), boxes.data(),
+                            max_weights.data(),   tree,           3,
                             sorted_patches.data()};
 
   Comparison result;
@@ -174,14 +177,14 @@ Comparison compare(const std::vector<Vec3d>& points, const std::vector<Vec3d>& s
     result.candidates += double(found.size()) / n;
     int gathered = 0;
     for (const int j : found) {
-      if (gathered == Warp_memory<Real>::most_candidates) {
-        cell.list(*memory, gathered, 3, place % 32);
+      if (gathered == Warp_memory<Real>::max_candidates) {
+        list_candidates(cell, *memory, gathered, 3, place % 32);
         gathered = 0;
       }
       memory->candidates.sites[gathered] = packed[j];
       memory->candidates.places[gathered++] = j;
     }
-    cell.list(*memory, gathered, 3, place % 32);
+    list_candidates(cell, *memory, gathered, 3, place % 32);
     Ring_polygon<Real, 32> polygon(memory->polygons, place % 32);
     const int* column = memory->listed + place % 32;
     const Tangent_frame<Real> frame(packed_normals[place].normal);
@@ -223,7 +226,9 @@ struct Input {
   }
   template <class Real>
   Comparison compare(double cos_angle = 0) const
-  { return ::compare<Real>(points, normals, weights, patches, cos_angle); }
+  {
+    return ::compare<Real>(points, normals, weights, patches, cos_angle);
+  }
 };
 
 Input sphere(int n, double radius, unsigned seed)
@@ -327,7 +332,7 @@ TEST_CASE("smooth weights much larger than the squared spacing cost no precision
 }
 
 /// Keeps the list of a finished cell, all sites of which are compatible, with its edges in front.
-void keep_list(const Kept_lists<double>& lists, const Lane_cell<double>& cell,
+void keep_list(const Verlet_lists<double>& lists, const Lane_cell<double>& cell,
                const Ring_polygon<double, 32>& polygon, const int* column)
 {
   for (int k = 0; k < cell.listed; ++k)
@@ -338,7 +343,7 @@ void keep_list(const Kept_lists<double>& lists, const Lane_cell<double>& cell,
   reorder_list(lists, cell.place, polygon);
 }
 
-TEST_CASE("a kept list gives the cell of later weights, or says that it does not")
+TEST_CASE("a Verlet list gives the cell of later weights, or says that it does not")
 {
   const Input in = sphere(1500, 0.45, 6);
   const int n = static_cast<int>(in.points.size());
@@ -348,15 +353,15 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
     sites[i] = {in.points[i], 0};
     normals[i] = {in.normals[i], 0};
   }
-  Host_groups<double> groups(sites, normals); // not in Morton order: slow, but as right
+  Host_groups<double> groups(sites, normals); // not in Hilbert order: slow, but as right
   groups.view.cos_angle = 0;
   std::vector<double> density_root(n);
   for (int i = 0; i < n; ++i) density_root[i] = 1 + in.points[i].x;
   groups.view.density_root = density_root.data();
-  std::vector<int> neighbors(std::size_t(n) * Kept_lists<double>::capacity);
-  std::vector<unsigned short> sizes(n, Kept_lists<double>::none);
+  std::vector<int> neighbors(std::size_t(n) * Verlet_lists<double>::capacity);
+  std::vector<unsigned short> sizes(n, Verlet_lists<double>::none);
   std::vector<double> radius(n), outside(n);
-  Kept_lists<double> lists;
+  Verlet_lists<double> lists;
   lists.neighbors = neighbors.data();
   lists.sizes = sizes.data();
   lists.radius = radius.data();
@@ -374,19 +379,19 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
     cell.site = groups.sites[i];
     cell.radius = r;
     groups.gather({cell.site.point, cell.site.point, r, cell.site.weight}, found);
-    REQUIRE(found.size() < Warp_memory<double>::most_candidates);
+    REQUIRE(found.size() < Warp_memory<double>::max_candidates);
     for (std::size_t k = 0; k < found.size(); ++k) {
       memory->candidates.sites[k] = groups.sites[found[k]];
       memory->candidates.places[k] = found[k];
     }
-    cell.list(*memory, static_cast<int>(found.size()), 3, 3);
+    list_candidates(cell, *memory, static_cast<int>(found.size()), 3, 3);
     bool hopeless;
     return clip_listed(groups.view, cell, normals[i], Tangent_frame<double>(normals[i].normal),
                        memory->listed + 3, polygon, hopeless);
   };
   int kept = 0;
   for (int i = 0; i < n; ++i)
-    if (construct(i, 1.1 * spacing) && cell.listed <= Kept_lists<double>::capacity) {
+    if (construct(i, 1.1 * spacing) && cell.listed <= Verlet_lists<double>::capacity) {
       keep_list(lists, cell, polygon, memory->listed + 3);
       ++kept;
     }
@@ -405,7 +410,7 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
     int proved = 0, compared = 0, chains = 0, reordered = 0, refused = 0;
     double error = 0, chain_error = 0;
     for (int i = 0; i < n; ++i) {
-      if (sizes[i] == Kept_lists<double>::none) continue;
+      if (sizes[i] == Verlet_lists<double>::none) continue;
       cell.place = i;
       cell.site = groups.sites[i];
       const Tangent_frame<double> frame(normals[i].normal);
@@ -423,10 +428,10 @@ TEST_CASE("a kept list gives the cell of later weights, or says that it does not
       if (clip_chain<true>(groups.view, lists, cell, frame, sizes[i], polygon, chain)) {
         ++chains;
         const auto& m = chain.moments;
-        chain_error = std::max({chain_error, std::fabs(chain.radius2 / list_radius2 - 1),
-                                std::fabs(m.area / moments.area - 1),
-                                std::fabs(m.mass / moments.mass - 1),
-                                std::hypot(m.x - moments.x, m.y - moments.y) / spacing});
+        chain_error =
+            std::max({chain_error, std::fabs(chain.radius2 / list_radius2 - 1),
+                      std::fabs(m.area / moments.area - 1), std::fabs(m.mass / moments.mass - 1),
+                      std::hypot(m.x - moments.x, m.y - moments.y) / spacing});
       } else {
         clip_entries(groups.view, lists, cell, frame, radius[i], sizes[i], polygon);
         reorder_list(lists, i, polygon);
@@ -503,7 +508,7 @@ TEST_CASE("nothing wrong is called finished")
     for (int x = 0; x < 20; ++x)
       for (int y = 0; y < 20; ++y) in.add({x / 64.0, y / 64.0, 0}, {0, 0, 1});
     const Comparison c = in.compare<float>();
-    CHECK(c.area_error < 1e-6); // neighbours at corners may or may not have an edge of length 0
+    CHECK(c.area_error < 1e-6); // neighbors at corners may or may not have an edge of length 0
     return;
   }
   SUBCASE("a wheel: 40 cocircular sites around one")

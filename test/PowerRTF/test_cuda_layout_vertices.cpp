@@ -4,16 +4,13 @@
 // The paper's projection and attributes as a warp of the GPU finds them, run on the host, against
 // those of a single thread: by the vertices' lists, and in the tree where no list proves them.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "packed.h"
 #include "shapes.h"
-
-#include <CGAL/PowerRTF/engines/Cuda_engine.h>
 
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "../../cuda/device/Host_backend.h"
-#include "../../cuda/surface/Device_surface.h"
 #include "warp_on_host.h"
 
 #include "../../cuda/surface/vertices_by_warp.cuh"
@@ -21,8 +18,7 @@
 using namespace CGAL::PowerRTF;
 using namespace CGAL::PowerRTF::device;
 
-namespace
-{
+namespace {
 
 /// A large box with a small, finely meshed ball beside a corner: lists there do not reach far.
 shapes::Soup dense_spot()
@@ -35,12 +31,10 @@ shapes::Soup dense_spot()
 template <class Real>
 void compare(const shapes::Soup& soup)
 {
-  Remeshing_options options = Remeshing_options::paper_preset();
   const Surface surface = shapes::make_surface(soup);
-  const internal::Device_surface_order order(surface, options);
-  Host_backend backend;
-  const Device_surface<Real, Host_backend> device(backend, order.input());
-  const Surface_view<Real>& view = device.view();
+  Packed<Real> packed(surface);
+  packed.arrays.list_near_vertices(packed.backend);
+  const Surface_view<Real>& view = packed.view();
 
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -55,7 +49,7 @@ void compare(const shapes::Soup& soup)
         f.a * Real(a) + f.b * Real(b) + f.c * Real(1 - a - b) +
         Vec3<Real>{Real(uniform(random)), Real(uniform(random)), Real(uniform(random))} * far;
     const int k = 1 + round % 32;
-    int expected[most_near_vertices];
+    int expected[max_near_vertices];
     const int count = nearest_vertices(view, p, k, expected);
     const Real angle = Real(0.5);
     const Surface_point<Real> q =

@@ -7,7 +7,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
-#include "../../cuda/engine/morton_code.h"
+#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 
 #include <CGAL/PowerRTF/cells/construct_cell.h>
 
@@ -19,6 +19,7 @@
 #include "warp_on_host.h"
 
 #include "../../cuda/cells/Warp_cell.cuh"
+#include "../../cuda/test/kept_weights.h"
 
 using namespace CGAL::PowerRTF;
 using namespace CGAL::PowerRTF::device;
@@ -32,7 +33,7 @@ struct Case {
   bool has_duplicates = false, has_patches = false;
 };
 
-/// Sites on a torus along a Morton curve, and what the device keeps of them.
+/// Sites on a torus along a Hilbert curve, and what the device keeps of them.
 class Sites {
 public:
   Sites(const Case& c, int n) : m_case(c)
@@ -52,7 +53,7 @@ public:
     std::vector<int> order(n);
     for (int i = 0; i < n; ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-      return morton_code(points[a]) < morton_code(points[b]);
+      return hilbert_code(points[a]) < hilbert_code(points[b]);
     });
     for (const int i : order) {
       const Vec3d p = points[i], d = directions[i];
@@ -76,8 +77,8 @@ public:
     m_nodes.resize(view.tree.nodes());
     for (int level = 0; level < view.tree.levels; ++level)
       for (int k = 0; k < view.tree.nodes(level); ++k) {
-        Group_node<float> node{{infinity, infinity, infinity}, -infinity,
-                               {-infinity, -infinity, -infinity}, 0};
+        Group_node<float> node{
+            {infinity, infinity, infinity}, -infinity, {-infinity, -infinity, -infinity}, 0};
         const int end = std::min((k + 1) * Group_layout::arity, view.tree.below(level));
         for (int c = k * Group_layout::arity; c < end; ++c) {
           Group_node<float> q{sites[c].point, sites[c].weight, sites[c].point, 0};
@@ -109,9 +110,9 @@ public:
     }
   }
 
-  Kept_lists<float> lists()
+  Verlet_lists<float> lists()
   {
-    Kept_lists<float> l;
+    Verlet_lists<float> l;
     l.weights = m_list_weights.data();
     l.growth = m_growth.data();
     l.all_growth = &m_all_growth;
@@ -134,8 +135,8 @@ public:
     for (int level = 0; level < tree.levels; ++level)
       for (int k = 0; k < tree.nodes(level); ++k)
         refit_sites_node(tree, level, k, m_exact.data(), m_boxes.data(), m_weights.data());
-    return {m_exact.data(), m_exact_normals.data(), m_boxes.data(), m_weights.data(), tree,
-            m_case.guard_factor, m_patches.data()};
+    return {m_exact.data(), m_exact_normals.data(), m_boxes.data(),  m_weights.data(),
+            tree,           m_case.guard_factor,    m_patches.data()};
   }
 
   std::vector<Packed_site<float>> sites;
@@ -247,7 +248,7 @@ TEST_CASE("a warp's cells are the shared ones")
   constexpr int step = 41;
   std::vector<Last> last(sites.sites.size(), unknown);
   for (const double change : {0.0, 0.3, 0.0}) { // after the first time with what is known
-    const Kept_lists<float> lists = sites.lists();
+    const Verlet_lists<float> lists = sites.lists();
     Sites current = sites; // whose tree knows the weights
     current.make_tree();
     const Sites_view<double> exact_sites = current.exact();

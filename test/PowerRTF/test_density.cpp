@@ -3,7 +3,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/fields/density.h>
 
 #include <doctest/doctest.h>
 
@@ -52,7 +52,7 @@ double ratio(const Surface& s)
 
 } // namespace
 
-TEST_CASE("edges: every neighbour once, on closed and open surfaces")
+TEST_CASE("edges: every neighbor once, on closed and open surfaces")
 {
   for (const shapes::Soup& soup : {shapes::octahedron(), shapes::plane_patch(3, 2),
                                    shapes::torus(8, 6, 2, 1), shapes::open_cylinder(7, 3, 1, 1)}) {
@@ -186,13 +186,11 @@ TEST_CASE("density does not depend on size, place, direction or order")
   const Remeshing_options o = curvature_options(2, 0.2);
   Surface reference = shapes::make_surface(soup);
   set_density(reference, o);
-  const auto check_same = [&](const shapes::Soup& other, double tolerance)
-  {
+  const auto check_same = [&](const shapes::Soup& other, double tolerance) {
     Surface s = shapes::make_surface(other);
     set_density(s, o);
     for (std::size_t v = 0; v < s.points.size(); ++v)
-      CHECK(s.vertex_density[v] ==
-            doctest::Approx(reference.vertex_density[v]).epsilon(tolerance));
+      CHECK(s.vertex_density[v] == doctest::Approx(reference.vertex_density[v]).epsilon(tolerance));
   };
   check_same(shapes::scaled(soup, 1000), 1e-9);
   check_same(shapes::scaled(soup, 1e-3), 1e-9);

@@ -9,7 +9,7 @@
 
 #include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
-#include <CGAL/PowerRTF/surface/density.h>
+#include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -23,8 +23,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Fast = CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel, CGAL::Sequential_tag>>;
 using Exact = CGAL::PowerRTF_remesher<CGAL::PowerRTF_exact_traits_3<Kernel, CGAL::Sequential_tag>>;
 
-namespace
-{
+namespace {
 
 Surface with_density(const shapes::Soup& soup, const Remeshing_options& options)
 {
@@ -121,8 +120,9 @@ TEST_CASE("creases, borders and several components")
   options.density = Density::uniform;
   compare_traits(shapes::box(5), options);
   compare_traits(shapes::plane_patch(9, 9), options);
-  compare_traits(shapes::joined(shapes::box(4), shapes::translated(shapes::icosphere(2), {0, 0, 2.01})),
-                 options);
+  compare_traits(
+      shapes::joined(shapes::box(4), shapes::translated(shapes::icosphere(2), {0, 0, 2.01})),
+      options);
 }
 
 TEST_CASE("the comparison sees what is wrong")

@@ -8,11 +8,11 @@
 
 #include "shapes.h"
 
+#include "extract_exact.h"
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
-#include <CGAL/PowerRTF/extraction/extract_exact.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
+#include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/surface/density.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -24,8 +24,7 @@ using namespace CGAL::PowerRTF;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Remesher = CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel, CGAL::Sequential_tag>>;
 
-namespace
-{
+namespace {
 
 /// Even samples with the weights of equal capacities.
 Samples even_samples(const Surface& surface, std::size_t n)
@@ -75,8 +74,7 @@ TEST_CASE("two close sheets are kept apart")
   const Surface surface = shapes::make_surface(shapes::thin_disc(0.01));
   const Samples samples = even_samples(surface, 300);
   check_manifold(extract_exact(surface, samples), 2);
-  const Topology_statistics t =
-      topology(extract_restricted_delaunay(surface, samples).triangles);
+  const Topology_statistics t = topology(extract_restricted_delaunay(surface, samples).triangles);
   CHECK(t.non_manifold_edges > 0); // what the components are for
 }
 

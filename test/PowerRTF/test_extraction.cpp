@@ -5,9 +5,9 @@
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
-#include <CGAL/PowerRTF/quality/self_intersections.h>
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
 #include <doctest/doctest.h>
 
@@ -22,8 +22,7 @@
 
 using namespace CGAL::PowerRTF;
 
-namespace
-{
+namespace {
 
 Samples samples_on(const Surface& surface, std::size_t n, unsigned seed = 0,
                    Sampling sampling = Sampling::elimination)
@@ -156,6 +155,29 @@ TEST_CASE("insertion keeps the topology of every shape, for any number of sample
             CHECK(exchanged_samples(samples, mesh) == 0);
         }
   }
+}
+
+TEST_CASE("a face that is said to be a part of a facet lies in it")
+{
+  for (const Shape& shape : all_shapes())
+    for (const unsigned seed : {0u, 1u}) {
+      CAPTURE(shape.name);
+      CAPTURE(seed);
+      const Surface surface = surface_of(shape.soup);
+      internal::Working_mesh mesh(
+          internal::insert_samples(surface, samples_on(surface, 150, seed, Sampling::elimination)));
+      internal::Edge_flipper flipper(mesh, 0.1);
+      flipper.push_around_samples();
+      flipper.run(20 * mesh.mesh.number_of_edges());
+      internal::Decimator(mesh, flipper).run();
+      for (const auto face : mesh.mesh.faces()) {
+        const int f = mesh.facets[face];
+        if (f < 0) continue;
+        const Vec3d& corner = surface.points[surface.triangles[f][0]];
+        for (const auto v : mesh.mesh.vertices_around_face(mesh.mesh.halfedge(face)))
+          CHECK(std::abs(dot(mesh.point(v) - corner, surface.facet_normals[f])) < 1e-6);
+      }
+    }
 }
 
 TEST_CASE("without self-intersections where samples are well distributed")

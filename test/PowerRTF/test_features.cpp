@@ -1,58 +1,29 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Creases and borders: found, cut, sampled, and kept from the samples to the mesh.
+// Creases and borders: sampled, and kept from the samples to the mesh.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
+#include "creased_surface.h"
 #include "dirty_shapes.h"
-#include "shapes.h"
 
 #include <CGAL/PowerRTF/cells/clip_at_features.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/one_sided.h>
+#include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-#include <CGAL/PowerRTF/surface/Surface_patches.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <set>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
 
-namespace
-{
-
-/// A cylinder with lids around the z axis: two closed creases.
-shapes::Soup can(int nu, int nz)
-{
-  shapes::Soup s = shapes::open_cylinder(nu, nz, 1, 2);
-  for (const int z : {0, 2}) {
-    const int center = int(s.points.size()), first = z == 0 ? 0 : nz * nu;
-    s.points.push_back({0, 0, double(z)});
-    for (int i = 0; i < nu; ++i) {
-      const int a = first + i, b = first + (i + 1) % nu;
-      if (z == 0)
-        s.triangles.push_back({center, b, a});
-      else
-        s.triangles.push_back({center, a, b});
-    }
-  }
-  return s;
-}
-
-Surface with_creases(const shapes::Soup& soup, std::size_t n)
-{
-  Surface surface = shapes::make_surface(soup);
-  Remeshing_options options;
-  options.number_of_samples = n;
-  set_creases(surface, options);
-  return surface;
-}
+namespace {
 
 /// The distance of `p` from the polyline through the vertices of `curve`.
 double distance_to(const Surface& surface, const Feature_curve& curve, const Vec3d& p)
@@ -68,86 +39,9 @@ double distance_to(const Surface& surface, const Feature_curve& curve, const Vec
 
 } // namespace
 
-TEST_CASE("creases of clean shapes are found, whatever size and place")
-{
-  for (const double scale : {1., 1e-6, 1e9}) {
-    CHECK(find_creases(shapes::make_surface(shapes::scaled(shapes::box(7), scale)), 40, 3000).size() ==
-          12 * 7);
-    CHECK(find_creases(shapes::make_surface(shapes::scaled(can(50, 6), scale)), 40, 3000).size() ==
-          100);
-  }
-  const shapes::Soup turned = shapes::rotated(shapes::translated(shapes::box(5), {3, 1, 2}), 1.1);
-  CHECK(find_creases(shapes::make_surface(turned), 40, 3000).size() == 60);
-  CHECK(find_creases(shapes::make_surface(shapes::permuted(turned, 3)), 40, 3000).size() == 60);
-  CHECK(find_creases(shapes::make_surface(turned), 91, 3000).empty());
-}
-
-TEST_CASE("smooth and noisy shapes have no creases")
-{
-  CHECK(find_creases(shapes::make_surface(shapes::icosphere(3)), 40, 3000).empty());
-  CHECK(find_creases(shapes::make_surface(shapes::torus(40, 20, 2, 1)), 40, 3000).empty());
-  for (unsigned seed : {1, 2, 3}) {
-    std::mt19937_64 random(seed);
-    shapes::Soup rough = shapes::icosphere(4);
-    for (Vec3d& p : rough.points) p *= 1 + 0.03 * (double(random() % 1000) / 1000);
-    const Surface surface = shapes::make_surface(rough);
-    CHECK(find_creases(surface, 180. - 1e-9, 3000).empty());
-    CHECK(find_creases(surface, 40, 3000).empty());
-  }
-}
-
-TEST_CASE("short dangling creases are noise")
-{
-  const Surface plane = shapes::make_surface(shapes::plane_patch(10, 10)); // vertex = 11 row + column
-  const auto on_border = internal::border_vertices(
-      plane, facet_adjacency(plane.triangles, plane.points.size()));
-  const auto pruned = [&](std::vector<Edge> edges) {
-    internal::prune_creases(plane, on_border, 0.25, edges);
-    return edges.size();
-  };
-  std::vector<Edge> across; // from border to border, 10 edges of length 0.1
-  for (int v = 44; v < 54; ++v) across.push_back({v, v + 1});
-  CHECK(pruned(across) == 10);
-  std::vector<Edge> twig = across;
-  twig.push_back({48, 59}); // a twig of two edges
-  twig.push_back({59, 70});
-  CHECK(pruned(twig) == 10);
-  twig.push_back({70, 81}); // of three
-  CHECK(pruned(twig) == 13);
-  CHECK(pruned({{24, 25}, {25, 26}, {26, 27}, {27, 28}}) == 0); // a piece of 0.4
-  CHECK(pruned({{24, 25}, {25, 26}, {26, 27}, {27, 28}, {28, 29}, {29, 30}}) == 6); // of 0.6
-  CHECK(pruned({{24, 25}, {25, 36}, {35, 36}, {24, 35}}) == 0); // a small ring
-}
-
-TEST_CASE("a surface is cut into its patches")
-{
-  const Surface box = with_creases(shapes::box(4), 1000);
-  const Cut_surface cut = cut_along_creases(box);
-  const auto& patches = cut.surface.facet_patches;
-  CHECK(std::set<int>(patches.begin(), patches.end()).size() == 6);
-  CHECK(cut.surface.points.size() == 6 * 25);
-  for (std::size_t v = 0; v < cut.originals.size(); ++v) {
-    CHECK(cut.surface.points[v] == box.points[cut.originals[v]]);
-    const Vec3d n = cut.surface.vertex_normals[v]; // that of one face
-    CHECK(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) == doctest::Approx(1).epsilon(1e-14));
-  }
-  for (std::size_t f = 0; f < box.triangles.size(); ++f)
-    for (int i = 0; i < 3; ++i)
-      CHECK(cut.originals[cut.surface.triangles[f][i]] == box.triangles[f][i]);
-
-  SUBCASE("a crease that ends inside is a slit")
-  {
-    Surface plane = shapes::make_surface(shapes::plane_patch(4, 4));
-    plane.creases = {{6, 7}, {7, 8}};
-    const Cut_surface slit = cut_along_creases(plane);
-    CHECK(slit.surface.points.size() == plane.points.size() + 1);
-    CHECK(std::set<int>(slit.surface.facet_patches.begin(), slit.surface.facet_patches.end()).size() == 1);
-  }
-}
-
 TEST_CASE("curves run from corner to corner")
 {
-  const auto curves = feature_curves(with_creases(shapes::box(6), 1000), 0.01);
+  const auto curves = feature_curves(shapes::with_creases(shapes::box(6), 1000), 0.01);
   CHECK(curves.size() == 12);
   std::set<int> corners;
   for (const Feature_curve& c : curves) {
@@ -158,7 +52,7 @@ TEST_CASE("curves run from corner to corner")
   }
   CHECK(corners.size() == 8);
 
-  const auto rims = feature_curves(with_creases(can(60, 5), 1000), 0.01);
+  const auto rims = feature_curves(shapes::with_creases(shapes::can(60, 5), 1000), 0.01);
   CHECK(rims.size() == 2);
   for (const Feature_curve& c : rims) {
     CHECK_FALSE(c.has_corners);
@@ -175,10 +69,10 @@ TEST_CASE("curves run from corner to corner")
 
 TEST_CASE("samples line creases and borders evenly")
 {
-  for (const shapes::Soup& soup : {shapes::box(5), can(80, 6), shapes::plane_patch(8, 8),
+  for (const shapes::Soup& soup : {shapes::box(5), shapes::can(80, 6), shapes::plane_patch(8, 8),
                                    shapes::open_cylinder(60, 10, 1, 3)}) {
     for (const std::size_t n : {200, 3000}) {
-      const Surface surface = with_creases(soup, n);
+      const Surface surface = shapes::with_creases(soup, n);
       const Cut_surface cut = cut_along_creases(surface);
       const Feature_samples features = sample_features(surface, cut, n);
       const double spacing = std::sqrt(2 / std::sqrt(3.) * surface.area / double(n));
@@ -208,11 +102,13 @@ TEST_CASE("samples line creases and borders evenly")
         const Vec3d center =
             (surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]) * (1. / 3);
         const Vec3d along = sites.points[next] - sites.points[s];
-        CHECK(dot(cross(along, center - sites.points[s]), surface.facet_normals[sites.facets[s]]) > 0);
+        CHECK(dot(cross(along, center - sites.points[s]), surface.facet_normals[sites.facets[s]]) >
+              0);
       }
       double turns = 0; // each sample on a smooth crease has two halves, on a border one
       for (double share : features.shares) turns += share;
-      CHECK(equivalent_cells(n, features) == doctest::Approx(double(n) - double(features.size()) + turns));
+      CHECK(equivalent_cells(n, features) ==
+            doctest::Approx(double(n) - double(features.size()) + turns));
     }
   }
 }
@@ -221,9 +117,10 @@ TEST_CASE("too few samples for the borders are refused, for found creases these 
 {
   const Surface plane = shapes::make_surface(shapes::plane_patch(4, 4));
   CHECK_THROWS_AS(sample_features(plane, cut_along_creases(plane), 2), Invalid_input_error);
-  CHECK(!with_creases(shapes::box(5), 8).creases.empty()); // all is flat: the corners suffice
-  CHECK(with_creases(shapes::box(5), 7).creases.empty());
-  CHECK(with_creases(shapes::box(5), 16).creases.size() == 60);
+  CHECK(
+      !shapes::with_creases(shapes::box(5), 8).creases.empty()); // all is flat: the corners suffice
+  CHECK(shapes::with_creases(shapes::box(5), 7).creases.empty());
+  CHECK(shapes::with_creases(shapes::box(5), 16).creases.size() == 60);
   Remeshing_options options;
   Surface box = shapes::make_surface(shapes::box(3));
   for (double angle : {0., -1., 181., std::nan("")}) {
@@ -232,7 +129,7 @@ TEST_CASE("too few samples for the borders are refused, for found creases these 
   }
 }
 
-TEST_CASE("cells are cut at the chords between neighbours on a boundary")
+TEST_CASE("cells are cut at the chords between neighbors on a boundary")
 {
   // The cell [-1, 1]^2 of the site (0, 0); sites 1, 2, 3 are the boundary, the patch to the left.
   const int next[] = {-1, 2, 3, 1}, previous[] = {-1, 3, 1, 2};
@@ -243,7 +140,7 @@ TEST_CASE("cells are cut at the chords between neighbours on a boundary")
     view.sites = sites;
     Tangent_polygon<double> polygon;
     polygon.set_square(1);
-    CHECK_FALSE(clip_at_features(view, 0, next, previous, frame, polygon)); // no neighbour on it
+    CHECK_FALSE(clip_at_features(view, 0, next, previous, frame, polygon)); // no neighbor on it
     polygon.neighbor[0] = 1;
     CHECK(clip_at_features(view, 0, next, previous, frame, polygon) == is_cut);
     double sum = 0;
@@ -263,10 +160,10 @@ TEST_CASE("cells are cut at the chords between neighbours on a boundary")
 
 TEST_CASE("the extraction keeps creases and borders, wherever the other samples are")
 {
-  for (const shapes::Soup& soup : {shapes::box(5), can(80, 6), shapes::plane_patch(8, 8),
+  for (const shapes::Soup& soup : {shapes::box(5), shapes::can(80, 6), shapes::plane_patch(8, 8),
                                    shapes::open_cylinder(60, 10, 1, 3)})
     for (const unsigned seed : {0, 1}) {
-      Surface surface = with_creases(soup, 400);
+      Surface surface = shapes::with_creases(soup, 400);
       Remeshing_options options;
       options.number_of_samples = 400;
       options.random_seed = seed;
@@ -309,8 +206,8 @@ TEST_CASE("a crease that is one edge keeps all its samples")
       CHECK(length(features.samples.normals[k]) == doctest::Approx(1));
     }
     const Samples free = sample_surface(patches.surface(), options, features);
-    const Extracted_mesh mesh = extract_by_insertion(
-        surface, joined(patches.on_whole(free), features.samples), features);
+    const Extracted_mesh mesh =
+        extract_by_insertion(surface, joined(patches.on_whole(free), features.samples), features);
     Remeshing_report report;
     report.samples_asked = n;
     assess<CGAL::Sequential_tag>(surface, mesh, report);
@@ -331,8 +228,9 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
     shapes::Soup soup;
     std::size_t loops;
   };
-  for (const Case& c : {Case{shapes::moebius_strip(60), 1},
-                        Case{shapes::some_reversed(shapes::moebius_strip(61), 4), 1}, Case{klein, 0}})
+  for (const Case& c :
+       {Case{shapes::moebius_strip(60), 1},
+        Case{shapes::some_reversed(shapes::moebius_strip(61), 4), 1}, Case{klein, 0}})
     for (const Preset preset : {Preset::quality, Preset::paper}) {
       Surface surface = shapes::make_surface(c.soup);
       CHECK_FALSE(surface.seams.empty());
@@ -343,8 +241,8 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
       const Surface_patches patches(surface, options);
       CHECK(topology(patches.surface().triangles).oriented);
       const Samples free = sample_surface(patches.surface(), options, patches.features());
-      const Opened_surface opened(surface, joined(patches.on_whole(free), patches.features().samples),
-                                  patches.features());
+      const Opened_surface opened(
+          surface, joined(patches.on_whole(free), patches.features().samples), patches.features());
       Extracted_mesh mesh =
           extract_by_insertion(opened.surface(), opened.samples(), opened.features(), true);
       CHECK(topology(mesh.triangles).oriented);
@@ -363,103 +261,11 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
     }
 }
 
-TEST_CASE("narrow patches are joined to a neighbour")
-{
-  shapes::Soup slab = shapes::box(6);
-  for (Vec3d& p : slab.points) p.z *= 0.02;
-  Surface surface = shapes::make_surface(slab);
-  surface.creases = find_creases(surface, 40, 1000);
-  CHECK(surface.creases.size() == 72);
-  join_narrow_patches(surface, 0.001);
-  CHECK(surface.creases.size() == 72);
-  const double width = 0.1 * surface.normalization.scale; // wider than the four walls
-  join_narrow_patches(surface, width);
-  const Cut_surface cut = cut_along_creases(surface);
-  const auto& patches = cut.surface.facet_patches;
-  std::vector<double> areas(*std::max_element(patches.begin(), patches.end()) + 1, 0);
-  for (std::size_t f = 0; f < patches.size(); ++f) areas[patches[f]] += surface.facet_areas[f];
-  CHECK(areas.size() == 2); // the two large faces stay apart
-  for (double area : areas) CHECK(area > 0.45 * surface.area);
-}
-
-TEST_CASE("of two close creases the one around the larger flat patch stays")
-{
-  // the box [-1, 1]^3 with the edges around its top cut off
-  const double cut = 0.05;
-  shapes::Soup box = shapes::box(8);
-  for (Vec3d& p : box.points)
-    if (p.z == 1) p = {p.x * (1 - cut), p.y * (1 - cut), 1};
-    else if (p.z == 0.75) p.z = 1 - cut;
-  for (const double height : {0.3, 3.}) { // the top is larger than a side, or smaller
-    CAPTURE(height);
-    shapes::Soup soup = box;
-    for (Vec3d& p : soup.points)
-      if (p.z < 1) p.z = 1 - cut - height * (1 - cut - p.z);
-    Surface surface = shapes::make_surface(soup);
-    surface.creases = find_creases(surface, 40, 500);
-    join_narrow_patches(surface, 0.2 * surface.normalization.scale);
-    double at_top = 0, at_sides = 0;
-    for (const Edge& e : surface.creases) {
-      const Vec3d a = surface.normalization.to_outside(surface.points[e[0]]);
-      const Vec3d b = surface.normalization.to_outside(surface.points[e[1]]);
-      if (std::abs(a.z - b.z) > 1e-9 || a.z < 1 - 2 * cut) continue;
-      (a.z > 1 - 1e-9 ? at_top : at_sides) += length(b - a);
-    }
-    CHECK((height < 1 ? at_top : at_sides) > 7);
-    CHECK((height < 1 ? at_sides : at_top) < 0.5);
-  }
-}
-
-TEST_CASE("large flat faces end in creases where round ones begin")
-{
-  // a quarter of a tube of radius 1 between two plates of length 4, width 3
-  const auto bent_plate = [](int steps) {
-    std::vector<Vec3d> profile;
-    for (int k = 0; k <= 16; ++k) profile.push_back({-4 + 0.25 * k, 0, 0});
-    for (int k = 1; k < steps; ++k) {
-      const double u = shapes::pi / 2 * k / steps;
-      profile.push_back({std::sin(u), 0, 1 - std::cos(u)});
-    }
-    for (int k = 0; k <= 8; ++k) profile.push_back({1, 0, 1 + 0.5 * k});
-    shapes::Soup s;
-    for (const Vec3d& p : profile)
-      for (int j = 0; j <= 6; ++j) s.points.push_back({p.x, 0.5 * j, p.z});
-    for (int i = 0; i + 1 < int(profile.size()); ++i)
-      for (int j = 0; j < 6; ++j)
-        shapes::add_quad(s, 7 * i + j, 7 * i + 7 + j, 7 * i + 8 + j, 7 * i + j + 1);
-    return s;
-  };
-  const Surface surface = shapes::make_surface(bent_plate(12));
-  const double scale = surface.normalization.scale;
-  const Facet_adjacency adjacency = facet_adjacency(surface.triangles, surface.points.size());
-  const auto lengths = [&](const std::vector<Edge>& edges) {
-    double sum = 0;
-    for (const Edge& e : edges) {
-      const Vec3d a = surface.points[e[0]], b = surface.points[e[1]];
-      CHECK(length(b - a) == doctest::Approx(std::abs(b.y - a.y))); // across, not along
-      sum += length(b - a) / scale;
-    }
-    return sum;
-  };
-  CHECK(lengths(flat_patch_boundaries(surface, adjacency, {}, 0.3 * scale)) == doctest::Approx(6));
-  // too narrow for rows of triangles
-  CHECK(flat_patch_boundaries(surface, adjacency, {}, 0.6 * scale).empty());
-  // with so many samples every strip of the tube is wide: the surface is a polyhedron
-  CHECK(flat_patch_boundaries(surface, adjacency, {}, 0.01 * scale).empty());
-  // a crease that comes too near
-  std::vector<Edge> creases;
-  for (int j = 0; j < 6; ++j) creases.push_back({15 * 7 + j, 15 * 7 + j + 1}); // at x = -0.25
-  CHECK(lengths(flat_patch_boundaries(surface, adjacency, creases, 0.3 * scale)) ==
-        doctest::Approx(6));
-  CHECK(lengths(flat_patch_boundaries(surface, adjacency, creases, 0.55 * scale)) ==
-        doctest::Approx(3));
-}
-
 TEST_CASE("density does not see a crease as curvature")
 {
   Remeshing_options options;
   options.number_of_samples = 500;
-  Surface surface = with_creases(shapes::box(8), 500);
+  Surface surface = shapes::with_creases(shapes::box(8), 500);
   set_density(surface, options);
   for (double rho : surface.vertex_density) CHECK(rho == doctest::Approx(1));
 }

@@ -6,10 +6,10 @@
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-#include <CGAL/PowerRTF/quality/self_intersections.h>
 #include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
 #include <doctest/doctest.h>
 
@@ -28,7 +28,7 @@ Samples random_samples(const Surface& surface, std::size_t n, unsigned seed)
 {
   PRTF::Remeshing_options options;
   options.number_of_samples = n;
-  options.sampling = PRTF::Sampling::random; // worse than any that are optimised
+  options.sampling = PRTF::Sampling::random; // worse than any that are optimized
   options.random_seed = seed;
   return PRTF::sample_surface(surface, options);
 }
@@ -89,9 +89,8 @@ TEST_CASE("samples that are all on one side: those that are missed come from the
 
 TEST_CASE("all samples lie on a border: another component gets some of them")
 {
-  const Surface surface = shapes::make_surface(
-      shapes::joined(shapes::plane_patch(10, 10),
-                     shapes::translated(shapes::icosphere(2), {5, 0, 0})));
+  const Surface surface = shapes::make_surface(shapes::joined(
+      shapes::plane_patch(10, 10), shapes::translated(shapes::icosphere(2), {5, 0, 0})));
   const auto features = PRTF::sample_features(surface, PRTF::cut_along_creases(surface), 2000);
   REQUIRE(features.size() > 20);
   const Extracted_mesh mesh = PRTF::extract_by_insertion(surface, features.samples, features);
@@ -122,8 +121,8 @@ TEST_CASE("the guard knows which flips and collapses add intersections")
 {
   // A flat square of four triangles around a vertex, and a needle through one of them.
   PRTF::internal::Refined_surface refined;
-  refined.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.3, 0.2},
-                    {0.5, 0.45, 0.1}, {0.45, 0.5, 0.1}, {0.5, 0.5, -1}};
+  refined.points = {{0, 0, 0},       {1, 0, 0},        {1, 1, 0},        {0, 1, 0},
+                    {0.5, 0.3, 0.2}, {0.5, 0.45, 0.1}, {0.45, 0.5, 0.1}, {0.5, 0.5, -1}};
   refined.normals.assign(8, Vec3d{0, 0, 1});
   refined.samples = {0, 1, 2, 3, -1, 4, 5, 6};
   refined.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {5, 6, 7}};

@@ -12,8 +12,7 @@
 #include <set>
 #include <string>
 
-namespace
-{
+namespace {
 
 using judged_run::mesh_of;
 
@@ -84,7 +83,7 @@ TEST_CASE("the judge sees every kind of self-intersection")
   CHECK(judge::degenerate_facets(mesh_of(with({{1, 0, 0}}, {1, 0, 3}))) == 1);
 }
 
-TEST_CASE("the catalogue holds what it names")
+TEST_CASE("the catalog holds what it names")
 {
   std::set<std::string> names;
   for (const auto& [name, soup] : shapes::hard_shapes()) names.insert(name);

@@ -8,8 +8,7 @@
 
 #include <doctest/doctest.h>
 
-namespace
-{
+namespace {
 
 void check_all(const std::string& format, const std::vector<std::size_t>& sample_numbers)
 {

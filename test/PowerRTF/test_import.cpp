@@ -1,72 +1,37 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Soups as they become surfaces: cleaned, triangulated, oriented, scaled to the unit box, or
+// refused.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
-
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polyhedron_3.h>
-#include <CGAL/Surface_mesh.h>
-
-#include <boost/property_map/property_map.hpp>
+#include "sound_surface.h"
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace PRTF = CGAL::PowerRTF;
 using PRTF::import_soup;
-using PRTF::import_surface;
-using PRTF::Invalid_input_error;
 using PRTF::Repair_counts;
 using PRTF::Surface;
 using PRTF::Triangle;
 using PRTF::Vec3d;
+using sound_surface::check_is_sound;
+using sound_surface::euler_characteristic;
+using sound_surface::reason;
 using Polygons = std::vector<std::vector<long>>;
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
 namespace {
-
-template <class Graph, class K = Kernel>
-Graph make_mesh(const shapes::Soup& soup)
-{
-  std::vector<typename K::Point_3> points;
-  for (const Vec3d& p : soup.points) points.emplace_back(p.x, p.y, p.z);
-  std::vector<std::vector<std::size_t>> polygons;
-  for (const Triangle& t : soup.triangles) polygons.emplace_back(t.begin(), t.end());
-  Graph mesh;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
-  return mesh;
-}
-
-/// What `import` says when it refuses.
-template <class Import>
-std::string reason(const Import& import)
-{
-  try {
-    import();
-  } catch (const Invalid_input_error& e) {
-    return e.what();
-  }
-  return "";
-}
 
 std::string soup_reason(const std::vector<Vec3d>& points, const Polygons& polygons)
 {
   Repair_counts repairs;
   return reason([&] { import_soup(points, polygons, repairs); });
-}
-
-long euler_characteristic(const Surface& s)
-{
-  const auto adjacency = PRTF::facet_adjacency(s.triangles, s.points.size());
-  const long borders = static_cast<long>(adjacency.border_edges);
-  const long edges = (3 * static_cast<long>(s.triangles.size()) + borders) / 2;
-  return static_cast<long>(s.points.size()) - edges + static_cast<long>(s.triangles.size());
 }
 
 /// Positive when oriented outwards.
@@ -78,27 +43,6 @@ double signed_volume(const Surface& s)
   return sum / 6;
 }
 
-void check_is_sound(const Surface& s)
-{
-  const auto adjacency = PRTF::facet_adjacency(s.triangles, s.points.size());
-  CHECK(adjacency.non_manifold_edges == 0);
-  CHECK_FALSE(adjacency.same_direction);
-  CHECK_FALSE(adjacency.repeated_facets);
-  CHECK(PRTF::count_non_manifold_vertices(s.triangles, adjacency, s.points.size()) == 0);
-  CHECK(s.facet_normals.size() == s.triangles.size());
-  CHECK(s.facet_areas.size() == s.triangles.size());
-  CHECK(s.vertex_normals.size() == s.points.size());
-  CHECK(s.vertex_density == std::vector<double>(s.points.size(), 1));
-  CHECK(s.input_vertices.size() == s.points.size());
-  for (const Vec3d& n : s.facet_normals) CHECK(length(n) == doctest::Approx(1));
-  for (const Vec3d& n : s.vertex_normals) CHECK(length(n) == doctest::Approx(1));
-  double side = 0;
-  for (const Vec3d& p : s.points)
-    side = std::max({side, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  CHECK(side <= 0.5 + 1e-12);
-  CHECK(side > 0.25 - 1e-12);
-}
-
 } // namespace
 
 TEST_CASE("closed shapes keep their topology, area and orientation")
@@ -107,10 +51,14 @@ TEST_CASE("closed shapes keep their topology, area and orientation")
     shapes::Soup soup;
     long euler;
   };
-  const Case cases[] = {{shapes::tetrahedron(), 2},          {shapes::octahedron(), 2},
-                        {shapes::icosphere(2), 2},           {shapes::torus(30, 20, 2, 1), 0},
-                        {shapes::box(5), 2},                 {shapes::ellipsoid(3, 2, 1, 2), 2},
-                        {shapes::thin_disc(0.01), 2},        {shapes::two_spheres(1), 4},
+  const Case cases[] = {{shapes::tetrahedron(), 2},
+                        {shapes::octahedron(), 2},
+                        {shapes::icosphere(2), 2},
+                        {shapes::torus(30, 20, 2, 1), 0},
+                        {shapes::box(5), 2},
+                        {shapes::ellipsoid(3, 2, 1, 2), 2},
+                        {shapes::thin_disc(0.01), 2},
+                        {shapes::two_spheres(1), 4},
                         {shapes::plane_patch(4, 7), 1},
                         {shapes::open_cylinder(20, 6, 1, 2), 0}};
   for (const Case& c : cases) {
@@ -122,7 +70,8 @@ TEST_CASE("closed shapes keep their topology, area and orientation")
     CHECK(euler_characteristic(s) == c.euler);
     CHECK(repairs.duplicate_vertices + repairs.unused_vertices + repairs.degenerate_facets +
               repairs.triangulated_polygons + repairs.duplicate_facets +
-              repairs.reoriented_facets == 0);
+              repairs.reoriented_facets ==
+          0);
     if (c.euler % 2 == 0 && &c != &cases[9]) CHECK(signed_volume(s) > 0);
   }
 }
@@ -169,79 +118,6 @@ TEST_CASE("the unit box: any size, any place")
   }
 }
 
-TEST_CASE("Surface_mesh and Polyhedron_3, own and foreign point maps")
-{
-  const shapes::Soup soup = shapes::torus(12, 8, 2, 1);
-  const Surface reference = shapes::make_surface(soup);
-  Repair_counts repairs;
-  SUBCASE("Surface_mesh")
-  {
-    Mesh mesh = make_mesh<Mesh>(soup);
-    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
-    CHECK(s.points == reference.points);
-    CHECK(s.area == doctest::Approx(reference.area));
-    auto other = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_3>("v:other").first;
-    for (const auto v : mesh.vertices()) {
-      const auto p = mesh.point(v);
-      put(other, v, Kernel::Point_3(p.x(), p.y(), 3 * p.z()));
-    }
-    const Surface tall = import_surface(mesh, CGAL::parameters::vertex_point_map(other), repairs);
-    CHECK(tall.area > 1.5 * s.area);
-    CHECK(tall.points[5].z == doctest::Approx(3 * s.points[5].z));
-  }
-  SUBCASE("Surface_mesh with removed and isolated vertices")
-  {
-    Mesh mesh;
-    mesh.add_vertex({7, 7, 7});
-    const auto removed = mesh.add_vertex({8, 8, 8});
-    std::vector<Mesh::Vertex_index> v;
-    const shapes::Soup tetrahedron = shapes::tetrahedron();
-    for (const Vec3d& p : tetrahedron.points) v.push_back(mesh.add_vertex({p.x, p.y, p.z}));
-    for (const Triangle& t : tetrahedron.triangles)
-      mesh.add_face(v[t[0]], v[t[1]], v[t[2]]);
-    mesh.remove_vertex(removed);
-    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
-    check_is_sound(s);
-    CHECK(s.points.size() == 4);
-    CHECK(repairs.unused_vertices == 1);
-    CHECK(s.input_vertices == std::vector<int>{1, 2, 3, 4});
-  }
-  SUBCASE("Polyhedron_3")
-  {
-    using Polyhedron = CGAL::Polyhedron_3<Kernel>;
-    const auto mesh = make_mesh<Polyhedron>(soup);
-    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
-    check_is_sound(s);
-    CHECK(s.points.size() == reference.points.size());
-    CHECK(s.area == doctest::Approx(reference.area));
-    std::map<boost::graph_traits<Polyhedron>::vertex_descriptor, Kernel::Point_3> flat;
-    for (const auto v : vertices(mesh)) {
-      const auto p = v->point();
-      flat[v] = Kernel::Point_3(p.x(), p.y(), p.z() / 2);
-    }
-    const Surface low = import_surface(
-        mesh, CGAL::parameters::vertex_point_map(boost::make_assoc_property_map(flat)), repairs);
-    CHECK(low.area < 0.9 * s.area);
-  }
-  SUBCASE("exact constructions")
-  {
-    using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-    const auto mesh = make_mesh<CGAL::Surface_mesh<Exact::Point_3>, Exact>(soup);
-    const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
-    CHECK(s.points == reference.points);
-  }
-}
-
-TEST_CASE("a mesh keeps its connectivity: equal points of different vertices stay apart")
-{
-  const shapes::Soup square = shapes::plane_patch(1, 1);
-  const auto two = make_mesh<Mesh>(shapes::joined(square, shapes::translated(square, {1, 0, 0})));
-  Repair_counts repairs;
-  const Surface s = import_surface(two, CGAL::parameters::default_values(), repairs);
-  CHECK(s.points.size() == 8);
-  CHECK(repairs.duplicate_vertices == 0);
-}
-
 TEST_CASE("soups: duplicate and unused vertices, repeated and degenerate polygons, orientation")
 {
   const shapes::Soup sphere = shapes::icosphere(2);
@@ -284,7 +160,7 @@ TEST_CASE("a component that is inside out stays so")
 
 TEST_CASE("negative zero is zero")
 {
-  const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
+  const std::vector<Vec3d> points = {{0, 0, 0},     {1, 0, 0},   {0, 1, 0},
                                      {-0., -0., 0}, {1, -0., 0}, {0, -1, 0}};
   Repair_counts repairs;
   const Surface s = import_soup(points, Polygons{{0, 1, 2}, {4, 3, 5}}, repairs);
@@ -294,8 +170,8 @@ TEST_CASE("negative zero is zero")
 
 TEST_CASE("closed sheets that touch in a point stay apart")
 {
-  const shapes::Soup two = shapes::joined(
-      shapes::octahedron(), shapes::translated(shapes::octahedron(), {2, 0, 0}));
+  const shapes::Soup two =
+      shapes::joined(shapes::octahedron(), shapes::translated(shapes::octahedron(), {2, 0, 0}));
   Repair_counts repairs;
   const Surface s = import_soup(two.points, two.triangles, repairs);
   check_is_sound(s);
@@ -373,20 +249,6 @@ TEST_CASE("facets without area are removed and the surface stays closed")
       CHECK(surface.area / (scale * scale) == doctest::Approx(8 * std::sqrt(3.) / 2));
     }
   }
-  SUBCASE("needles: an edge without length in a mesh")
-  {
-    shapes::Soup s = shapes::icosphere(1);
-    Mesh mesh = make_mesh<Mesh>(s);
-    const auto h = *mesh.halfedges().begin();
-    mesh.point(mesh.source(h)) = mesh.point(mesh.target(h));
-    const Surface surface = import_surface(mesh, CGAL::parameters::default_values(), repairs);
-    check_is_sound(surface);
-    CHECK(surface.points.size() == s.points.size() - 1);
-    CHECK(surface.triangles.size() == s.triangles.size() - 2);
-    CHECK(euler_characteristic(surface) == 2);
-    CHECK(repairs.duplicate_vertices == 1);
-    CHECK(repairs.degenerate_facets == 2);
-  }
   SUBCASE("at a border")
   {
     const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
@@ -410,8 +272,9 @@ TEST_CASE("normals of a facet without area that cannot be removed are still of l
 
 TEST_CASE("what cannot be used is refused with a reason")
 {
-  const auto mentions = [](const std::string& text, const char* part)
-  { return text.find(part) != std::string::npos; };
+  const auto mentions = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
   const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -434,8 +297,4 @@ TEST_CASE("what cannot be used is refused with a reason")
       reason([&] { import_soup(touching.points, touching.triangles, repairs, PRTF::Repair::no); }),
       "1 vertex"));
   CHECK(repairs.duplicate_vertices == 0); // nothing was mended
-  Mesh empty;
-  CHECK(mentions(
-      reason([&] { import_surface(empty, CGAL::parameters::default_values(), repairs); }),
-      "no facet"));
 }

@@ -4,10 +4,10 @@
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
-#include <CGAL/PowerRTF/extraction/improve_mesh.h>
+#include <CGAL/PowerRTF/fields/smooth_normals.h>
+#include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
-#include <CGAL/PowerRTF/surface/smooth_normals.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
 #include <doctest/doctest.h>
 
@@ -21,8 +21,7 @@
 
 using namespace CGAL::PowerRTF;
 
-namespace
-{
+namespace {
 
 struct Case {
   Surface surface;
@@ -122,7 +121,7 @@ TEST_CASE("smoothing finds the best place in a star, and leaves it")
 {
   const Surface surface = shapes::make_surface(shapes::plane_patch(10, 10));
   const Facet_tree tree(surface.points, surface.triangles);
-  const internal::Surface_guide guide(surface, tree);
+  const internal::Surface_projector projector(surface, tree);
   const Vec3d m = (1. / 3) * (surface.points[surface.triangles[50][0]] +
                               surface.points[surface.triangles[50][1]] +
                               surface.points[surface.triangles[50][2]]);
@@ -138,8 +137,8 @@ TEST_CASE("smoothing finds the best place in a star, and leaves it")
       sum += internal::triangle_badness(p, star.points[t[1]], star.points[t[2]]).inverse_mean_ratio;
     return sum;
   };
-  internal::Star_mesh mesh(star, guide);
-  internal::Star_smoother smoother(mesh);
+  internal::Star_mesh mesh(star, projector);
+  internal::Mesh_smoother smoother(mesh);
   for (int i = 0; i < 10; ++i) smoother.sweep();
   const Vec3d p = mesh.point(internal::Star_mesh::Vertex(0));
   CHECK(energy(p) < energy(star.points[0]));
@@ -153,8 +152,8 @@ TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as
 {
   const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
   const Facet_tree tree(c.surface.points, c.surface.triangles);
-  const internal::Surface_guide guide(c.surface, tree);
-  internal::Star_mesh mesh(c.raw, guide);
+  const internal::Surface_projector projector(c.surface, tree);
+  internal::Star_mesh mesh(c.raw, projector);
   using Vertex = internal::Star_mesh::Vertex;
   const auto& m = mesh.working().mesh;
   const auto state = [&](bool with_times) {

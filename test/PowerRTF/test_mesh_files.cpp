@@ -4,6 +4,7 @@
 // The program's readers and writers of mesh files: STL, what all formats share, data that is
 // something else, and meshes that come back as they were written.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "dataset.h"
 #include "foreign_file.h"
 #include "mesh_data.h"
 
@@ -18,8 +19,7 @@ using CGAL::PowerRTF::Triangle;
 
 // --- all the memory that is asked for, given back or not -----------------------------------------
 
-namespace
-{
+namespace {
 std::size_t allocated = 0;
 }
 
@@ -32,8 +32,7 @@ std::size_t allocated = 0;
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace
-{
+namespace {
 
 std::string float_bytes(float x)
 {

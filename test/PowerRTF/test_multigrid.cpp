@@ -3,7 +3,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
-#include <CGAL/PowerRTF/internal/host_loops.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/optimization/Multigrid_gradients.h>
 
 #include <CGAL/tags.h>
@@ -12,8 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace CGAL::PowerRTF;
 
@@ -27,10 +26,11 @@ struct Graph {
   explicit Graph(int n)
       : size(n, 0), column(std::size_t(n) * Laplacian_rows<Real>::capacity), value(column.size()),
         diagonal(n, 0)
-  {
-  }
+  {}
   Laplacian_rows<Real> rows()
-  { return {size.data(), column.data(), value.data(), diagonal.data(), int(size.size())}; }
+  {
+    return {size.data(), column.data(), value.data(), diagonal.data(), int(size.size())};
+  }
   void add(int i, int j, Real v)
   {
     const Laplacian_rows<Real> a = rows();
@@ -112,12 +112,12 @@ template <class Tag = CGAL::Sequential_tag, class Real>
 Solution solve(Graph<Real>& g, const std::vector<double>& right_side, double tolerance,
                const std::vector<double>* limits = nullptr)
 {
-  Host_loops<Tag> loops;
-  Multigrid_gradients<Real, Host_loops<Tag>> gradients(loops);
+  Host_backend<Tag> loops;
+  Multigrid_gradients<Real, Host_backend<Tag>> gradients(loops);
   Solution s{std::vector<double>(right_side.size()), 0, 0};
   std::vector<double> r = right_side;
-  s.iterations = gradients.solve(g.rows(), s.x.data(), r.data(),
-                                 limits ? limits->data() : nullptr, tolerance);
+  s.iterations =
+      gradients.solve(g.rows(), s.x.data(), r.data(), limits ? limits->data() : nullptr, tolerance);
   std::vector<double> left = g.times(s.x);
   for (std::size_t i = 0; i < left.size(); ++i) left[i] -= right_side[i];
   s.error = norm(left) / norm(right_side);
@@ -136,8 +136,7 @@ TEST_CASE_TEMPLATE("The residual falls; iterations hardly grow with n", Real, fl
       std::vector<double> r = noise(m * m, 2);
       if (is_smooth) // a wave around the torus: the diagonal alone would take m iterations and more
         for (int x = 0; x < m; ++x)
-          for (int y = 0; y < m; ++y)
-            r[morton(x, y)] = std::sin(2 * 3.14159265358979 * x / m);
+          for (int y = 0; y < m; ++y) r[morton(x, y)] = std::sin(2 * 3.14159265358979 * x / m);
       const Solution s = solve(g, r, 1e-4);
       CHECK(s.error <= 1.01e-4);
       CHECK(s.iterations <= 5 + 2.5 * std::log2(m));
@@ -224,8 +223,8 @@ TEST_CASE_TEMPLATE("A cycle is symmetric and positive definite", Real, float, do
   for (const bool is_regular : {true, false}) {
     Graph<Real> g = is_regular ? torus<Real>(32, 11) : two_hubs<Real>(400);
     const int n = g.rows().n;
-    Host_loops<CGAL::Sequential_tag> loops;
-    Multigrid<Real, Host_loops<CGAL::Sequential_tag>> multigrid(loops);
+    Host_backend<CGAL::Sequential_tag> loops;
+    Multigrid<Real, Host_backend<CGAL::Sequential_tag>> multigrid(loops);
     multigrid.set_rows(g.rows());
     const auto apply = [&](const std::vector<double>& r) {
       const Real* z = multigrid.apply(r.data());

@@ -12,8 +12,7 @@
 using namespace CGAL::PowerRTF;
 namespace params = CGAL::PowerRTF::parameters;
 
-namespace
-{
+namespace {
 
 // Values by which the parameters are known again; none converts to another.
 struct Points {

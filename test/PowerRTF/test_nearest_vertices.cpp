@@ -1,11 +1,11 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "packed.h"
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/surface/nearest_vertices.h>
-#include <CGAL/PowerRTF/surface/random_source.h>
-#include <CGAL/PowerRTF/surface/vertex_facets.h>
+#include <CGAL/PowerRTF/geometry/vertex_facets.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
 
 #include <doctest/doctest.h>
 
@@ -15,21 +15,22 @@ using namespace CGAL::PowerRTF;
 
 namespace {
 
-std::vector<int> by_sorting(const std::vector<Vec3d>& points, const Vec3d& q, std::size_t k)
+/// Numbers of vertices are their places in the tree.
+std::vector<int> by_sorting(const Surface_view<double>& view, const Vec3d& q, std::size_t k)
 {
   std::vector<std::pair<double, int>> all;
-  for (std::size_t v = 0; v < points.size(); ++v)
-    all.emplace_back(squared_length(points[v] - q), static_cast<int>(v));
+  for (int v = 0; v < view.vertex_tree.items; ++v)
+    all.emplace_back(squared_length(view.vertices[v] - q), v);
   std::sort(all.begin(), all.end());
   std::vector<int> result;
   for (std::size_t i = 0; i < std::min(k, all.size()); ++i) result.push_back(all[i].second);
   return result;
 }
 
-std::vector<int> by_tree(const Nearest_vertices& tree, const Vec3d& q, int k)
+std::vector<int> by_tree(const Surface_view<double>& view, const Vec3d& q, int k)
 {
-  std::vector<int> result(Nearest_vertices::max_neighbors);
-  result.resize(tree.find(q, k, result.data()));
+  std::vector<int> result(max_near_vertices);
+  result.resize(nearest_vertices(view, q, k, result.data()));
   return result;
 }
 
@@ -42,7 +43,7 @@ TEST_CASE("the k nearest vertices, compared with sorting all")
                                 shapes::ellipsoid(20, 1, 1, 3)};
   for (const shapes::Soup& soup : soups) {
     const Surface s = shapes::make_surface(soup);
-    const Nearest_vertices tree(s);
+    const Packed<double> packed(s);
     for (unsigned seed = 0; seed < 3; ++seed) {
       Random_source random(seed);
       for (int query = 0; query < 60; ++query) {
@@ -50,35 +51,29 @@ TEST_CASE("the k nearest vertices, compared with sorting all")
         if (query % 3 == 1) q = s.points[query % s.points.size()];
         if (query % 3 == 2) q = 100. * q; // far away
         for (const int k : {1, 3, 12, 16, 64})
-          CHECK(by_tree(tree, q, k) == by_sorting(s.points, q, k));
+          CHECK(by_tree(packed.view(), q, k) == by_sorting(packed.view(), q, k));
       }
     }
   }
 }
 
-TEST_CASE("equal distances come by index")
+TEST_CASE("equal distances come by place")
 {
-  std::vector<Vec3d> lattice; // many ties, also between leaves
-  for (int i = 0; i < 1000; ++i)
-    lattice.push_back({double(i / 100), double(i / 10 % 10), double(i % 10)});
-  const Nearest_vertices tree(lattice);
-  for (const Vec3d& q : {Vec3d{4.5, 4.5, 4.5}, Vec3d{3, 3, 3}, Vec3d{-1, 5, 5}})
+  const Packed<double> packed(shapes::make_surface(shapes::plane_patch(20, 20)));
+  const Surface_view<double>& view = packed.view();
+  for (int v = 0; v < view.vertex_tree.items; v += 17)
     for (const int k : {1, 2, 7, 20, 33, 64})
-      CHECK(by_tree(tree, q, k) == by_sorting(lattice, q, k));
-  const std::vector<Vec3d> same(50, Vec3d{1, 2, 3});
-  CHECK(by_tree(Nearest_vertices(same), {0, 0, 0}, 20) == by_sorting(same, {0, 0, 0}, 20));
+      CHECK(by_tree(view, view.vertices[v], k) == by_sorting(view, view.vertices[v], k));
 }
 
-TEST_CASE("few vertices, none, and more than there are")
+TEST_CASE("fewer vertices than asked for, none, and more than can be found")
 {
-  const std::vector<Vec3d> none;
-  CHECK(by_tree(Nearest_vertices(none), {0, 0, 0}, 3).empty());
-  const std::vector<Vec3d> two = {{0, 0, 0}, {1, 0, 0}};
-  CHECK(by_tree(Nearest_vertices(two), {0.9, 0, 0}, 16) == std::vector<int>{1, 0});
-  CHECK(by_tree(Nearest_vertices(two), {0.9, 0, 0}, 0).empty());
-  CHECK(by_tree(Nearest_vertices(two), {0.9, 0, 0}, -1).empty());
-  const Surface s = shapes::make_surface(shapes::icosphere(2));
-  CHECK(by_tree(Nearest_vertices(s), {0, 0, 0}, 1000).size() == Nearest_vertices::max_neighbors);
+  const Packed<double> few(shapes::make_surface(shapes::tetrahedron()));
+  CHECK(by_tree(few.view(), few.view().vertices[2], 16).size() == 4);
+  CHECK(by_tree(few.view(), few.view().vertices[2], 1) == std::vector<int>{2});
+  CHECK(by_tree(few.view(), {0, 0, 0}, 0).empty());
+  const Packed<double> many(shapes::make_surface(shapes::icosphere(2)));
+  CHECK(by_tree(many.view(), {0, 0, 0}, 1000).size() == max_near_vertices);
 }
 
 TEST_CASE("the facets at each vertex")

@@ -5,8 +5,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/option_table.h>
-#include <CGAL/PowerRTF/surface/density.h>
 #include <CGAL/power_rtf_remeshing.h>
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -23,8 +23,7 @@
 using namespace CGAL::PowerRTF;
 namespace params = CGAL::PowerRTF::parameters;
 
-namespace
-{
+namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -176,12 +175,12 @@ TEST_CASE("the bounds are those that the algorithms stand")
     double lowest, highest;
   };
   const double int_max = std::numeric_limits<int>::max();
-  // Halfedges, 6 n, and the sum of the iterations are ints; Nearest_vertices finds 64 at most.
+  // Halfedges, 6 n, and the sum of the iterations are ints; a warp finds 32 vertices.
   for (const Expected& e :
        {Expected{"number_of_samples", 4, int_max / 6},
         Expected{"relaxation_iterations", 0, int_max / 2},
-        Expected{"max_iterations", 0, int_max / 2}, Expected{"normal_neighbors", 1, 64},
-        Expected{"density_neighbors", 1, 64}, Expected{"projection_neighbors", 1, 64},
+        Expected{"max_iterations", 0, int_max / 2}, Expected{"normal_neighbors", 1, 32},
+        Expected{"density_neighbors", 1, 32}, Expected{"projection_neighbors", 1, 32},
         Expected{"feature_angle", 0, 180}, Expected{"normal_angle", 0, 180},
         Expected{"capacity_tolerance", 0, 1}}) {
     CAPTURE(e.name);

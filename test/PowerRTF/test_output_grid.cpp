@@ -22,8 +22,7 @@
 using namespace CGAL::PowerRTF;
 using shapes::Soup;
 
-namespace
-{
+namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;

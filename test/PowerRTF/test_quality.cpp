@@ -1,34 +1,24 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The metrics against closed forms, brute force and CGAL.
+// Quality, lengths, topology and capacities against closed forms.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/optimization/capacity_statistics.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <doctest/doctest.h>
 
-#include <iterator>
-#include <limits>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 using namespace CGAL::PowerRTF;
 using doctest::Approx;
 using shapes::Soup;
 
-namespace
-{
-
-Soup soup(std::vector<Vec3d> points, std::vector<Triangle> triangles)
-{
-  return {std::move(points), std::move(triangles)};
-}
+namespace {
 
 /// The flat ring 1 <= |p| <= 2 in z = 0.
 Soup annulus(int n)
@@ -44,44 +34,6 @@ Soup annulus(int n)
     shapes::add_quad(s, 2 * i, 2 * i + 1, 2 * j + 1, 2 * j);
   }
   return s;
-}
-
-Soup random_triangles(int n, unsigned seed)
-{
-  std::mt19937 random(seed);
-  const auto unit = [&random] { return random() / 4294967296.; };
-  Soup s;
-  for (int f = 0; f < n; ++f) {
-    const Vec3d c{unit(), unit(), unit()};
-    for (int k = 0; k < 3; ++k) s.points.push_back(c + 0.3 * Vec3d{unit(), unit(), unit()});
-    s.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
-  }
-  return s;
-}
-
-std::size_t cgal_self_intersections(const Soup& s)
-{
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-  std::vector<Kernel::Point_3> points;
-  for (const Vec3d& p : s.points) points.emplace_back(p.x, p.y, p.z);
-  std::vector<std::vector<std::size_t>> polygons;
-  for (const Triangle& t : s.triangles) polygons.emplace_back(t.begin(), t.end());
-  Mesh mesh;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-  return pairs.size();
-}
-
-std::size_t self_intersections(const Soup& s)
-{
-  return CGAL::PowerRTF::self_intersections(s.points, s.triangles);
-}
-
-Distance_statistics distance(const Soup& a, const Soup& b)
-{
-  return surface_distance(a.points, a.triangles, b.points, b.triangles);
 }
 
 Soup without_last(Soup s)
@@ -110,7 +62,7 @@ TEST_CASE("triangle quality: equilateral triangles are perfect")
 TEST_CASE("triangle quality: known angles")
 {
   // 3-4-5: Q = 6/sqrt(3) * 6 / (6 * 5)
-  Soup s = soup({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}});
+  Soup s = Soup{{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
   Quality_statistics q = triangle_quality(s.points, s.triangles);
   CHECK(q.q_min == Approx(6 / std::sqrt(3.) / 5));
   CHECK(q.theta_min == Approx(std::atan2(3, 4) * 180 / shapes::pi));
@@ -137,7 +89,7 @@ TEST_CASE("triangle quality: no triangle, no area")
   CHECK(triangle_quality({}, {}).q_avg == 0);
   CHECK(triangle_quality({}, {}).theta_max == 0);
   const Soup s =
-      soup({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 0, 0}}, {{0, 1, 3}}});
+      Soup{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 0, 0}}, {{0, 1, 3}}}};
   const Quality_statistics q = triangle_quality(s.points, s.triangles);
   CHECK(q.q_min == 0);
   CHECK(q.theta_min == 0);
@@ -273,188 +225,6 @@ TEST_CASE("topology: defects")
     CHECK(t.edges == 3);
     CHECK(t.faces == 2);
   }
-}
-
-TEST_CASE("self-intersections: pairs")
-{
-  const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
-  const auto pair = [&](std::vector<Vec3d> more, Triangle t) {
-    std::vector<Vec3d> points{a, b, c};
-    points.insert(points.end(), more.begin(), more.end());
-    return self_intersections(soup(points, {{{0, 1, 2}}, t}));
-  };
-  // no shared vertex: through, beside, parallel, coplanar and overlapping, touching
-  CHECK(pair({{.2, .2, -1}, {.3, .2, 1}, {.2, .3, 1}}, {3, 4, 5}) == 1);
-  CHECK(pair({{.8, .8, -1}, {.9, .8, 1}, {.8, .9, 1}}, {3, 4, 5}) == 0);
-  CHECK(pair({{0, 0, .1}, {1, 0, .1}, {0, 1, .1}}, {3, 4, 5}) == 0);
-  CHECK(pair({{.1, .1, 0}, {2, .1, 0}, {.1, 2, 0}}, {3, 4, 5}) == 1);
-  CHECK(pair({{.2, .2, 0}, {.3, .2, 1}, {.2, .3, 1}}, {3, 4, 5}) == 1);
-  // a shared vertex: apart, through, overlapping
-  CHECK(pair({{-1, 0, 1}, {0, -1, 1}}, {0, 3, 4}) == 0);
-  CHECK(pair({{1, 1, 1}, {1, 1, -1}}, {0, 3, 4}) == 1);
-  CHECK(pair({{.2, .1, 0}, {.1, .2, 0}}, {0, 3, 4}) == 1);
-  // a shared edge: a fold, folded flat onto each other, flat side by side; the edge in both orders
-  for (const Triangle& t : {Triangle{1, 0, 3}, Triangle{0, 1, 3}, Triangle{3, 1, 0}}) {
-    CHECK(pair({{0, 1, .1}}, t) == 0);
-    CHECK(pair({{0, .5, 0}}, t) == 1);
-    CHECK(pair({{0, -1, 0}}, t) == 0);
-  }
-  CHECK(pair({}, {0, 2, 1}) == 1);          // the same facet, turned over
-  CHECK(pair({{2, 0, 0}}, {0, 1, 3}) == 1); // no area: a pair with itself
-}
-
-TEST_CASE("self-intersections: what floating point proves is what exact predicates say")
-{
-  using internal::Epick;
-  using Points = std::array<Epick::Point_3, 3>;
-  std::mt19937 random(7);
-  std::uniform_int_distribution<int> digit(0, 3);
-  const auto triangle = [](const Points& p) { return Epick::Triangle_3(p[0], p[1], p[2]); };
-  std::size_t parted = 0, apart = 0;
-  // On a small lattice all the special cases are frequent; drawn out, all triangles are slivers.
-  for (const double length : {1., 1e8, 0x1p-40})
-    for (int i = 0; i < 20000; ++i) {
-      const bool share = i % 2 == 0;
-      const auto point = [&] {
-        const int x = digit(random), y = digit(random), z = digit(random);
-        return Epick::Point_3(length * x + 0.1, y + 0.1 * x, z / 3.);
-      };
-      Points p{point(), point(), point()}, q{point(), point(), point()};
-      if (share) q[1] = p[2];
-      if (CGAL::collinear(p[0], p[1], p[2]) || CGAL::collinear(q[0], q[1], q[2])) continue;
-      const bool expected =
-          share ? CGAL::do_intersect(triangle(p), Epick::Segment_3(q[2], q[0])) ||
-                      CGAL::do_intersect(triangle(q), Epick::Segment_3(p[0], p[1]))
-                : CGAL::do_intersect(triangle(p), triangle(q));
-      const bool is_parted =
-          share ? internal::Parting_plane(p, q, 2, 1).exists() : internal::Parting_plane(p, q).exists();
-      if (is_parted) CHECK_FALSE(expected);
-      parted += is_parted;
-      apart += !expected;
-      const std::array<int, 3> s{0, 1, 2}, t{3, share ? 2 : 4, 5};
-      CHECK(internal::triangles_intersect(s, p, t, q) == expected);
-    }
-  CHECK(parted > apart / 2); // it is worth its while
-}
-
-TEST_CASE("self-intersections: CGAL's own count")
-{
-  for (unsigned seed = 0; seed < 4; ++seed) {
-    const Soup s = random_triangles(60, seed);
-    const std::size_t count = self_intersections(s);
-    CHECK(count > 0);
-    CHECK(count == cgal_self_intersections(s));
-    CHECK(count == self_intersections(shapes::permuted(s, seed)));
-  }
-  CHECK(self_intersections(shapes::torus(40, 20, 3, 1)) == 0);
-  const Soup spheres = shapes::two_spheres(2, 1.3);
-  CHECK(self_intersections(spheres) > 0);
-  CHECK(self_intersections(spheres) == cgal_self_intersections(spheres));
-  CHECK(self_intersections(Soup()) == 0);
-}
-
-TEST_CASE("distance: parallel squares")
-{
-  const Soup square = shapes::plane_patch(7, 7);
-  for (const double d : {0., 1e-3, 0.25}) {
-    const Distance_statistics s =
-        distance(square, shapes::translated(shapes::plane_patch(3, 5), {0, 0, d}));
-    const double percent = 100 * d / std::sqrt(2.);
-    CHECK(s.mean == Approx(percent));
-    CHECK(s.rms == Approx(percent));
-    CHECK(s.max == Approx(percent));
-  }
-}
-
-TEST_CASE("distance: the worse direction counts")
-{
-  // the unit square, and its half x <= 1/2: mean over the square 1/8, RMS sqrt(1/24), maximum 1/2
-  const Soup square = shapes::plane_patch(8, 8);
-  Soup half = shapes::plane_patch(8, 8);
-  for (Vec3d& p : half.points) p.x /= 2;
-  for (const bool turned : {false, true}) {
-    const Distance_statistics s = turned ? distance(half, square) : distance(square, half);
-    const double percent = 100 / (turned ? std::sqrt(1.25) : std::sqrt(2.));
-    CHECK(s.mean == Approx(percent / 8).epsilon(0.01));
-    CHECK(s.rms == Approx(percent * std::sqrt(1. / 24)).epsilon(0.01));
-    CHECK(s.max == Approx(percent / 2));
-  }
-}
-
-TEST_CASE("distance: a vertex counts for the maximum, however small its facets")
-{
-  Soup spike = shapes::plane_patch(10, 10);
-  const int tip = static_cast<int>(spike.points.size());
-  spike.points.push_back({0.5, 0.5, 0.2});
-  spike.points.push_back({0.5 + 1e-9, 0.5, 0});
-  spike.points.push_back({0.5, 0.5 + 1e-9, 0});
-  spike.triangles.push_back({tip, tip + 1, tip + 2});
-  const Distance_statistics s = distance(shapes::plane_patch(10, 10), spike);
-  CHECK(s.max == Approx(100 * 0.2 / std::sqrt(2.)));
-  CHECK(s.mean < 1e-3);
-}
-
-TEST_CASE("distance: spheres, and invariance")
-{
-  const Soup fine = shapes::icosphere(5);
-  Soup larger = shapes::icosphere(5);
-  for (Vec3d& p : larger.points) p = 1.1 * p;
-  const Distance_statistics s = distance(fine, larger);
-  const double percent = 100 / (2 * std::sqrt(3.));
-  CHECK(s.mean == Approx(0.1 * percent).epsilon(0.01));
-  CHECK(s.max == Approx(0.1 * percent).epsilon(0.02));
-  CHECK(s.rms >= s.mean);
-
-  const auto moved = [](const Soup& t) {
-    return shapes::translated(shapes::rotated(shapes::scaled(t, 1000), 0.7), {5000, -3000, 800});
-  };
-  const auto coarse = shapes::icosphere(3);
-  const Distance_statistics before = distance(fine, coarse),
-                            after = distance(moved(fine), moved(coarse));
-  const auto diagonal = [](const Soup& t) {
-    const Box3<double> box = internal::bounding_box(t.points, t.triangles);
-    return length(box.hi - box.lo);
-  };
-  const double change = 1000 * diagonal(fine) / diagonal(moved(fine)); // the box turns too
-  CHECK(after.mean == Approx(before.mean * change).epsilon(0.02));
-  CHECK(after.rms == Approx(before.rms * change).epsilon(0.02));
-
-  const Distance_statistics parallel = surface_distance<CGAL::Parallel_if_available_tag>(
-      fine.points, fine.triangles, coarse.points, coarse.triangles);
-  CHECK(parallel.mean == before.mean);
-  CHECK(parallel.rms == before.rms);
-  CHECK(parallel.max == before.max);
-  CHECK(distance(fine, Soup()).max == 0);
-  CHECK(distance(Soup(), fine).max == 0);
-}
-
-TEST_CASE("capacity: statistics against the mean")
-{
-  const auto of = [](const std::vector<double>& masses, double gamma,
-                     const std::vector<char>& is_left_out = {}) {
-    return capacity_statistics<CGAL::Sequential_tag>(
-        static_cast<int>(masses.size()), [&](int i) { return masses[i]; },
-        [&](int i) { return !is_left_out.empty() && is_left_out[i]; }, gamma);
-  };
-  const Capacity_statistics s = of({1, 1, 1.5, 0.5}, 0.1);
-  CHECK(s.inside_interval == Approx(0.5));
-  CHECK(s.rms == Approx(std::sqrt(0.125)));
-  CHECK(s.largest_deviation == Approx(0.5));
-  CHECK(of({2, 2, 2}, 0).inside_interval == 1);
-  CHECK(of({2, 2, 2}, 0).rms == 0);
-  CHECK(of({0, 2}, 0.04).largest_deviation == Approx(1));
-  CHECK(of({}, 0.04).inside_interval == 0);
-  CHECK(of({0, 0}, 0.04).rms == 0);
-
-  const Capacity_statistics most = of({1, 9, 1.2, 0, 0.8}, 0.1, {0, 1, 0, 1, 0});
-  CHECK(most.left_out == 2);
-  CHECK(most.mean == Approx(1));
-  CHECK(most.least == 0.8);
-  CHECK(most.inside_interval == Approx(1. / 3));
-  CHECK(most.rms == Approx(std::sqrt(0.08 / 3)));
-  CHECK(most.largest_deviation == Approx(0.2));
-  CHECK(of({1, 2}, 0.1, {1, 1}).left_out == 2);
-  CHECK(of({1, 2}, 0.1, {1, 1}).inside_interval == 0);
 }
 
 TEST_CASE("assess: a surface against itself has no distance, and its own topology")

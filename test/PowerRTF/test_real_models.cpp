@@ -7,9 +7,9 @@
 #include <CGAL/power_rtf_remeshing.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <doctest/doctest.h>
 
@@ -21,8 +21,7 @@
 
 using namespace CGAL::PowerRTF;
 
-namespace
-{
+namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -53,7 +52,8 @@ constexpr int skipped = 77; // CTest's SKIP_RETURN_CODE
 
 TEST_CASE("cells at tips do not keep the others from equal capacities")
 {
-  for (const Model& model : {Model{"bull", 3000, 0}, Model{"dino", 3000, 0}, Model{"camel", 5000, 0}}) {
+  for (const Model& model :
+       {Model{"bull", 3000, 0}, Model{"dino", 3000, 0}, Model{"camel", 5000, 0}}) {
     if (!is_there(model)) {
       MESSAGE("skipped: " << path_of(model) << " is missing");
       continue;
@@ -109,8 +109,8 @@ TEST_CASE("real models keep their topology and get good triangles")
       CHECK(report.cells.incomplete == 0);
       MESSAGE(name << ": Q_min " << report.quality.q_min << ", Q_avg " << report.quality.q_avg
                    << ", theta_min " << report.quality.theta_min << ", mean distance "
-                   << report.distance.mean << ", inside " << report.capacity.inside_interval
-                   << ", " << report.seconds.total << " s");
+                   << report.distance.mean << ", inside " << report.capacity.inside_interval << ", "
+                   << report.seconds.total << " s");
     }
   }
 }

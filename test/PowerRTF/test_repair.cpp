@@ -3,8 +3,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "dirty_shapes.h"
 
+#include <CGAL/PowerRTF/features/topology_minimum.h>
 #include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/surface/topology_minimum.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -42,11 +42,17 @@ Surface check(const shapes::Soup& soup, const Expected& expected, Repair_counts&
   CHECK(t.components == expected.components);
   CHECK(t.euler_characteristic == expected.euler_characteristic);
   CHECK(t.border_loops == expected.border_loops);
+  const PRTF::Facet_adjacency adjacency = PRTF::facet_adjacency(s.triangles, s.points.size());
+  CHECK(s.adjacency.opposite == adjacency.opposite);
+  CHECK(s.adjacency.border_edges == adjacency.border_edges);
+  CHECK(s.adjacency.same_direction == adjacency.same_direction);
   return s;
 }
 
 double outside_area(const Surface& s)
-{ return s.area / (s.normalization.scale * s.normalization.scale); }
+{
+  return s.area / (s.normalization.scale * s.normalization.scale);
+}
 
 std::string refusal(const shapes::Soup& soup, Repair repair)
 {
@@ -60,7 +66,9 @@ std::string refusal(const shapes::Soup& soup, Repair repair)
 }
 
 bool mentions(const std::string& text, const char* part)
-{ return text.find(part) != std::string::npos; }
+{
+  return text.find(part) != std::string::npos;
+}
 
 double signed_volume(const Surface& s)
 {
@@ -116,8 +124,14 @@ TEST_CASE("a sheet that touches another one along a single edge gets a vertex in
   // Two tetrahedra with a common edge, whose other vertices differ.
   const shapes::Soup tetrahedra{
       {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
-      {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}},
-       {{0, 4, 1}}, {{0, 1, 5}}, {{0, 5, 4}}, {{1, 4, 5}}}};
+      {{{0, 2, 1}},
+       {{0, 1, 3}},
+       {{0, 3, 2}},
+       {{1, 2, 3}},
+       {{0, 4, 1}},
+       {{0, 1, 5}},
+       {{0, 5, 4}},
+       {{1, 4, 5}}}};
   Repair_counts repairs;
   const Surface parted = check(tetrahedra, {2, 4, 0}, repairs);
   CHECK(repairs.non_manifold_edges == 1);
@@ -241,7 +255,7 @@ TEST_CASE("topology of the components; too few samples for it are refused with t
                      shapes::translated(shapes::open_cylinder(8, 3, 1, 1), {0, 9, 0}));
   Repair_counts repairs;
   const Surface s = check(soup, {3, 2, 2}, repairs);
-  const auto components = PRTF::component_topologies(s.triangles, s.points.size());
+  const auto components = PRTF::component_topologies(s);
   REQUIRE(components.size() == 3);
   CHECK(components[0].euler_characteristic == 2);
   CHECK(components[1].euler_characteristic == 0);

@@ -6,8 +6,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "dirty_shapes.h"
 
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/feature_samples.h>
+#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -59,9 +59,9 @@ TEST_CASE("from far fewer samples than vertices to far more")
   const shapes::Soup sphere = shapes::icosphere(3), torus = shapes::torus(40, 20, 2, 0.7);
   check_met("sphere", sphere, 20);
   check_met("torus", torus, 20);
-  for (const auto& [name, soup] : {std::pair{"tetrahedron", shapes::tetrahedron()},
-                                   std::pair{"cube", shapes::box(1)},
-                                   std::pair{"coarse sphere", shapes::icosphere(1)}})
+  for (const auto& [name, soup] :
+       {std::pair{"tetrahedron", shapes::tetrahedron()}, std::pair{"cube", shapes::box(1)},
+        std::pair{"coarse sphere", shapes::icosphere(1)}})
     check_met(name, soup, 50 * soup.points.size());
 }
 

@@ -3,9 +3,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
-#include <CGAL/PowerRTF/surface/nearest_vertices.h>
+#include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
 #include <doctest/doctest.h>
 
@@ -42,8 +41,8 @@ void check_is_sound(const Surface& s, const Samples& samples, std::size_t n)
     const Vec3d &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]];
     const Vec3d p = samples.points[i];
     CHECK(std::abs(dot(p - a, s.facet_normals[f])) < 1e-13);
-    const double areas = length(cross(b - p, c - p)) + length(cross(c - p, a - p)) +
-                         length(cross(a - p, b - p));
+    const double areas =
+        length(cross(b - p, c - p)) + length(cross(c - p, a - p)) + length(cross(a - p, b - p));
     CHECK(areas == doctest::Approx(2 * s.facet_areas[f])); // inside the facet
     CHECK(length(samples.normals[i]) == doctest::Approx(1));
     CHECK(samples.density[i] > 0);
@@ -53,15 +52,14 @@ void check_is_sound(const Surface& s, const Samples& samples, std::size_t n)
 /// Distance of each sample to its nearest one, over the spacing of a hexagonal arrangement.
 std::vector<double> relative_distances(const Surface& s, const Samples& samples)
 {
-  const Nearest_vertices tree(samples.points);
   const double C = spacing_constant(s, samples.size());
   std::vector<double> result;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    int nearest[2];
-    tree.find(samples.points[i], 2, nearest);
-    const int j = nearest[0] == static_cast<int>(i) ? nearest[1] : nearest[0];
-    result.push_back(length(samples.points[i] - samples.points[j]) * std::sqrt(samples.density[i]) /
-                     C);
+    double nearest = 4;
+    for (std::size_t j = 0; j < samples.size(); ++j)
+      if (j != i)
+        nearest = std::min(nearest, squared_length(samples.points[i] - samples.points[j]));
+    result.push_back(std::sqrt(nearest * samples.density[i]) / C);
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -146,16 +144,16 @@ TEST_CASE("barycentric coordinates follow the linear density")
     for (int i = 0; i < 3; ++i) CHECK(std::abs(mean[i] - (0.25 + 0.25 * rho[i] / 20)) < 0.005);
     // P(b_2 < t): the integral of the density over that part, by hand for a linear function.
     const double t = 0.25, at_0 = (rho[0] + rho[1]) / 2, slope = rho[2] - at_0;
-    const double share = (at_0 * (1 - (1 - t) * (1 - t)) +
-                          slope * (t * t - 2 * t * t * t / 3)) * 3 / (2 * at_0 + rho[2]);
+    const double share = (at_0 * (1 - (1 - t) * (1 - t)) + slope * (t * t - 2 * t * t * t / 3)) *
+                         3 / (2 * at_0 + rho[2]);
     CHECK(std::abs(small - share) < 0.01);
   }
 }
 
 TEST_CASE("elimination: no two samples are close, and none is far from all")
 {
-  const shapes::Soup soups[] = {shapes::icosphere(3), shapes::torus(40, 20, 2, 0.8),
-                                shapes::box(1), shapes::plane_patch(5, 5)};
+  const shapes::Soup soups[] = {shapes::icosphere(3), shapes::torus(40, 20, 2, 0.8), shapes::box(1),
+                                shapes::plane_patch(5, 5)};
   for (const shapes::Soup& soup : soups)
     for (unsigned seed = 0; seed < 3; ++seed) {
       const Surface s = shapes::make_surface(soup);
@@ -186,8 +184,7 @@ TEST_CASE("elimination follows the density")
     double mass = 0;
     for (std::size_t f = 0; f < s.triangles.size(); ++f)
       for (const int v : s.triangles[f])
-        if (s.points[s.triangles[f][0]].z > 0)
-          mass += s.vertex_density[v] * s.facet_areas[f] / 3;
+        if (s.points[s.triangles[f][0]].z > 0) mass += s.vertex_density[v] * s.facet_areas[f] / 3;
     CHECK(upper / 3000. == doctest::Approx(mass / density_integral(s)).epsilon(0.03));
   }
   SUBCASE("spacing 1 : 30")
@@ -341,8 +338,7 @@ TEST_CASE("elimination against its definition")
       normals.push_back({0, 0, i % 5 == 0 ? -1. : 1.});
       radii.push_back(0.02 * (1 + 9 * random())); // four levels of grids
     }
-    const auto weight = [&](int i, const std::vector<int>& alive)
-    {
+    const auto weight = [&](int i, const std::vector<int>& alive) {
       double w = 0;
       for (const int j : alive) {
         const double x = 1 - length(points[i] - points[j]) / (radii[i] + radii[j]);
@@ -353,11 +349,9 @@ TEST_CASE("elimination against its definition")
     std::vector<int> alive(points.size());
     std::iota(alive.begin(), alive.end(), 0);
     while (alive.size() > 60)
-      alive.erase(std::max_element(alive.begin(), alive.end(), [&](int a, int b)
-                                   {
-                                     return std::pair(weight(a, alive), a) <
-                                            std::pair(weight(b, alive), b);
-                                   }));
+      alive.erase(std::max_element(alive.begin(), alive.end(), [&](int a, int b) {
+        return std::pair(weight(a, alive), a) < std::pair(weight(b, alive), b);
+      }));
     CHECK(eliminate_samples(points, normals, radii, 0.5, 60) == alive);
   }
 }

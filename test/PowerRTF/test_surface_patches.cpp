@@ -6,9 +6,9 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/cells/nearest_facet.h>
+#include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/surface/Surface_patches.h>
 
 #include <doctest/doctest.h>
 
@@ -18,8 +18,7 @@ using namespace CGAL::PowerRTF;
 using doctest::Approx;
 using shapes::Soup;
 
-namespace
-{
+namespace {
 
 /// The side of a cone of radius 1 and height 3 with its base, one row of facets each.
 Soup cone(int sides)
@@ -27,7 +26,8 @@ Soup cone(int sides)
   Soup s;
   s.points = {{0, 0, 3}, {0, 0, 0}};
   for (int k = 0; k < sides; ++k)
-    s.points.push_back({std::cos(2 * shapes::pi * k / sides), std::sin(2 * shapes::pi * k / sides), 0});
+    s.points.push_back(
+        {std::cos(2 * shapes::pi * k / sides), std::sin(2 * shapes::pi * k / sides), 0});
   for (int k = 0; k < sides; ++k) {
     const int a = 2 + k, b = 2 + (k + 1) % sides;
     s.triangles.insert(s.triangles.end(), {{0, a, b}, {1, b, a}});
@@ -39,6 +39,11 @@ double area(const Surface& s, int f)
 {
   const Triangle& t = s.triangles[f];
   return length(cross(s.points[t[1]] - s.points[t[0]], s.points[t[2]] - s.points[t[0]])) / 2;
+}
+
+bool knows_its_adjacency(const Surface& s)
+{
+  return s.adjacency.opposite == facet_adjacency(s.triangles, s.points.size()).opposite;
 }
 
 } // namespace
@@ -53,6 +58,7 @@ TEST_CASE("long facets at a tip are split; the pieces make up their facets")
   const std::vector<int> parents = split_bent_facets(surface, n);
   CHECK(!has_long_bent_facets(surface, n));
   REQUIRE(parents.size() == surface.triangles.size());
+  CHECK(knows_its_adjacency(surface));
 
   std::vector<double> areas(whole.triangles.size(), 0);
   for (std::size_t f = 0; f < parents.size(); ++f) {
@@ -60,8 +66,7 @@ TEST_CASE("long facets at a tip are split; the pieces make up their facets")
     areas[p] += area(surface, int(f));
     CHECK(dot(surface.facet_normals[f], whole.facet_normals[p]) > 1 - 1e-12);
   }
-  for (std::size_t f = 0; f < areas.size(); ++f)
-    CHECK(areas[f] == Approx(whole.facet_areas[f]));
+  for (std::size_t f = 0; f < areas.size(); ++f) CHECK(areas[f] == Approx(whole.facet_areas[f]));
   CHECK(surface.area == Approx(whole.area));
   const auto before = topology(whole.triangles), after = topology(surface.triangles);
   CHECK(after.euler_characteristic == before.euler_characteristic);
@@ -75,6 +80,16 @@ TEST_CASE("long facets at a tip are split; the pieces make up their facets")
     for (const int v : t)
       if (v == 0)
         for (const int u : t) CHECK(length(surface.points[u] - surface.points[0]) < 3.5 * h);
+}
+
+TEST_CASE("a cut surface knows its adjacency: both sides of each crease are borders")
+{
+  Surface surface = shapes::make_surface(shapes::box(6));
+  set_creases(surface, Remeshing_options());
+  REQUIRE(surface.creases.size() == 12 * 6);
+  const Surface cut = cut_along_creases(surface).surface;
+  CHECK(knows_its_adjacency(cut));
+  CHECK(cut.adjacency.border_edges == 2 * surface.creases.size());
 }
 
 TEST_CASE("facets that are short, or whose corners' normals agree, stay as they are")
@@ -114,18 +129,20 @@ TEST_CASE("samples keep the facets of the whole surface")
     const Surface& split = patches.surface();
     REQUIRE(split.triangles.size() > surface.triangles.size());
     CHECK((patches.features().size() > 0) == has_creases);
+    CHECK(knows_its_adjacency(split));
 
     Samples centers; // of the facets
     for (std::size_t f = 0; f < split.triangles.size(); ++f) {
       const Triangle& t = split.triangles[f];
-      centers.points.push_back((1 / 3.) * (split.points[t[0]] + split.points[t[1]] + split.points[t[2]]));
+      centers.points.push_back((1 / 3.) *
+                               (split.points[t[0]] + split.points[t[1]] + split.points[t[2]]));
       centers.facets.push_back(int(f));
     }
     const Samples on_whole = patches.on_whole(centers);
     for (std::size_t k = 0; k < centers.size(); ++k) {
       const Triangle& t = surface.triangles[on_whole.facets[k]];
-      const Vec3d nearest = nearest_point_on_triangle(
-          centers.points[k], surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]);
+      const Vec3d nearest = nearest_point_on_triangle(centers.points[k], surface.points[t[0]],
+                                                      surface.points[t[1]], surface.points[t[2]]);
       CHECK(length(nearest - centers.points[k]) < 1e-12);
     }
     for (std::size_t k = 0; k < patches.features().sites.size(); ++k)

@@ -50,8 +50,8 @@ public:
     for (;;) {
       for (w.m_lane = 0; w.m_lane < lanes; ++w.m_lane)
         swapcontext(&w.m_main, &w.m_fibres[w.m_lane].context);
-      const auto done = std::count_if(w.m_fibres, w.m_fibres + lanes,
-                                      [](const Fibre& f) { return f.is_done; });
+      const auto done =
+          std::count_if(w.m_fibres, w.m_fibres + lanes, [](const Fibre& f) { return f.is_done; });
       if (done == lanes) return;
       if (done > 0) throw std::logic_error("some lanes ended at an exchange of the others");
     }
@@ -113,7 +113,9 @@ constexpr Host_thread_index threadIdx{};
 inline void __syncwarp() { Host_warp::exchange(0); }
 template <class T>
 T __shfl_sync(unsigned, T x, int from)
-{ return Host_warp::exchange(x)[from & 31]; }
+{
+  return Host_warp::exchange(x)[from & 31];
+}
 template <class T>
 T __shfl_xor_sync(unsigned, T x, int mask)
 {
@@ -159,7 +161,9 @@ inline long long __double_as_longlong(double x)
 }
 template <class T>
 T __ldcg(const T* p)
-{ return *p; }
+{
+  return *p;
+}
 template <class T>
 T atomicMax(T* p, T x)
 {

@@ -28,9 +28,8 @@ inline void register_stage(const std::string& stage, const std::string& traits,
                            Stage_function function, int iterations = 0)
 {
   const std::string name = stage + '/' + traits + '/' + threads + '/' + kind.name();
-  auto* b = benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-    function(state, Workload::get(kind));
-  });
+  auto* b = benchmark::RegisterBenchmark(
+      name.c_str(), [=](benchmark::State& state) { function(state, Workload::get(kind)); });
   b->Unit(benchmark::kMillisecond);
   if (threads != "1") b->MeasureProcessCPUTime()->UseRealTime();
   if (iterations > 0) b->Iterations(iterations);
@@ -52,26 +51,24 @@ struct Nothing_to_wait_for {
 template <class Traits, class Wait = Nothing_to_wait_for>
 struct Stage_benchmarks {
   using Engine = typename Traits::Engine;
-  static constexpr bool on_device = CGAL::PowerRTF::internal::Runs_on_device<Engine>::value;
 
-  /// All cells. A device makes them when something is asked of them: the statistics that every run
-  /// asks for are part of it there.
+  /// All cells. Engines make them when something is asked of them: the statistics that every run
+  /// asks for are part of it.
   static void build_cells(Engine& engine)
   {
     engine.build_cells();
-    if constexpr (on_device) engine.capacity();
+    engine.capacity();
   }
 
   /// The counters of a stage; the memory of a device is the device's.
   static void count(benchmark::State& state, int n, const Engine& engine, const Peak_memory& memory)
   {
     ::count(state, n, memory);
-    if constexpr (on_device)
-      state.counters["bytes_per_sample"] =
-          benchmark::Counter(double(engine.device_report().bytes) / n);
+    if (const std::size_t bytes = engine.device_report().bytes)
+      state.counters["bytes_per_sample"] = benchmark::Counter(double(bytes) / n);
   }
 
-  /// Algorithm 1, neighbour search included. The radii of the searches are known from the last
+  /// Algorithm 1, neighbor search included. The radii of the searches are known from the last
   /// construction, as in all of a run but the first.
   static void construction(benchmark::State& state, const Workload& w)
   {
@@ -95,10 +92,7 @@ struct Stage_benchmarks {
     Engine engine(w.surface, options);
     engine.set_samples(w.samples);
     build_cells(engine);
-    for (auto _ : state) {
-      engine.update_weights();
-      build_cells(engine);
-    }
+    for (auto _ : state) engine.optimize_weights(1);
     count(state, w.kind.n, engine, memory);
   }
 
@@ -119,14 +113,17 @@ struct Stage_benchmarks {
 
   /// A step of L-BFGS with its projection onto the surface and the samples' new attributes.
   static void position_step(benchmark::State& state, const Workload& w)
-  { step(state, w, CGAL::PowerRTF::Position_method::lbfgs); }
+  {
+    step(state, w, CGAL::PowerRTF::Position_method::lbfgs);
+  }
 
-  /// Back to the surface after a step to the centre of mass, on a device: with the samples' new
-  /// attributes, which it takes in the same pass.
+  /// Back to the surface after a step to the center of mass, with the samples' new attributes.
   static void projection(benchmark::State& state, const Workload& w)
-  { step(state, w, CGAL::PowerRTF::Position_method::lloyd); }
+  {
+    step(state, w, CGAL::PowerRTF::Position_method::lloyd);
+  }
 
-  /// All of a run but reading and writing files: sampling, optimisation, extraction, improvement,
+  /// All of a run but reading and writing files: sampling, optimization, extraction, improvement,
   /// and the assessment of the result.
   static void whole_run(benchmark::State& state, const Workload& w)
   {
@@ -151,7 +148,7 @@ struct Stage_benchmarks {
     register_stage("weight_pass", traits, threads, kind, weight_pass);
     register_stage("newton_step", traits, threads, kind, newton_step);
     register_stage("position_step", traits, threads, kind, position_step);
-    if constexpr (on_device) register_stage("projection", traits, threads, kind, projection);
+    register_stage("projection", traits, threads, kind, projection);
     // the kind of samples is where the stages start from; a run makes its own
     if (kind.regular && kind.n <= largest_run)
       register_stage("whole_run", traits, threads, kind, whole_run, 1);

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Workload.h"
 
-#include <CGAL/PowerRTF/engines/Cpu_engine.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
-#include <CGAL/PowerRTF/surface/smooth_normals.h>
+#include <CGAL/PowerRTF/PowerRTF_traits_3.h>
+#include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/fields/smooth_normals.h>
+#include <CGAL/PowerRTF/input/import_surface.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -17,8 +17,7 @@
 #include <cmath>
 #include <memory>
 
-namespace
-{
+namespace {
 
 using namespace CGAL::PowerRTF;
 

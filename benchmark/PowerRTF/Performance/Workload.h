@@ -6,7 +6,7 @@
 #define POWER_RTF_BENCHMARK_WORKLOAD_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
-#include <CGAL/PowerRTF/surface/Surface.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
 
 #include <string>
 #include <vector>

@@ -15,6 +15,7 @@
 //
 // `--profile`: each of these once, between cudaProfilerStart() and -Stop(), for cuda_rooflines.py.
 #include "../../../cuda/cells/cell_builder.h"
+#include "../../../cuda/test/plain_weight_passes.h"
 #include "../../../cuda/test/torus_sites.h"
 
 #include <cuda_profiler_api.h>
@@ -116,8 +117,10 @@ struct Workload {
   void make_passes(int count)
   {
     const Multiplicative_weight_rule rule{1e-6, 0.01, false, 0};
-    cells.paper_weight_passes(sites.arrays(), sites.sites.data(), density.data(), first.data(),
-                              sixth.data(), rule, count, sites.outputs());
+    if (!cells.start_weight_passes(sites.arrays(), sites.sites.data(), density.data(), first.data(),
+                                   sixth.data(), rule, count, sites.outputs()))
+      plain_weight_passes(backend, cells, sites, density.data(), first.data(), sixth.data(), rule,
+                          count);
   }
   Cell_outputs<Real> areas()
   {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whole optimisations on the GPU, extraction excluded: seconds on the device (median of the runs
+// Whole optimizations on the GPU, extraction excluded: seconds on the device (median of the runs
 // after one to warm up) and memory.
 //
 //   cuda_remeshing MODEL [--refine N] [--samples N,N,...] [--preset quality|paper]
@@ -16,8 +16,8 @@
 #include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
-#include <CGAL/PowerRTF/surface/density.h>
-#include <CGAL/PowerRTF/surface/import_surface.h>
+#include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/input/import_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -32,8 +32,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace CGAL::PowerRTF;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -94,10 +93,8 @@ struct Checking_visitor : Remeshing_default_visitor {
   CGAL::PowerRTF_remesher<Gpu>& gpu;
   std::size_t middle;
 
-  Checking_visitor(CGAL::PowerRTF_remesher<Gpu>& gpu, std::size_t middle)
-      : gpu(gpu), middle(middle)
-  {
-  }
+  Checking_visitor(CGAL::PowerRTF_remesher<Gpu>& gpu, std::size_t middle) : gpu(gpu), middle(middle)
+  {}
   void on_iteration(const Iteration_report&, double)
   {
     const std::size_t done = gpu.report().outer_iterations;

@@ -31,16 +31,15 @@ COUNTERS = {
 UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1, "nsecond": 1e-9, "usecond": 1e-6,
          "msecond": 1e-3, "second": 1, "byte": 1, "Kbyte": 1e3, "Mbyte": 1e6, "Gbyte": 1e9,
          "hz": 1, "Khz": 1e3, "Mhz": 1e6, "Ghz": 1e9}
-REST = ("clip_lists_kernel", "open_groups_kernel", "second_pass_kernel")
+REST = ("clip_lists_kernel", "open_groups_kernel", "deferred_cells_kernel")
 # Name, and the kernels of it, from the n-th occurrence of the first one on.
 STEPS = (
-    ("take the sites, tree", 1, ("take_sites_kernel",)),
+    ("take the sites, tree", 1, ("gather_sites_kernel",)),
     ("search for a construction", 1, ("search_lists_kernel",)),
     ("construction: area, mass, centroid", 1, REST),
     ("search for weight passes", 2, ("search_lists_kernel",)),
     ("construction: area, new weights", 3, REST),
-    ("weight pass", 2, ("mean_mass_kernel", "fill_kernel", "change_weights_kernel",
-                        "raise_weights_kernel") + REST),
+    ("weight pass", 2, ("grid_team_kernel", "for_each_kernel", "gather_sites_kernel") + REST),
 )
 
 

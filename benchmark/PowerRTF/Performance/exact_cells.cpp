@@ -5,8 +5,9 @@
 // certified combinatorics, and by the oracle, on even and on random samples of a sphere. Counters:
 // seconds per cell; share of the oracle's predicates that its interval filter decides; share
 // of the cells that the fast path's filter proves.
-#include <CGAL/PowerRTF/engines/Exact_site_tree.h>
-#include <CGAL/PowerRTF/engines/Spatial_order.h>
+#include <CGAL/PowerRTF/exact/Exact_construction.h>
+#include <CGAL/PowerRTF/geometry/Spatial_order.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <benchmark/benchmark.h>
 
@@ -16,8 +17,7 @@
 #include <random>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace CGAL::PowerRTF;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -42,64 +42,62 @@ std::vector<Vec3d> sample(Sampling_kind kind, int n)
   return points;
 }
 
-template <class Tree>
-void fill(Tree& tree, Sampling_kind kind, int n)
-{
-  const std::vector<Vec3d> points = sample(kind, n);
-  tree.resize(n, kind == grid ? 2 : 2 * std::sqrt(12.57 / n));
-  int i = 0;
-  for (int k : internal::spatial_order(points)) {
-    tree.sites[i] = {points[k], 0};
-    tree.normals[i++] = kind == grid ? Vec3d{0, 0, 1} : normalized(points[k]);
-  }
-  tree.refit();
-}
+using Backend = Host_backend<Tag>;
+template <class Construction>
+using Cells = Tree_cells<double, Backend, Construction>;
 
-template <class Tree>
-void construct(benchmark::State& state, Tree& tree)
+/// Constructs the cells and hands them to `and_then(cells)` when all is measured.
+template <class Construction, class AndThen>
+void construct(benchmark::State& state, const Remeshing_options& options, AndThen&& and_then)
 {
+  const Sampling_kind kind = Sampling_kind(state.range(0));
   const int n = int(state.range(1));
-  fill(tree, Sampling_kind(state.range(0)), n);
+  const std::vector<Vec3d> points = sample(kind, n);
+  Owned_sites sites;
+  for (const int k : internal::spatial_order(points))
+    sites.add(points[k], kind == grid ? Vec3d{0, 0, 1} : normalized(points[k]), 0);
+  Backend backend;
+  Cells<Construction> cells(backend, n, cos_angle, kind == grid ? 2 : 2 * std::sqrt(12.57 / n),
+                            options);
+  cells.set_sites(sites.arrays());
   const auto ignore = [](int, Cell_status status, const auto&, const auto&) {
     benchmark::DoNotOptimize(status);
   };
-  tree.construct_cells(cos_angle, ignore); // the radii are known from here on
-  for (auto _ : state) tree.construct_cells(cos_angle, ignore);
+  cells.for_each_cell(ignore); // the radii are known from here on
+  for (auto _ : state) cells.for_each_cell(ignore);
   state.counters["time_per_cell"] = benchmark::Counter(
       double(n), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  and_then(cells);
 }
 
 void fast(benchmark::State& state)
 {
-  Filtered_site_tree<Tag> tree{Remeshing_options()};
-  construct(state, tree);
+  construct<Filtered_construction>(state, {}, [](auto&) {});
 }
 
 void certified(benchmark::State& state)
 {
   Remeshing_options options;
   options.certified_combinatorics = true;
-  Filtered_site_tree<Tag> tree(options);
-  construct(state, tree);
-  int proved = 0;
-  static_cast<Site_tree<Tag>&>(tree).construct_cells<true>(
-      cos_angle, [&](int, Cell_status, const auto&, const auto&, bool certain) {
-        proved += certain;
-      });
-  state.counters["proved"] = proved / double(state.range(1));
+  construct<Filtered_construction>(state, options, [&](auto& cells) {
+    int proved = 0;
+    cells.template construct_by_leaves<true>(
+        [&](int, Cell_status, const auto&, const auto&, bool certain) { proved += certain; });
+    state.counters["proved"] = proved / double(state.range(1));
+  });
 }
 
 void exact(benchmark::State& state)
 {
-  Exact_site_tree<Kernel, Tag> tree{Remeshing_options()};
-  construct(state, tree);
-  const auto cells =
-      internal::exact_cells<Kernel>(tree.view(), cos_angle, Exact_neighbours::automatic);
-  Filter_statistics statistics;
-  for (int i = 0; i < int(cells.size()); ++i) cells.cell(i, nullptr, &statistics);
-  state.counters["filtered"] = statistics.filtered_share();
-  state.counters["predicates_per_cell"] =
-      double(statistics.filtered + statistics.exact) / double(cells.size());
+  construct<Exact_construction<Kernel>>(state, {}, [&](auto& cells) {
+    const auto oracle =
+        internal::exact_cells<Kernel>(cells.view(), cos_angle, Exact_neighbors::automatic);
+    Filter_statistics statistics;
+    for (int i = 0; i < int(oracle.size()); ++i) oracle.cell(i, nullptr, &statistics);
+    state.counters["filtered"] = statistics.filtered_share();
+    state.counters["predicates_per_cell"] =
+        double(statistics.filtered + statistics.exact) / double(oracle.size());
+  });
 }
 
 void arguments(benchmark::internal::Benchmark* b)

@@ -36,7 +36,7 @@ FILTERS = {
     "all": "^[^/]*/({all})/",
 }
 TRAITS = ["cpu", "exact", "cuda"]
-ORDER = ("neighbour_search", "construction", "weight_pass", "newton_step", "position_step",
+ORDER = ("neighbor_search", "construction", "weight_pass", "newton_step", "position_step",
          "projection", "sampling", "extraction", "improvement", "whole_run")
 
 
@@ -101,46 +101,13 @@ def table(data):
     return columns, rows
 
 
-PLOT = """
-import json, sys
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-series, order = json.load(open(sys.argv[1]))
-stages = [s for s in order if any(key[0] == s for key, _ in series)]
-figure, axes = plt.subplots((len(stages) + 3) // 4, 4, figsize=(14, 3.1 * ((len(stages) + 3) // 4)),
-                            layout="constrained", squeeze=False)
-for axis in axes.flat[len(stages):]:
-    axis.axis("off")
-styles = {}
-for axis, stage in zip(axes.flat, stages):
-    for key, points in series:
-        if key[0] != stage or len(points) < 2:
-            continue
-        label = f"{key[1]}, {key[2]} thread(s), {key[3]}, {key[4]}"
-        style = styles.setdefault(label, dict(
-            color=plt.get_cmap("tab20")(len(styles) % 20), marker="os^vDP"[len(styles) % 6]))
-        axis.loglog([p[0] for p in points], [p[2] for p in points], label=label, markersize=4,
-                    linewidth=1, **style)
-    axis.set_title(stage.replace("_", " "), fontsize=10)
-    axis.set_xlabel("n", fontsize=8)
-    axis.set_ylabel("samples per second", fontsize=8)
-    axis.grid(alpha=0.3)
-handles = {}
-for axis in axes.flat:
-    for handle, label in zip(*axis.get_legend_handles_labels()):
-        handles[label] = handle
-figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4, fontsize=7)
-figure.savefig(sys.argv[2], dpi=100)
-"""
-
-
 def plot(python, data, folder):
     """stages.png, in the environment that has matplotlib. Returns whether there is one."""
     file = folder / "series.json"
     file.write_text(json.dumps([[[list(key), points] for key, points in data.items()], ORDER]),
                     encoding="utf-8")
-    done = subprocess.run([python, "-c", PLOT, file, folder / "stages.png"], check=False)
+    done = subprocess.run([python, pathlib.Path(__file__).with_name("plot_stages.py"), file,
+                           folder / "stages.png"], check=False)
     file.unlink()
     return done.returncode == 0
 

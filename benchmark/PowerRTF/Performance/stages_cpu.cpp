@@ -7,64 +7,33 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
-#include <CGAL/PowerRTF/engines/Facet_tree.h>
-#include <CGAL/PowerRTF/engines/Site_tree.h>
+#include <CGAL/PowerRTF/cells/Tree_cells.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
-#include <CGAL/PowerRTF/extraction/improve_mesh.h>
-#include <CGAL/PowerRTF/surface/initial_sampling.h>
+#include <CGAL/PowerRTF/improvement/improve_mesh.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
 
-#include <cmath>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace CGAL::PowerRTF;
 
 /// The six nearest of each sample, in a tree that is fitted to the samples anew.
 template <class Tag>
-void neighbour_search(benchmark::State& state, const Workload& w)
+void neighbor_search(benchmark::State& state, const Workload& w)
 {
   const Peak_memory memory;
-  Site_tree<Tag> tree;
-  tree.resize(w.samples.size(), 0);
-  std::size_t i = 0;
-  for (const int k : internal::spatial_order(w.samples.points)) {
-    tree.sites[i] = {w.samples.points[k], 0};
-    tree.normals[i++] = w.samples.normals[k];
-  }
-  std::vector<double> distances(w.samples.size());
+  const int n = int(w.samples.size());
+  Owned_sites sites;
+  for (const int k : internal::spatial_order(w.samples.points))
+    sites.add(w.samples.points[k], w.samples.normals[k], 0);
+  Host_backend<Tag> backend;
+  Tree_cells<double, Host_backend<Tag>> cells(backend, n, -2, 0, {});
+  std::vector<double> distances(n);
   for (auto _ : state) {
-    tree.refit();
-    internal::for_each_index<Tag>(int(distances.size()), [&](int j) {
-      distances[j] = distance_to_neighbor(tree.view(), j, 6);
-    });
+    cells.set_sites(sites.arrays());
+    backend.for_each(n, [&](int j) { distances[j] = distance_to_neighbor(cells.view(), j, 6); });
     benchmark::DoNotOptimize(distances.data());
-  }
-  count(state, w.kind.n, memory);
-}
-
-/// To the nearest facet, from a tenth of the spacing beside the sample, its last facet known.
-template <class Tag>
-void projection(benchmark::State& state, const Workload& w)
-{
-  const Peak_memory memory;
-  const Facet_tree tree(w.surface.points, w.surface.triangles);
-  const double step = 0.1 * std::sqrt(w.surface.area / w.kind.n);
-  std::vector<Vec3d> targets;
-  std::vector<int> facets;
-  for (const int k : internal::spatial_order(w.samples.points)) {
-    const Tangent_frame<double> frame(w.samples.normals[k]);
-    targets.push_back(w.samples.points[k] + frame.u * (step * std::cos(k)) +
-                      frame.v * (step * std::sin(k)));
-    facets.push_back(w.samples.facets[k]);
-  }
-  std::vector<Vec3d> result(targets.size());
-  for (auto _ : state) {
-    internal::for_each_index<Tag>(int(targets.size()), [&](int i) {
-      result[i] = tree.nearest(targets[i], facets[i]).point;
-    });
-    benchmark::DoNotOptimize(result.data());
   }
   count(state, w.kind.n, memory);
 }
@@ -100,8 +69,7 @@ template <class Tag>
 void register_for(const std::string& threads, const Workload::Kind& kind)
 {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  register_stage("neighbour_search", "cpu", threads, kind, neighbour_search<Tag>);
-  register_stage("projection", "cpu", threads, kind, projection<Tag>);
+  register_stage("neighbor_search", "cpu", threads, kind, neighbor_search<Tag>);
   Stage_benchmarks<CGAL::PowerRTF_traits_3<Kernel, Tag>>::register_all(threads, kind, 1000000);
 }
 

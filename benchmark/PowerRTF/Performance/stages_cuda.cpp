@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The stages on the GPU; said to be skipped where there is none. The neighbour search by itself:
+// The stages on the GPU; said to be skipped where there is none. The neighbor search by itself:
 // cuda_cells.cu; whole runs of more than a million: cuda_remeshing.cpp.
 #include "Stage_benchmarks.h"
 #include "stages.h"
@@ -15,8 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace
-{
+namespace {
 
 struct Wait_for_device {
   void operator()() const

@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
+namespace {
 
 bool write(const std::string& file, const shapes::Soup& soup)
 {

@@ -7,7 +7,7 @@
 // the library's own functions (quality/), applied to the triangles as they are in the file.
 //
 //   judge INPUT OUTPUT
-#include <CGAL/PowerRTF/quality/self_intersections.h>
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 #include <CGAL/PowerRTF/quality/triangle_quality.h>
@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using namespace CGAL::PowerRTF;
 using Point = CGAL::Simple_cartesian<double>::Point_3;

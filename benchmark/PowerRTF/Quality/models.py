@@ -1,10 +1,14 @@
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The models of the paper, and mechanical parts: found in folders by their file's name, or made
-here."""
+here.
+
+models.py FOLDER    writes those made here: disc.off, close_hemisphere.off, three_holes.off
+"""
 
 import math
 import pathlib
+import sys
 
 ENDINGS = (".off", ".obj", ".ply", ".stl")
 
@@ -182,3 +186,7 @@ def catmull_clark(points, faces):
 
 
 GENERATED = {"Disc": disc, "Close Hemisphere": hemisphere, "Three Holes": three_holes}
+
+
+if __name__ == "__main__":
+    Models([], sys.argv[1])

@@ -110,7 +110,7 @@ def find(binaries, python, missing):
         if python is None or package in missing:
             notice(f"Peer skipped: {package}: it cannot be installed here")
             continue
-        peers.append(Peer(name, package_version(python, package),
+        peers.append(Peer(name, python_package(python, package)["version"],
                           lambda model, target, density, size, crease_angle, package=package:
                           [python, HERE / "peer_python.py", package, model, target, density,
                            repr(size), crease_angle],
@@ -137,19 +137,17 @@ def skipped_bindings(python, missing):
     if python is None or "geogram" in missing:
         notice("Peer skipped: geogram (Python): it cannot be installed here")
         return
-    result = subprocess.run([python, "-c", "import geogram; print(*dir(geogram))"],
-                            capture_output=True, text=True, check=False)
-    offers = "remesh" in result.stdout
+    package = python_package(python, "geogram", "--names")
     notice("Peer skipped: geogram (Python): " +
-           ("its remeshing is not known to this driver yet" if offers else
-            f"version {package_version(python, 'geogram')} offers no remeshing"))
+           ("its remeshing is not known to this driver yet"
+            if any("remesh" in name for name in package["names"]) else
+            f"version {package['version']} offers no remeshing"))
 
 
-def package_version(python, package):
-    result = subprocess.run([python, "-c", "import importlib.metadata as m, sys; "
-                             "print(m.version(sys.argv[1]))", package],
-                            capture_output=True, text=True, check=False)
-    return result.stdout.strip()
+def python_package(python, *arguments):
+    result = subprocess.run([python, HERE / "python_package.py", *arguments], capture_output=True,
+                            text=True, check=True)
+    return json.loads(result.stdout)
 
 
 def cgal_version():

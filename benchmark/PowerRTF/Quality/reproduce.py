@@ -34,13 +34,13 @@ from runs import Failed, Runner  # noqa: E402
 TARGETS = ("power_rtf_remesh", "judge", "cad_models", "cgal_isotropic_remeshing", "cgal_mesh_3")
 PEER_COLUMNS = ("model", "density", "vertices", "tool", *figures.MEASURES, "d<sub>max</sub>",
                 "d<sub>max</sub>, absolute", "edge length", "CPU (s)", "MiB", "topology")
-# What the README shows.
-PAPER_IN_SHORT = tuple(column for column in figures.COLUMNS if column not in (
-    "topology", "what differs, and why", "< 30°", "constructions"))
-MODELS_IN_SHORT = ("Kitten", "Elk", "Fandisk", "Gear")
-PEERS_IN_SHORT = ("model", "vertices", "tool", "Q<sub>min</sub>", "Q<sub>avg</sub>",
-                  "θ<sub>min</sub>", "θ<sub>max</sub>", "d<sub>H</sub>", "d<sub>max</sub>",
-                  "CPU (s)", "topology")
+# What the README shows, and under which heads.
+MODELS_IN_SHORT = ("Kitten", "Gear")
+TOOLS_IN_SHORT = ("PowerRTF, preset quality", "CGAL isotropic_remeshing", "Instant Meshes")
+PEERS_IN_SHORT = {"model": "model", "tool": "tool", "Q<sub>min</sub>": "Q<sub>min</sub>",
+                  "Q<sub>avg</sub>": "Q<sub>avg</sub>", "θ<sub>min</sub>": "θ<sub>min</sub>",
+                  "θ<sub>max</sub>": "θ<sub>max</sub>", "d<sub>max</sub>": "distance",
+                  "CPU (s)": "time (s)"}
 VIEWS = {"Disc": ["--up", "z", "--elevation", "40"],
          "Three Holes": ["--up", "z", "--elevation", "50"],
          "Close Hemisphere": ["--up", "z", "--elevation", "30"], "Armadillo": ["--azimuth", "240"]}
@@ -99,13 +99,6 @@ def add_peer(table, model, density, tool, future):
     table.rows.append(row)
 
 
-SMALLER = """
-import sys
-from PIL import Image
-Image.open(sys.argv[1]).convert("RGB").quantize(96).save(sys.argv[1], optimize=True)
-"""
-
-
 def draw(python, table, folder):
     """Cells and mesh of the table's pictures, as lines of a Markdown table."""
     lines = []
@@ -117,13 +110,12 @@ def draw(python, table, folder):
             kept = source / f"{kind}.png"
             if not kept.exists():
                 result = subprocess.run([python, render, source / mesh, kept, "--edges",
-                                         "--height", "360", "--edge-width", "0.6", *options,
-                                         *VIEWS.get(model, [])],
+                                         "--height", "360", "--edge-width", "0.6", "--palette", "96",
+                                         *options, *VIEWS.get(model, [])],
                                         capture_output=True, text=True, check=False)
                 if result.returncode != 0:
                     notice(f"No picture of {caption}: {result.stderr.strip().splitlines()[-1:]}")
                     return lines
-                subprocess.run([python, "-c", SMALLER, kept], check=False)
             files.append(f"{table.name}_{number}_{kind}.png")
             shutil.copyfile(kept, folder / files[-1])
         lines.append(f"| {caption} | " + " | ".join(f"![]({file})" for file in files) + " |")
@@ -158,24 +150,18 @@ def write(tables, options, python, footer):
     (folder / "results.md").write_text("\n".join(text), encoding="utf-8")
 
 
-def in_short(table, names, wanted=lambda row: True):
-    """These columns of the rows that are wanted."""
-    places = [table.columns.index(name) for name in names]
-    return [[row[k] for k in places] for row in table.rows if wanted(row)]
-
-
-def readme_blocks(tables, footer):
-    """The blocks of the README: the paper's rows beside ours, and some of the peers'."""
-    short = {}
+def results_in_short(tables, footer):
+    """The README's block: some of the uniform runs of some tools; None without the table `peers`."""
     for table in tables:
-        if table.name in ("table_1", "figure_14") and table.rows:
-            short.setdefault("paper", (PAPER_IN_SHORT, [], 4))[1].extend(
-                in_short(table, PAPER_IN_SHORT))
         if table.name == "peers" and table.rows:
-            short["peers"] = (PEERS_IN_SHORT, in_short(
-                table, PEERS_IN_SHORT,
-                lambda row: row[0] in MODELS_IN_SHORT and row[1] == "uniform"), 3)
-    return {name: markdown(*content) + "\n" + footer + "\n" for name, content in short.items()}
+            column = {name: table.columns.index(name) for name in (*PEERS_IN_SHORT, "density")}
+            rows = [[row[column[name]].replace(", preset quality", "") for name in PEERS_IN_SHORT]
+                    for row in table.rows
+                    if row[column["model"]] in MODELS_IN_SHORT
+                    and row[column["density"]] == "uniform"
+                    and row[column["tool"]].startswith(TOOLS_IN_SHORT)]
+            return markdown(PEERS_IN_SHORT.values(), rows, 2) + "\n" + footer + "\n"
+    return None
 
 
 def parse():
@@ -200,7 +186,7 @@ def parse():
     parser.add_argument("--binaries", type=pathlib.Path,
                         help="folder of built programs; default: build them")
     parser.add_argument("--update", type=pathlib.Path, metavar="FILE",
-                        help="replace the blocks `paper` and `peers` of this file")
+                        help="replace the block `results` of this file")
     options = parser.parse_args()
     if options.quick and options.output == parser.get_default("output"):
         options.output = ROOT / "output/quality-quick"
@@ -249,9 +235,9 @@ def main():
     footer = made_by(__file__, words)
     can_draw = python if "matplotlib" not in missing else None
     write(tables, options, can_draw, footer)
-    if options.update:
-        for name, text in readme_blocks(tables, footer).items():
-            update_block(options.update, name, text)
+    short = results_in_short(tables, footer)
+    if options.update and short:
+        update_block(options.update, "results", short)
     missed = [f"{run['model']}, {run['density']}: {run['missed']}" for table in tables
               for run in table.data if run.get("missed") and "quality" in run.get("method", "")]
     for text in missed:

@@ -89,10 +89,10 @@ class Runner:
                 store(made, make(folder))
             judged = folder / f"judged-{self.judge_id}.json"
             if not judged.exists():
-                store(judged, self.judgement(model, folder / mesh))
+                store(judged, self.judgment(model, folder / mesh))
             return {**load(made), **load(judged)}, folder
 
-    def judgement(self, model, mesh):
+    def judgment(self, model, mesh):
         result = subprocess.run([self.judge, model, mesh], capture_output=True, text=True,
                                 check=False)
         if result.returncode != 0:

@@ -85,7 +85,7 @@ def count_topology(file):
             parent[v] = v = parent[parent[v]]
         return v
 
-    links = [{} for _ in range(vertices)]  # around each vertex: from one neighbour to the next
+    links = [{} for _ in range(vertices)]  # around each vertex: from one neighbor to the next
     oriented = True
     for a, b, c in triangles:
         for u, v, w in ((a, b, c), (b, c, a), (c, a, b)):

@@ -11,7 +11,10 @@ iteration, none per sample. Everything is in the coordinates of the unit box
 (`CGAL::PowerRTF::Normalization`).
 
 Each model must be deterministic: the same calls give the same result bit for bit, whatever the
-number of threads.
+number of threads. Cells may be constructed only when something is asked of them.
+
+The models of this package are one class, `CGAL::PowerRTF::Engine`, over a `PowerRTFBackend`, which
+says where arrays lie and how loops run, and a model of `PowerRTFCells`, which constructs the cells.
 
 \cgalHasModelsBegin
 \cgalHasModels{`CGAL::PowerRTF::Cpu_engine`}
@@ -26,29 +29,34 @@ public:
                  const CGAL::PowerRTF::Remeshing_options& options);
 
   /// Takes the samples' points and facets; their normals and densities come from the surface, their
-  /// weights become 0. The engine may reorder them, once.
-  void set_samples(const CGAL::PowerRTF::Samples& samples);
+  /// weights become 0. The engine may reorder them, once. `features`: samples that stay where they
+  /// are; the copies of each, one for every patch at it, bound cells and have none.
+  void set_samples(const CGAL::PowerRTF::Samples& samples,
+                   const CGAL::PowerRTF::Feature_samples& features);
 
   /// Constructs all cells (Algorithm 1), with area, mass and center of mass.
   void build_cells();
 
-  /// One pass of the paper's rule over all weights (Algorithm 2, lines 3 to 10). The cells must be
-  /// those of the current samples and weights, and are outdated after it.
-  void update_weights();
+  /// Passes of the paper's rule over all weights (Algorithm 2, lines 3 to 10), each followed by a
+  /// construction, until all masses are inside the capacity interval; at most `passes`. The cells
+  /// must be those of the current samples and weights. Returns whether all masses are inside.
+  bool optimize_weights(int passes);
 
-  /// One damped Newton step on the weights. The cells are those of the new weights. `false`: no step
-  /// made the masses more equal, and nothing has changed.
+  /// One damped Newton step on the weights; the cells are those of the new weights. Cells that no
+  /// weights make equal to the others keep their areas, nearly, and are left out of `capacity()`
+  /// until the samples move: at most one in a hundred besides those that reach far beyond the
+  /// surface. `false`: no step made the masses more equal, and nothing has changed.
   bool newton_weights();
 
   /// All weights become 0, and the cells are built again.
   void clear_weights();
 
-  /// Moves each sample towards the center of mass of its cell and projects it onto the surface
+  /// Moves each sample toward the center of mass of its cell and projects it onto the surface
   /// (Algorithm 3, lines 15 to 19). The cells are outdated after it.
   void move_samples(CGAL::PowerRTF::Position_method method);
 
-  /// Goes back to the most centroidal samples that L-BFGS has passed, when the current ones are less
-  /// so, and builds their cells.
+  /// Goes back to the most centroidal samples that L-BFGS has passed, when the current ones are
+  /// less so, and builds their cells.
   void restore_best();
 
   /// How equal the masses of the current cells are.
@@ -63,9 +71,22 @@ public:
   /// How often all cells have been constructed.
   std::size_t constructions() const;
 
-  /// The current samples with normals, densities and weights.
+  /// The current samples with normals, densities and weights, without the feature samples.
   CGAL::PowerRTF::Samples samples() const;
 
-  /// The polygons of the current cells, in the samples' order.
+  /// The same, and after them the copies of the feature samples, as the engine's numbers hold them.
+  CGAL::PowerRTF::Samples sites() const;
+
+  /// The polygons of the current cells, in the samples' order, not cut at creases and borders. The
+  /// neighbors are numbers of sites.
   std::vector<CGAL::PowerRTF::Cell_polygon> cells();
+
+  /// The precision of the cells' numbers: the machine epsilon of `double`, or of `float`.
+  double epsilon() const;
+
+  /// The facets of the surface and their patches, for searches.
+  const CGAL::PowerRTF::Facet_tree& facet_tree();
+
+  /// Name, time and memory of the device; an empty name: there is none.
+  CGAL::PowerRTF::Device_report device_report() const;
 };

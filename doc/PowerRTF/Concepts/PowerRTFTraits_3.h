@@ -5,8 +5,8 @@
 \ingroup PkgPowerRTFConcepts
 \cgalConcept
 
-What `CGAL::PowerRTF_remesher` and `CGAL::power_rtf_remeshing()` are instantiated with: the kernel of
-the points, the threading, and the engine that constructs and optimizes the cells.
+What `CGAL::PowerRTF_remesher` and `CGAL::power_rtf_remeshing()` are instantiated with: the kernel
+of the points, the threading, and the engine that constructs and optimizes the cells.
 
 \cgalHasModelsBegin
 \cgalHasModels{`CGAL::PowerRTF_traits_3<Kernel, ConcurrencyTag>`}

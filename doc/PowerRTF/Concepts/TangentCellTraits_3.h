@@ -5,8 +5,9 @@
 \ingroup PkgPowerRTFConcepts
 \cgalConcept
 
-What the exact cells, `CGAL::PowerRTF::Exact_cells`, and their predicates ask of a kernel: its types,
-the way from them to doubles, and an exact number type. The answers are exact for these doubles.
+What the exact cells, `CGAL::PowerRTF::Exact_cells`, and their predicates ask of a kernel: its
+types, the way from them to doubles, and an exact number type. The answers are exact for these
+doubles.
 
 \cgalHasModelsBegin
 \cgalHasModels{`CGAL::PowerRTF::Tangent_cell_traits_3<Kernel>`}

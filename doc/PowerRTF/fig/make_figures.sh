@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # make_figures.sh [PROGRAM [MODELS [FOLDER]]]
-# The pictures of the README and the manual, from the program's own output: cells and mesh of some of
-# CGAL's models, and the cells of a thin disc with and without NVISPC. PROGRAM: power_rtf_remesh; MODELS: the folder of CGAL's meshes; FOLDER: for
-# the pictures. The defaults are what ./remesh and ./run_tests have made, and this folder.
+# The pictures of the README (camel) and the manual, from the program's own output: cells and mesh of
+# some of CGAL's models, and the cells of a thin disc with and without NVISPC.
+# PROGRAM: power_rtf_remesh; MODELS: the folder of CGAL's meshes; FOLDER: for the pictures. The
+# defaults are what ./remesh and ./run_tests have made, and this folder.
 # PYTHON: an interpreter with PyVista (see render.py).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -28,15 +29,14 @@ draw() {
   render "$work/$name.off" "$target/${name}_mesh.png" "$@"
 }
 
+draw camel 5000 --height 1000 --edge-width 1.2 --azimuth 50 --palette 128
 draw elk 6000
 draw armadillo 6000 --azimuth 240
 draw bunny00 3000
 draw fandisk 3000 --azimuth 35 --elevation 30
 
 # The disc of the benchmarks, with the preset of the paper.
-PYTHONPATH=$root/benchmark/PowerRTF/Quality "${PYTHON:-python3}" -B -c \
-  'import models, pathlib, sys; models.write_off(pathlib.Path(sys.argv[1]), *models.disc())' \
-  "$work/disc.off"
+"${PYTHON:-python3}" -B "$root/benchmark/PowerRTF/Quality/models.py" "$work"
 for angle in 60 180; do
   "$program" "$work/disc.off" --no-mesh --samples 3000 --preset paper --density uniform \
     --normal-angle "$angle" --iterations 20 --cells "$work/disc_$angle.vtp" --quiet

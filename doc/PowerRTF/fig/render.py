@@ -19,6 +19,7 @@ if sys.platform == "linux" and not os.environ.get("DISPLAY"):
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 
 import numpy
+import PIL.Image
 import pyvista
 
 
@@ -66,15 +67,15 @@ def camera(mesh, azimuth, elevation, up, zoom):
 
     right = numpy.cross(upwards, direction)
     positions = numpy.asarray(mesh.points)
-    centre = numpy.zeros(3)
+    center = numpy.zeros(3)
     extent = []
     for along in (right, upwards, direction):
         s = positions @ along
-        centre += along * (s.min() + s.max()) / 2
+        center += along * (s.min() + s.max()) / 2
         extent.append((s.max() - s.min()) / 2)
     result = pyvista.Camera()
-    result.focal_point = centre
-    result.position = centre + direction * (3 * max(extent))
+    result.focal_point = center
+    result.position = center + direction * (3 * max(extent))
     result.up = upwards
     result.parallel_projection = True
     return result, extent[0] / zoom, extent[1] / zoom
@@ -89,7 +90,7 @@ def main():
     parser.add_argument("--color-by", metavar="FIELD",
                         help="a value per facet in a VTP file, or: sides (of the polygon)")
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
-                        help="of the colours; default: the 2nd to the 98th percentile")
+                        help="of the colors; default: the 2nd to the 98th percentile")
     parser.add_argument("--color", default="#e9dcc3", help="where there is no --color-by")
     parser.add_argument("--up", choices="xyz", default="y", help="the model's axis (default: y)")
     parser.add_argument("--azimuth", type=float, default=60, help="degrees around it (default: 60)")
@@ -97,6 +98,8 @@ def main():
     parser.add_argument("--zoom", type=float, default=1, help="1: all of it (default)")
     parser.add_argument("--height", type=int, default=900, help="in pixels (default: 900)")
     parser.add_argument("--aspect", type=float, help="width / height; default: the model's own")
+    parser.add_argument("--palette", type=int, metavar="N",
+                        help="at most N colors, which makes a smaller file (default: all)")
     options = parser.parse_args()
 
     mesh = read(options.mesh)
@@ -126,7 +129,10 @@ def main():
     plotter.camera = view
     plotter.enable_anti_aliasing("ssaa")
     plotter.reset_camera_clipping_range()
-    plotter.screenshot(options.image)
+    picture = PIL.Image.fromarray(plotter.screenshot(return_img=True))
+    if options.palette:
+        picture = picture.quantize(options.palette)
+    picture.save(options.image, optimize=True)
 
 
 if __name__ == "__main__":

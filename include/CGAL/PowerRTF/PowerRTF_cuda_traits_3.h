@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The traits that run the optimisation on an NVIDIA GPU. Programs that use them link
+// The traits that run the optimization on an NVIDIA GPU. Programs that use them link
 // PowerRTF::cuda.
 #ifndef CGAL_POWER_RTF_CUDA_TRAITS_3_H
 #define CGAL_POWER_RTF_CUDA_TRAITS_3_H
@@ -10,8 +10,7 @@
 
 #include <CGAL/tags.h>
 
-namespace CGAL
-{
+namespace CGAL {
 
 /// \ingroup PkgPowerRTFTraits
 /// The traits that run the optimization on an NVIDIA GPU. Everything between the first samples and

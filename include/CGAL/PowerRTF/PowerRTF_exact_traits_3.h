@@ -6,9 +6,23 @@
 #ifndef CGAL_POWER_RTF_EXACT_TRAITS_3_H
 #define CGAL_POWER_RTF_EXACT_TRAITS_3_H
 
-#include <CGAL/PowerRTF/engines/Exact_engine.h>
+#include <CGAL/PowerRTF/engines/Host_engine.h>
+#include <CGAL/PowerRTF/exact/Exact_construction.h>
 
 #include <CGAL/tags.h>
+
+namespace CGAL::PowerRTF {
+
+/// \ingroup PkgPowerRTFTraits
+/// Cells by exact predicates. Which neighbors bound each cell, and which cells are empty, is exact
+/// for the current samples, weights and normals as doubles; areas, centroids and all steps are
+/// double arithmetic.
+///
+/// \cgalModels `PowerRTFEngine`
+template <class Kernel, class ConcurrencyTag>
+using Exact_engine = Host_engine<double, Exact_construction<Kernel>, ConcurrencyTag>;
+
+} // namespace CGAL::PowerRTF
 
 namespace CGAL {
 

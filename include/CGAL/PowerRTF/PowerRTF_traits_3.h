@@ -5,9 +5,21 @@
 #ifndef CGAL_POWER_RTF_TRAITS_3_H
 #define CGAL_POWER_RTF_TRAITS_3_H
 
-#include <CGAL/PowerRTF/engines/Cpu_engine.h>
+#include <CGAL/PowerRTF/engines/Host_engine.h>
+#include <CGAL/PowerRTF/exact/Exact_construction.h>
 
 #include <CGAL/tags.h>
+
+namespace CGAL::PowerRTF {
+
+/// \ingroup PkgPowerRTFTraits
+/// Cells by a search in a tree, in double precision.
+///
+/// \cgalModels `PowerRTFEngine`
+template <class ConcurrencyTag>
+using Cpu_engine = Host_engine<double, Filtered_construction, ConcurrencyTag>;
+
+} // namespace CGAL::PowerRTF
 
 namespace CGAL {
 

@@ -5,10 +5,10 @@
 #ifndef CGAL_POWER_RTF_REMESHING_OPTIONS_H
 #define CGAL_POWER_RTF_REMESHING_OPTIONS_H
 
+#include <cmath>
 #include <cstddef>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// \addtogroup PkgPowerRTFOptions
 /// @{
@@ -54,8 +54,9 @@ struct Remeshing_options {
 
   // Density (Section 4.3, "Initial Sampling")
   Density density = Density::curvature; ///< without one of the user's own
-  double density_power = 1; ///< \f$p\f$ of \f$\rho = \kappa^p\f$: 1, 2, 3 are \f$f, f^2, f^3\f$ (Figure 9)
-  double gradation = 0.1;   ///< largest growth of the spacing per unit of length; 0: not limited
+  double density_power =
+      1; ///< \f$p\f$ of \f$\rho = \kappa^p\f$: 1, 2, 3 are \f$f, f^2, f^3\f$ (Figure 9)
+  double gradation = 0.1; ///< largest growth of the spacing per unit of length; 0: not limited
 
   // Initial sampling
   Sampling sampling = Sampling::elimination; ///< how the first samples are chosen
@@ -66,7 +67,8 @@ struct Remeshing_options {
   Attributes attributes = Attributes::facet; ///< where normals and densities come from
   int normal_neighbors = 12;  ///< \f$k_n\f$: vertices averaged for a normal  (`nearest_vertices`)
   int density_neighbors = 12; ///< \f$k_d\f$: vertices averaged for a density (`nearest_vertices`)
-  /// Normals are smoothed over this many times the local spacing (standard deviation); 0: not at all.
+  /// Normals are smoothed over this many times the local spacing (standard deviation); 0: not at
+  /// all.
   double normal_smoothing = 0.7;
 
   // Cells (Algorithm 1)
@@ -111,12 +113,12 @@ struct Remeshing_options {
     Remeshing_options o;
     o.preset = Preset::paper;
     o.feature_angle = 180; // the paper has no creases
-    o.gradation = 0.2; // not in the paper: without it the weights hardly converge
+    o.gradation = 0.2;     // not in the paper: without it the weights hardly converge
     o.oversampling = 2;
     o.attributes = Attributes::nearest_vertices;
     o.normal_smoothing = 0;
     o.normal_angle = 60;
-    o.guard_factor = 1.5; // so small an angle drops many true neighbours
+    o.guard_factor = 1.5; // so small an angle drops many true neighbors
     o.position_method = Position_method::lloyd;
     o.projection = Projection::nearest_vertices;
     o.centroid_density_power = 0;
@@ -128,7 +130,15 @@ struct Remeshing_options {
 
 /// @}
 
-} // namespace PowerRTF
-} // namespace CGAL
+/// Cosine of the compatibility angle Theta (degrees); -2 when every pair is compatible.
+inline double compatibility_cosine(double normal_angle)
+{
+  return normal_angle >= 180 ? -2 : std::cos(normal_angle * 3.14159265358979323846 / 180);
+}
+
+/// The largest values of options for which engines keep arrays of a fixed size.
+constexpr int max_lbfgs_memory = 10, max_vertex_neighbors = 32;
+
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_REMESHING_OPTIONS_H

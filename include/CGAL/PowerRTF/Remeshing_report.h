@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// \addtogroup PkgPowerRTFReport
 /// @{
@@ -18,15 +17,15 @@ namespace PowerRTF {
 /// Counts of the cells by status, after one construction (Algorithm 1).
 struct Cell_counts {
   std::size_t ok = 0;
-  std::size_t guarded = 0;    ///< bounded by the guard square (NVISPC left too few neighbours)
+  std::size_t guarded = 0;    ///< bounded by the guard square (NVISPC left too few neighbors)
   std::size_t empty = 0;      ///< the power cell does not meet the tangent plane
   std::size_t incomplete = 0; ///< not certified: more polygon vertices than a cell can hold
 };
 
-/// How equal the capacities \f$m_i = \rho_i A(F_i)\f$ are (Section 4.2). Where Newton's method has made
-/// the weights, cells that no weights make equal to the others are left out, of the mean, too: at tips
-/// that are narrower than the spacing, guarded cells, those outside .3 to 2.5 times the mean and those
-/// that would vanish.
+/// How equal the capacities \f$m_i = \rho_i A(F_i)\f$ are (Section 4.2). Where Newton's method has
+/// made the weights, cells that no weights make equal to the others are left out, of the mean, too:
+/// at tips that are narrower than the spacing, guarded cells, those outside .3 to 2.5 times the
+/// mean and those that would vanish.
 struct Capacity_statistics {
   std::size_t left_out = 0; ///< number of cells
   double mean = 0;          ///< \f$\bar m\f$, in the units of the unit box
@@ -39,7 +38,7 @@ struct Capacity_statistics {
 
 /// Triangle quality (Khan et al. 2020; the columns of the paper's Tables 1 and 2).
 struct Quality_statistics {
-  double q_min = 0, q_avg = 0; ///< of \f$Q_t = \frac{6}{\sqrt 3} \frac{A_t}{S_t E_t}\f$
+  double q_min = 0, q_avg = 0;             ///< of \f$Q_t = \frac{6}{\sqrt 3} \frac{A_t}{S_t E_t}\f$
   double theta_min = 0, theta_min_avg = 0; ///< degrees
   double theta_max = 0;                    ///< degrees, the largest angle
   double below_30 = 0, above_90 = 0;       ///< share of triangles with such an angle
@@ -71,7 +70,7 @@ struct Repair_counts {
   std::size_t degenerate_facets = 0;  ///< without area: removed
   std::size_t triangulated_polygons = 0;
   std::size_t duplicate_facets = 0;      ///< dropped
-  std::size_t reoriented_facets = 0;     ///< turned to agree with their neighbours
+  std::size_t reoriented_facets = 0;     ///< turned to agree with their neighbors
   std::size_t non_manifold_edges = 0;    ///< of more than two facets: parted into sheets
   std::size_t non_manifold_vertices = 0; ///< where sheets touched: copied, one for each sheet
 };
@@ -82,7 +81,7 @@ struct Stage_seconds {
          quality = 0, write = 0, total = 0;
 };
 
-/// What ran the optimisation, when it was no CPU.
+/// What ran the optimization, when it was no CPU.
 struct Device_report {
   std::string name;      ///< of the GPU; empty: the CPU
   double seconds = 0;    ///< on the device, from the upload of the first samples to the last cells
@@ -94,7 +93,8 @@ struct Iteration_report {
   std::size_t constructions = 0; ///< so far
   Cell_counts cells;
   Capacity_statistics capacity;
-  double displacement = 0; ///< RMS of \f$|s_i - c_i|\f$, in units of \f$h = \sqrt{\mathrm{area}/n}\f$
+  double displacement =
+      0; ///< RMS of \f$|s_i - c_i|\f$, in units of \f$h = \sqrt{\mathrm{area}/n}\f$
 };
 
 /// The result of `power_rtf_remeshing()` beside the mesh.
@@ -105,15 +105,15 @@ struct Remeshing_report {
   std::size_t outer_iterations = 0;
   std::vector<Iteration_report> iterations;
   std::size_t feature_samples = 0; ///< on creases and borders: they have no cells
-  Cell_counts cells;            ///< at the end
-  Capacity_statistics capacity; ///< at the end
+  Cell_counts cells;               ///< at the end
+  Capacity_statistics capacity;    ///< at the end
   Repair_counts repairs;
   Topology_statistics input_topology, topology;
-  std::size_t self_intersections = 0; ///< pairs of facets
+  std::size_t self_intersections = 0;       ///< pairs of facets
   std::size_t input_self_intersections = 0; ///< counted only when the result has some
-  std::size_t crease_edges = 0;        ///< of the input
-  std::size_t feature_edges = 0;       ///< of the output's creases and borders
-  std::size_t lost_feature_edges = 0;  ///< of those, how many the output's triangles lack
+  std::size_t crease_edges = 0;             ///< of the input
+  std::size_t feature_edges = 0;            ///< of the output's creases and borders
+  std::size_t lost_feature_edges = 0;       ///< of those, how many the output's triangles lack
   Quality_statistics quality;
   Edge_length_statistics edge_length; ///< in the input's unit of length
   double diagonal = 0; ///< of the input's bounding box, in the input's unit of length
@@ -133,9 +133,12 @@ struct Remeshing_report {
 inline std::vector<std::string> Remeshing_report::missed_guarantees() const
 {
   std::vector<std::string> missed;
-  const auto expect = [&missed](bool met, const std::string& text) { if (!met) missed.push_back(text); };
-  const auto same = [&expect](auto is, auto asked, const std::string& what)
-  { expect(is == asked, what + ": " + std::to_string(is) + " instead of " + std::to_string(asked)); };
+  const auto expect = [&missed](bool met, const std::string& text) {
+    if (!met) missed.push_back(text);
+  };
+  const auto same = [&expect](auto is, auto asked, const std::string& what) {
+    expect(is == asked, what + ": " + std::to_string(is) + " instead of " + std::to_string(asked));
+  };
   expect(topology.vertices == samples_asked,
          "vertices: " + std::to_string(topology.vertices) + " instead of " +
              std::to_string(samples_asked) +
@@ -147,7 +150,8 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
   same(topology.components, input_topology.components, "components");
   same(topology.border_loops, input_topology.border_loops, "border loops");
   expect(self_intersections == 0,
-         "self-intersecting pairs of facets: " + std::to_string(self_intersections) + " instead of 0" +
+         "self-intersecting pairs of facets: " + std::to_string(self_intersections) +
+             " instead of 0" +
              (input_self_intersections > 0
                   ? " (the input has " + std::to_string(input_self_intersections) + ")"
                   : std::string()));
@@ -155,7 +159,6 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
   return missed;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_REMESHING_REPORT_H

@@ -7,8 +7,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFRef
 /// The default visitor: does nothing and never stops. Derive from it, or give any class with these
@@ -17,14 +16,13 @@ struct Remeshing_default_visitor {
   /// A stage begins: "surface", "sampling", "optimization", "extraction", "improvement" or
   /// "quality".
   void on_stage(const char* /*name*/) {}
-  /// An outer iteration ended. `progress` in [0, 1] is the share of the optimisation done.
+  /// An outer iteration ended. `progress` in [0, 1] is the share of the optimization done.
   void on_iteration(const Iteration_report& /*iteration*/, double /*progress*/) {}
-  /// Asked after each iteration and, in all stages, every 50 ms or so; `false` stops the run: no mesh
-  /// is made.
+  /// Asked after each iteration and, in all stages, every 50 ms or so; `false` stops the run: no
+  /// mesh is made.
   bool go_further() { return true; }
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_REMESHING_VISITOR_H

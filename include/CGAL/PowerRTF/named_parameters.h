@@ -13,13 +13,9 @@
 
 #include <type_traits>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
-namespace internal
-{
+namespace internal {
 
 enum density_map_t { density_map };
 enum remeshing_options_t { remeshing_options };
@@ -95,8 +91,7 @@ constexpr bool has_own_parameter()
 
 /// The named parameters of `power_rtf_remeshing()`. Each begins a chain, in which the others may
 /// follow in any order.
-namespace parameters
-{
+namespace parameters {
 
 using CGAL::parameters::default_values;
 
@@ -179,7 +174,6 @@ auto combine(const NamedParameters& chain, const Named_function_parameters<T, Ta
 /// @}
 
 } // namespace parameters
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_NAMED_PARAMETERS_H

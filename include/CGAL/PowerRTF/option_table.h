@@ -18,10 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// \cond SKIP_IN_MANUAL
 
@@ -133,7 +130,7 @@ void for_each_option(Visitor&& visit)
   using O = Remeshing_options;
   constexpr double above_zero = Option_range::above_zero;
   const Option_range no_number{0, 0}, share{0, 1}, angle{above_zero, 180}, power{0, 100},
-      iterations{0, 1e6}, nearest_vertices{1, 64};
+      iterations{0, 1e6}, nearest_vertices{1, max_vertex_neighbors};
   const char* group = "Main";
   const auto add = [&](const char* name, auto member, const char* symbol, const char* meaning,
                        const Option_range& range) {
@@ -188,7 +185,7 @@ void for_each_option(Visitor&& visit)
   add("position_method", &O::position_method, "", "how samples move to their cells' centroids",
       no_number);
   add("max_iterations", &O::max_iterations, "N_m", "position steps at most", iterations);
-  add("lbfgs_memory", &O::lbfgs_memory, "", "pairs kept by L-BFGS", {1, 1000});
+  add("lbfgs_memory", &O::lbfgs_memory, "", "pairs kept by L-BFGS", {1, max_lbfgs_memory});
   add("projection", &O::projection, "",
       "onto the nearest facet, or on those at the nearest vertices", no_number);
   add("projection_neighbors", &O::projection_neighbors, "", "vertices whose facets are tried",
@@ -289,18 +286,17 @@ inline const Remeshing_options& validate(const Remeshing_options& options)
                                 ", but must be " +
                                 allowed_values<std::decay_t<decltype(value)>>(option.range));
   });
-  constexpr double most_candidates = 1e9; // they are numbered by int
+  constexpr double max_candidates = 1e9; // they are numbered by int
   const double n = static_cast<double>(options.number_of_samples);
-  if (n * options.oversampling > most_candidates)
+  if (n * options.oversampling > max_candidates)
     throw Invalid_input_error("number_of_samples times oversampling is " +
                               to_text(n * options.oversampling) + ", but must be at most " +
-                              to_text(most_candidates));
+                              to_text(max_candidates));
   return options;
 }
 
 /// @}
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_OPTION_TABLE_H

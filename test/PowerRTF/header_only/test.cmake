@@ -9,7 +9,7 @@ endfunction()
 
 set(options -G ${CMAKE_GENERATOR})
 foreach(variable CMAKE_MAKE_PROGRAM CMAKE_CXX_COMPILER CMAKE_CXX_FLAGS CMAKE_CXX_COMPILER_LAUNCHER
-        CGAL_DIR Eigen3_DIR TBB_DIR)
+        CGAL_DIR TBB_DIR)
   if(NOT "${${variable}}" STREQUAL "")
     list(APPEND options "-D${variable}=${${variable}}")
   endif()

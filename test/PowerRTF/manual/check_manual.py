@@ -34,8 +34,8 @@ PUBLIC = {
                "Weight_method Weight_operator Extraction_method Improvement Repair Option "
                "for_each_option validate",
     "Report": "Remeshing_report Iteration_report Quality_statistics Repair_counts",
-    "Surface": "Surface Samples Cell_polygon Extracted_mesh import_surface import_soup set_creases "
-               "set_density",
+    "Surface": "Surface Samples Cell_polygon Extracted_mesh prepare_surface import_surface "
+               "import_soup set_creases set_density",
     "Traits": "PowerRTF_traits_3 PowerRTF_exact_traits_3 PowerRTF_cuda_traits_3 Cpu_engine "
               "Exact_engine Cuda_engine Cuda_error",
     "Exact": "Exact_cells check_cells Cell_comparison",

@@ -1,57 +1,38 @@
-# A reader who has nothing but the README: a project of his own with the README's CMakeLists.txt and
-# its program, with the lines that the README gives for a density of one's own, built and run
-# against the installed package on INPUT.
-file(READ ${README} readme)
-
-# The first block of this language at or after the position.
-function(readme_block language result)
-  set(begin "```${language}\n")
-  string(FIND "${readme}" "${begin}" from)
-  if(from LESS 0)
-    message(FATAL_ERROR "the README has no block ${language}")
+# A reader who has nothing but the README: its program is that of the project in SOURCE, which is
+# configured, built and run on INPUT against BUILD, installed to a scratch prefix.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result WORKING_DIRECTORY ${SCRATCH}/build)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "failed (${result}): ${ARGV}")
   endif()
-  string(LENGTH "${begin}" length)
-  math(EXPR from "${from} + ${length}")
-  string(SUBSTRING "${readme}" ${from} -1 rest)
-  string(FIND "${rest}" "```" to)
-  string(SUBSTRING "${rest}" 0 ${to} text)
-  math(EXPR to "${to} + 3")
-  string(SUBSTRING "${rest}" ${to} -1 rest)
-  set(readme "${rest}" PARENT_SCOPE)
-  set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-readme_block(cpp program)
-readme_block(cpp density)
-readme_block(cmake project)
-
-set(call "  const auto report = CGAL::power_rtf_remeshing(in, 3000, out);\n")
-string(FIND "${program}" "${call}" found)
+file(READ ${README} readme)
+file(READ ${SOURCE}/user.cpp program)
+string(REGEX REPLACE "^//[^\n]*\n" "" program "${program}")
+string(FIND "${readme}" "```cpp\n${program}```" found)
 if(found LESS 0)
-  message(FATAL_ERROR "the README's program has no line: ${call}")
+  message(FATAL_ERROR "the README's program is not ${SOURCE}/user.cpp")
 endif()
-string(REPLACE "${call}" "${density}" program "${program}")
 
-set(SOURCE ${SCRATCH}_project)
-file(REMOVE_RECURSE ${SOURCE})
-file(WRITE ${SOURCE}/my_program.cpp "${program}")
-file(WRITE ${SOURCE}/CMakeLists.txt "${project}")
-set(PROGRAM my_program)
-include(${CMAKE_CURRENT_LIST_DIR}/../find_package/test.cmake)
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH}/build)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
 
-# The output: 3000 vertices, more of them where the density says so.
-file(STRINGS ${SCRATCH}/build/output.off lines REGEX "^-?[0-9.e+-]+ -?[0-9.e+-]+ -?[0-9.e+-]+ *$")
-set(vertices 0)
-set(north 0)
-foreach(line IN LISTS lines)
-  if(line MATCHES "^[^ ]+ [^ ]+ ([^ ]+) *$")
-    math(EXPR vertices "${vertices} + 1")
-    if(NOT CMAKE_MATCH_1 MATCHES "^-")
-      math(EXPR north "${north} + 1")
-    endif()
+set(options)
+foreach(variable CMAKE_MAKE_PROGRAM CMAKE_BUILD_TYPE CMAKE_CXX_COMPILER CMAKE_CXX_FLAGS
+        CMAKE_CXX_FLAGS_DEBUG CMAKE_CXX_COMPILER_LAUNCHER CGAL_DIR TBB_DIR)
+  if(NOT "${${variable}}" STREQUAL "")
+    list(APPEND options "-D${variable}=${${variable}}")
   endif()
 endforeach()
-message(STATUS "${north} of ${vertices} vertices lie in the north")
-if(vertices LESS 3000 OR vertices GREATER 3001 OR north LESS 1800) # 3001: with OFF's line of counts
-  message(FATAL_ERROR "not what the density asks for")
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/build -G ${CMAKE_GENERATOR}
+    -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix ${options})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build --verbose)
+file(COPY_FILE ${INPUT} ${SCRATCH}/build/input.off)
+run(${SCRATCH}/build/user)
+
+file(STRINGS ${SCRATCH}/build/output.off lines REGEX "^3000 [0-9]+ ")
+if(NOT lines)
+  message(FATAL_ERROR "output.off has not 3000 vertices")
 endif()

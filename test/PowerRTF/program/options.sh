@@ -53,11 +53,11 @@ bounds oversampling 1 32 0.999 32.001
 for name in relaxation-iterations iterations max-weight-iterations; do
   bounds $name 0 1000000 -1 1000001
 done
-for name in normal-neighbors density-neighbors projection-neighbors; do bounds $name 1 64 0 65; done
+for name in normal-neighbors density-neighbors projection-neighbors; do bounds $name 1 32 0 33; done
 bounds normal-smoothing 0 100 -1 101
 bounds neighbors 1 1000 0 1001
 bounds guard-factor 1 1000 0.99 1000.5
-bounds lbfgs-memory 1 1000 0 1001
+bounds lbfgs-memory 1 10 0 11
 bounds centroid-density-power 0 100 -1 101
 bounds capacity-tolerance 0 1 -0.1 1.5
 bounds device 0 2147483647 -1 2147483648
@@ -98,7 +98,7 @@ for word in --samples --density --density-power --gradation --sampling --oversam
   --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
   --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
   --samples-out --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 60' \
-  '{above 0, at most 180}' '{from 1 to 64}' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
+  '{above 0, at most 180}' '{from 1 to 32}' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
   expect "--help shows $word" grep -qF -- "$word" stdout
 done
 run 0 -- --version

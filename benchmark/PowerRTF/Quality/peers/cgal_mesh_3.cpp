@@ -58,8 +58,7 @@ int main(int argc, char** argv)
                          facet_topology = CGAL::MANIFOLD)
               : Criteria(edge_size = largest, facet_angle = 30, facet_size = largest,
                          facet_distance = length, facet_topology = CGAL::MANIFOLD);
-  const Complex complex =
-      CGAL::make_mesh_3<Complex>(domain, criteria, no_perturb(), no_exude());
+  const Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, no_perturb(), no_exude());
   CGAL::facets_in_complex_3_to_triangle_mesh(complex, output);
   return CGAL::IO::write_polygon_mesh(argv[2], output, stream_precision(17)) ? EXIT_SUCCESS
                                                                              : EXIT_FAILURE;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The filter of the fast cells: proves after the fact, in floating point with bounded rounding
-// errors, that a polygon's cycle of neighbours is the exact one. A cyclic sequence of half-planes
+// errors, that a polygon's cycle of neighbors is the exact one. A cyclic sequence of half-planes
 // bounds their intersection with all others when consecutive ones turn to the left and every vertex
 // lies strictly inside all others: such vertices are vertices of the cell, each edge joins two of
 // them, and a closed chain of edges of a convex polygon is its whole boundary. Nothing is assumed
@@ -12,14 +12,13 @@
 
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
-/// The computed half-plane a x + b y <= c of a neighbour, and how far it may be from the exact one.
+/// The computed half-plane a x + b y <= c of a neighbor, and how far it may be from the exact one.
 template <class FT>
 struct Rounded_half_plane {
   FT a, b, c;
-  FT distance; ///< d, of the neighbour: a and b are off by at most d times the frame's tilt
+  FT distance; ///< d, of the neighbor: a and b are off by at most d times the frame's tilt
   FT error;    ///< c is off by at most this much
 };
 
@@ -34,11 +33,10 @@ public:
                8 * internal::epsilon<FT>())
   {}
 
-  /// The line of a neighbour at `offset` with c = (d^2 + w_i - w_j) / 2.
+  /// The line of a neighbor at `offset` with c = (d^2 + w_i - w_j) / 2.
   CGAL_POWER_RTF_HD static Line line(FT a, FT b, FT c, FT d2, FT w_i, FT w_j)
   {
-    return {a, b, c, std::sqrt(d2),
-            4 * internal::epsilon<FT>() * (d2 + size(w_i) + size(w_j))};
+    return {a, b, c, std::sqrt(d2), 4 * internal::epsilon<FT>() * (d2 + size(w_i) + size(w_j))};
   }
 
   /// Adds the vertex from edge `j` to edge `k`; false when their turn is uncertain.
@@ -83,14 +81,13 @@ private:
   CGAL_POWER_RTF_HD static FT size(FT x) { return x < 0 ? -x : x; }
 
   static constexpr int capacity = Tangent_polygon<FT>::capacity;
-  FT m_tilt;   // relative error of a and b
+  FT m_tilt; // relative error of a and b
   FT m_radius = 0;
   int m_size = 0;
   FT m_x[capacity], m_y[capacity];
-  FT m_slope[capacity]; // error of a x + b y at the vertex, per unit of the neighbour's distance
+  FT m_slope[capacity]; // error of a x + b y at the vertex, per unit of the neighbor's distance
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_CELLS_POLYGON_CERTIFICATE_H

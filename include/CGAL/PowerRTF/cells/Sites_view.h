@@ -6,10 +6,9 @@
 #ifndef CGAL_POWER_RTF_CELLS_SITES_VIEW_H
 #define CGAL_POWER_RTF_CELLS_SITES_VIEW_H
 
-#include <CGAL/PowerRTF/cells/Packed_tree.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// A sample s_i and its weight w_i, side by side for one load.
 template <class FT>
@@ -21,18 +20,21 @@ struct Site {
 /// Non-owning view of n sites in spatial order.
 template <class FT>
 struct Sites_view {
-  const Site<FT>* sites = nullptr;      ///< n
-  const Vec3<FT>* normals = nullptr;    ///< n, unit
-  const Box3<FT>* boxes = nullptr;      ///< one per node of `tree`
-  const FT* max_weights = nullptr;      ///< one per node of `tree`
+  const Site<FT>* sites = nullptr;   ///< n
+  const Vec3<FT>* normals = nullptr; ///< n, unit
+  const Box3<FT>* boxes = nullptr;   ///< one per node of `tree`
+  const FT* max_weights = nullptr;   ///< one per node of `tree`
   Packed_tree_layout tree;
-  /// A cell whose farthest vertex lies beyond this many distances to the 6th neighbour is guarded.
+  /// A cell whose farthest vertex lies beyond this many distances to the 6th neighbor is guarded.
   FT guard_factor = 3;
-  const int* patches = nullptr; ///< n; sites of other patches do not exist for a cell. Null: one patch
+  const int* patches =
+      nullptr; ///< n; sites of other patches do not exist for a cell. Null: one patch
 
   CGAL_POWER_RTF_HD int size() const { return tree.items; }
   CGAL_POWER_RTF_HD bool same_patch(int i, int j) const
-  { return !patches || patches[i] == patches[j]; }
+  {
+    return !patches || patches[i] == patches[j];
+  }
 };
 
 /// Computes box and largest weight of node `k` of `level`; the levels are done in ascending order.
@@ -43,11 +45,14 @@ CGAL_POWER_RTF_HD inline void refit_sites_node(const Packed_tree_layout& tree, i
 {
   const int begin = tree.children_begin(k), end = tree.children_end(level, k);
   const int below = level > 0 ? tree.first[level - 1] : 0;
-  Box3<FT> box = level > 0 ? boxes[below + begin] : Box3<FT>{sites[begin].point, sites[begin].point};
+  Box3<FT> box =
+      level > 0 ? boxes[below + begin] : Box3<FT>{sites[begin].point, sites[begin].point};
   FT weight = level > 0 ? max_weights[below + begin] : sites[begin].weight;
   for (int c = begin + 1; c < end; ++c) {
-    if (level > 0) box.add(boxes[below + c]);
-    else box.add(sites[c].point);
+    if (level > 0)
+      box.add(boxes[below + c]);
+    else
+      box.add(sites[c].point);
     const FT w = level > 0 ? max_weights[below + c] : sites[c].weight;
     if (w > weight) weight = w;
   }
@@ -68,21 +73,22 @@ CGAL_POWER_RTF_HD inline void for_each_possible_neighbor(const Sites_view<FT>& v
                                                          FT radius, F&& f)
 {
   const FT margin = 1 + 16 * internal::epsilon<FT>();
-  traverse(view.tree,
-    [&](int node) {
-      const FT square = radius * radius + (view.max_weights[node] - min_weight);
-      if (square < 0) return false;
-      const FT reach = (radius + std::sqrt(square)) * margin;
-      return squared_distance(view.boxes[node], box) <= reach * reach;
-    },
-    [&](int begin, int end) {
-      for (int j = begin; j < end; ++j) f(j);
-    });
+  traverse(
+      view.tree,
+      [&](int node) {
+        const FT square = radius * radius + (view.max_weights[node] - min_weight);
+        if (square < 0) return false;
+        const FT reach = (radius + std::sqrt(square)) * margin;
+        return squared_distance(view.boxes[node], box) <= reach * reach;
+      },
+      [&](int begin, int end) {
+        for (int j = begin; j < end; ++j) f(j);
+      });
 }
 
-/// Distance from site `i` to its k-th nearest other site of its patch (to the farthest one when there are fewer
-/// than k, 0 when there is none); k <= 8. Only sites whose normals make less than Theta with n_i
-/// count (`cos_angle`: its cosine; -2: all count).
+/// Distance from site `i` to its k-th nearest other site of its patch (to the farthest one when
+/// there are fewer than k, 0 when there is none); k <= 8. Only sites whose normals make less than
+/// Theta with n_i count (`cos_angle`: its cosine; -2: all count).
 template <class FT>
 CGAL_POWER_RTF_HD inline FT distance_to_neighbor(const Sites_view<FT>& view, int i, int k,
                                                  FT cos_angle = FT(-2))
@@ -105,13 +111,15 @@ CGAL_POWER_RTF_HD inline FT distance_to_neighbor(const Sites_view<FT>& view, int
   // The own leaf first: it gives a bound that prunes nearly all the rest.
   const int own = i / Packed_tree_layout::arity;
   insert(view.tree.children_begin(own), view.tree.children_end(0, own));
-  traverse(view.tree,
-    [&](int node) { return found < k || squared_distance(view.boxes[node], p) < nearest[k - 1]; },
-    [&](int begin, int end) { if (begin != view.tree.children_begin(own)) insert(begin, end); });
+  traverse(
+      view.tree,
+      [&](int node) { return found < k || squared_distance(view.boxes[node], p) < nearest[k - 1]; },
+      [&](int begin, int end) {
+        if (begin != view.tree.children_begin(own)) insert(begin, end);
+      });
   return found > 0 ? std::sqrt(nearest[found - 1]) : FT(0);
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_CELLS_SITES_VIEW_H

@@ -7,10 +7,9 @@
 #ifndef CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
 #define CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// An orthonormal frame (u, v) of the plane with unit normal `n`; u x v = n. (Duff et al.,
 /// "Building an orthonormal basis, revisited", 2017.)
@@ -28,7 +27,7 @@ struct Tangent_frame {
 };
 
 /// A convex polygon, counter-clockwise; edge k runs from vertex k to vertex k + 1 and carries the
-/// neighbour that made it, or -1 .. -4 for a side of the initial square.
+/// neighbor that made it, or -1 .. -4 for a side of the initial square.
 template <class FT>
 struct Tangent_polygon {
   using Number = FT;
@@ -73,7 +72,7 @@ struct Tangent_polygon {
   CGAL_POWER_RTF_HD int next(int k) const { return k + 1 < size ? k + 1 : 0; }
   CGAL_POWER_RTF_HD int previous(int k) const { return k > 0 ? k - 1 : size - 1; }
 
-  /// Keeps a x + b y <= c; the new edge belongs to neighbour `j`. Returns whether it cut.
+  /// Keeps a x + b y <= c; the new edge belongs to neighbor `j`. Returns whether it cut.
   CGAL_POWER_RTF_HD bool clip(FT a, FT b, FT c, int j);
 };
 
@@ -94,8 +93,14 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
   // The removed vertices form one chain around the worst one (taken so even where rounding says
   // otherwise: the polygon stays a polygon).
   int begin = worst, end = worst, removed = 1;
-  while (removed < size && s[previous(begin)] > 0) { begin = previous(begin); ++removed; }
-  while (removed < size && s[next(end)] > 0) { end = next(end); ++removed; }
+  while (removed < size && s[previous(begin)] > 0) {
+    begin = previous(begin);
+    ++removed;
+  }
+  while (removed < size && s[next(end)] > 0) {
+    end = next(end);
+    ++removed;
+  }
   if (removed == size) {
     size = 0;
     return true;
@@ -120,8 +125,12 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
         y[k] = y[out + k];
         neighbor[k] = neighbor[out + k];
       }
-    x[kept] = px; y[kept] = py; neighbor[kept] = j;
-    x[kept + 1] = qx; y[kept + 1] = qy; neighbor[kept + 1] = exit_neighbor;
+    x[kept] = px;
+    y[kept] = py;
+    neighbor[kept] = j;
+    x[kept + 1] = qx;
+    y[kept + 1] = qy;
+    neighbor[kept + 1] = exit_neighbor;
     size = kept + 2;
     return true;
   }
@@ -139,13 +148,16 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
       y[to_place + k] = y[out + k];
       neighbor[to_place + k] = neighbor[out + k];
     }
-  x[begin] = px; y[begin] = py; neighbor[begin] = j;
-  x[begin + 1] = qx; y[begin + 1] = qy; neighbor[begin + 1] = exit_neighbor;
+  x[begin] = px;
+  y[begin] = py;
+  neighbor[begin] = j;
+  x[begin + 1] = qx;
+  y[begin + 1] = qy;
+  neighbor[begin + 1] = exit_neighbor;
   size = kept + 2;
   return true;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H

@@ -1,20 +1,19 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Area, mass and centre of mass of a cell's polygon.
+// Area, mass and center of mass of a cell's polygon.
 #ifndef CGAL_POWER_RTF_CELLS_CELL_MOMENTS_H
 #define CGAL_POWER_RTF_CELLS_CELL_MOMENTS_H
 
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 template <class FT>
 struct Cell_moments {
   FT area = 0;     ///< A(F_i)
   FT mass = 0;     ///< integral of the density
-  FT x = 0, y = 0; ///< centre of mass in the tangent frame, relative to the site
+  FT x = 0, y = 0; ///< center of mass in the tangent frame, relative to the site
 };
 
 /// Moments of cell `i` for the density that is linear on each triangle of the fan around the site.
@@ -28,7 +27,10 @@ CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Polygon& polygon, i
   const int n = polygon.size;
   if (n < 3) return m;
   const FT own = root(i), at_site = own * own * own;
-  const auto side = [&](int k) { const int j = polygon.neighbor[k]; return j < 0 ? own : root(j); };
+  const auto side = [&](int k) {
+    const int j = polygon.neighbor[k];
+    return j < 0 ? own : root(j);
+  };
   FT first_side = side(0), last_side = side(n - 1);
   const FT first_density = own * last_side * first_side;
   FT side_k = first_side, density = first_density, x = 0, y = 0;
@@ -57,9 +59,10 @@ CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Polygon& polygon, i
 /// Moments for the constant density 1.
 template <class Polygon, class FT = typename Polygon::Number>
 CGAL_POWER_RTF_HD inline Cell_moments<FT> cell_moments(const Polygon& polygon)
-{ return cell_moments(polygon, 0, [](int) { return FT(1); }); }
+{
+  return cell_moments(polygon, 0, [](int) { return FT(1); });
+}
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_CELLS_CELL_MOMENTS_H

@@ -9,8 +9,7 @@
 #include <CGAL/PowerRTF/cells/Sites_view.h>
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 namespace internal {
 
 /// Whether the segment from (ax, ay) to (bx, by) passes through the inside of the polygon.
@@ -34,7 +33,7 @@ CGAL_POWER_RTF_HD inline bool crosses_polygon(const Tangent_polygon<FT>& polygon
 
 } // namespace internal
 
-/// Clips cell `i` at the chords that start or end at a neighbour of it. `next` and `previous`: for
+/// Clips cell `i` at the chords that start or end at a neighbor of it. `next` and `previous`: for
 /// each site the one after and before it on its patch's boundary, the patch to the left; -1: none.
 /// Returns whether anything was cut; a cell that would vanish stays as it is.
 template <class FT>
@@ -42,7 +41,7 @@ CGAL_POWER_RTF_HD inline bool clip_at_features(const Sites_view<FT>& view, int i
                                                const int* previous, const Tangent_frame<FT>& frame,
                                                Tangent_polygon<FT>& polygon)
 {
-  constexpr FT sagitta = FT(0.2); // of a chord, over its length
+  constexpr FT sagitta = FT(0.2);                // of a chord, over its length
   int chords[2 * Tangent_polygon<FT>::capacity]; // by their first site
   int size = 0;
   for (int k = 0; k < polygon.size; ++k) {
@@ -72,7 +71,6 @@ CGAL_POWER_RTF_HD inline bool clip_at_features(const Sites_view<FT>& view, int i
   return cut;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_CELLS_CLIP_AT_FEATURES_H

@@ -11,14 +11,13 @@
 #include <CGAL/PowerRTF/cells/Sites_view.h>
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFSurface
 /// What is known of a cell.
 enum class Cell_status : unsigned char {
   ok,        ///< complete, proved
-  guarded,   ///< too few compatible neighbours: cut by all neighbours and by the guard square
+  guarded,   ///< too few compatible neighbors: cut by all neighbors and by the guard square
   empty,     ///< the power cell does not meet the tangent plane
   incomplete ///< more vertices than a polygon can hold
 };
@@ -28,13 +27,15 @@ enum class Cell_status : unsigned char {
 template <class FT, bool Filtered = false>
 class Cell_clipper {
 public:
-  /// Starts cell `i` from a square of half-size `radius`. `cos_angle`: cosine of Theta; neighbours
+  /// Starts cell `i` from a square of half-size `radius`. `cos_angle`: cosine of Theta; neighbors
   /// whose normals differ by more are skipped (NVISPC); -2 or less: none is. Sites of other patches
   /// always are.
   CGAL_POWER_RTF_HD Cell_clipper(const Sites_view<FT>& view, int i, FT radius, FT cos_angle)
       : m_view(view), m_i(i), m_site(view.sites[i]), m_normal(view.normals[i]), m_frame(m_normal),
         m_radius(radius), m_cos_angle(cos_angle)
-  { m_polygon.set_square(radius); }
+  {
+    m_polygon.set_square(radius);
+  }
 
   /// Starts again from the square of half-size `half` <= radius.
   CGAL_POWER_RTF_HD void set_square(FT half) { m_polygon.set_square(half); }
@@ -60,8 +61,8 @@ public:
     }
     if (m_cos_angle > -1 && !(dot(m_normal, m_view.normals[j]) > m_cos_angle)) return;
     const FT a = dot(offset, m_frame.u), b = dot(offset, m_frame.v), t2 = a * a + b * b;
-    if (!(t2 > 0)) { // a plane parallel to the tangent plane, or a duplicate: the first one stays
-      if (power < 0 || (power == 0 && d2 == 0 && j < m_i)) m_polygon.size = 0;
+    if (!(t2 > 0)) { // a plane parallel to the tangent plane, or a duplicate: the first one wins
+      if (power < 0 || (power == 0 && j < m_i)) m_polygon.size = 0;
       if constexpr (Filtered)
         if (!is_large(power - std::sqrt(d2) * m_radius * FT(1e-8), d2, other.weight))
           m_doubtful = true;
@@ -85,7 +86,7 @@ public:
            (m_polygon.squared_radius() <= m_radius * m_radius && !m_polygon.touches_square());
   }
 
-  /// Whether the polygon of `finish()`, complete, is proved to have the exact cycle of neighbours.
+  /// Whether the polygon of `finish()`, complete, is proved to have the exact cycle of neighbors.
   CGAL_POWER_RTF_HD bool is_certain() const;
 
   /// Whether the buffer has been emptied more than once: then nothing is certain.
@@ -132,7 +133,9 @@ private:
   }
 
   CGAL_POWER_RTF_HD static bool before(const Half_plane& g, const Half_plane& h)
-  { return g.distance < h.distance || (g.distance == h.distance && g.neighbor < h.neighbor); }
+  {
+    return g.distance < h.distance || (g.distance == h.distance && g.neighbor < h.neighbor);
+  }
 
   const Sites_view<FT>& m_view;
   int m_i;
@@ -190,7 +193,7 @@ CGAL_POWER_RTF_HD inline bool Cell_clipper<FT, Filtered>::is_certain() const
 /// grows until the cell is complete or is known to exceed the guard radius.
 ///
 /// `Filtered`: `sink(i, status, polygon, frame, certain)`; `certain` when the status and the cycle
-/// of neighbours are proved to be the exact ones.
+/// of neighbors are proved to be the exact ones.
 template <bool Filtered = false, class FT, class Candidates, class Sink>
 CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, FT radius,
                                              FT cos_angle, Candidates&& candidates, Sink&& sink)
@@ -201,8 +204,10 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
     return guard;
   };
   const auto deliver = [&](Cell_status status, const auto& clipper, bool certain) {
-    if constexpr (Filtered) sink(i, status, clipper.polygon(), clipper.frame(), certain);
-    else sink(i, status, clipper.polygon(), clipper.frame());
+    if constexpr (Filtered)
+      sink(i, status, clipper.polygon(), clipper.frame(), certain);
+    else
+      sink(i, status, clipper.polygon(), clipper.frame());
     (void)certain;
   };
   for (bool again = true;;) {
@@ -212,7 +217,7 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
     if (polygon.overflow) return deliver(Cell_status::incomplete, clipper, false);
     if (polygon.size > 0 && clipper.is_complete()) {
       const FT r2 = polygon.squared_radius(), f = view.guard_factor;
-      // The 6th neighbour is no nearer than the nearest one.
+      // The 6th neighbor is no nearer than the nearest one.
       const bool is_small = r2 <= f * f * clipper.squared_nearest();
       if (!is_small && r2 > guard_radius() * guard_radius()) break;
       bool certain = false;
@@ -235,18 +240,18 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
     radius = 2 * radius < guard_radius() ? 2 * radius : guard_radius();
   }
 
-  // Guarded: all neighbours count, whatever their normals, within the square of the guard radius.
+  // Guarded: all neighbors count, whatever their normals, within the square of the guard radius.
   const FT half = guard_radius();
   Cell_clipper<FT, Filtered> clipper(view, i, half * FT(1.41421357), FT(-2));
   clipper.set_square(half);
   candidates(half * FT(1.41421357), [&](int j) { clipper.add(j); });
   const Tangent_polygon<FT>& polygon = clipper.finish();
-  deliver(polygon.size == 0 ? Cell_status::empty
-          : polygon.overflow ? Cell_status::incomplete : Cell_status::guarded,
+  deliver(polygon.size == 0  ? Cell_status::empty
+          : polygon.overflow ? Cell_status::incomplete
+                             : Cell_status::guarded,
           clipper, false);
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_CELLS_CONSTRUCT_CELL_H

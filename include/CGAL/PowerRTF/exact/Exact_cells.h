@@ -5,8 +5,8 @@
 // restricted cells F_i with exact combinatorics. F_i = tangent plane of s_i, cut by the equal-power
 // half-spaces of the samples compatible with i (NVISPC). Shares no clipping code with `cells/`.
 //
-// Two ways to the neighbours, both proved in doc/PowerRTF/exact.txt:
-// - where all neighbours of i in the regular triangulation of all samples are compatible, these
+// Two ways to the neighbors, both proved in doc/PowerRTF/exact.txt:
+// - where all neighbors of i in the regular triangulation of all samples are compatible, these
 //   make the cell. Ties, which the triangulation decides its own way, are found and left to the
 //   second way;
 // - otherwise all compatible samples are clipped with, but for those in tree nodes that are proved
@@ -14,7 +14,7 @@
 #ifndef CGAL_POWER_RTF_EXACT_EXACT_CELLS_H
 #define CGAL_POWER_RTF_EXACT_EXACT_CELLS_H
 
-#include <CGAL/PowerRTF/exact/Power_neighbours.h>
+#include <CGAL/PowerRTF/exact/Power_neighbors.h>
 #include <CGAL/PowerRTF/exact/Tangent_cell_clipper.h>
 #include <CGAL/PowerRTF/exact/Weighted_site_tree.h>
 
@@ -25,32 +25,30 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFExact
 /// One restricted cell's combinatorics.
 struct Exact_cell {
-  /// The neighbours around \f$F_i\f$, counter-clockwise seen from \f$n_i\f$, each once, the smallest
-  /// id first; -1 .. -4 are the sides of the clipping square. Empty when \f$F_i\f$ is empty.
-  std::vector<int> neighbours;
+  /// The neighbors around \f$F_i\f$, counter-clockwise seen from \f$n_i\f$, each once, the
+  /// smallest id first; -1 .. -4 are the sides of the clipping square. Empty when \f$F_i\f$ is
+  /// empty.
+  std::vector<int> neighbors;
   bool contains_site = false; ///< \f$s_i\f$ lies in \f$F_i\f$
   bool degenerate = false;    ///< a tie was met on the way and decided by the symbolic perturbation
-  bool by_triangulation = false; ///< neighbours from the regular triangulation
+  bool by_triangulation = false; ///< neighbors from the regular triangulation
 
-  bool is_empty() const { return neighbours.empty(); }
-  /// A side of the square is an edge: \f$F_i\f$ is larger than the given square, or unbounded when none
-  /// was given.
-  bool reaches_square() const { return !is_empty() && neighbours.front() < 0; }
+  bool is_empty() const { return neighbors.empty(); }
+  /// A side of the square is an edge: \f$F_i\f$ is larger than the given square, or unbounded when
+  /// none was given.
+  bool reaches_square() const { return !is_empty() && neighbors.front() < 0; }
 };
 
 /// \ingroup PkgPowerRTFExact
 /// Shape of a cell. Each coordinate of a vertex is the exact one up to a few units in the last
 /// place of the coordinate relative to \f$s_i\f$; area and centroid follow by double arithmetic.
 struct Exact_cell_geometry {
-  std::vector<Vec3d> vertices;      ///< relative to \f$s_i\f$; vertex k is where edges k and k + 1 cross
+  std::vector<Vec3d> vertices; ///< relative to \f$s_i\f$; vertex k is where edges k and k + 1 cross
   std::vector<double> edge_lengths; ///< upper bounds, within 1e-12, of the exact lengths
   double area = 0;
   Vec3d centroid{0, 0, 0}; ///< relative to \f$s_i\f$; mean of the vertices when the area vanishes
@@ -58,7 +56,7 @@ struct Exact_cell_geometry {
 
 /// \ingroup PkgPowerRTFExact
 /// Where candidates come from.
-enum class Exact_neighbours {
+enum class Exact_neighbors {
   automatic, ///< the regular triangulation where it suffices, else the search
   search     ///< always the search: no triangulation is built (for a few cells of many samples)
 };
@@ -69,8 +67,7 @@ enum class Exact_neighbours {
 ///
 /// Immutable after construction: `cell()` may be called from several threads.
 template <class Kernel, class Traits = Tangent_cell_traits_3<Kernel>>
-class Exact_cells
-{
+class Exact_cells {
   using Exact_nt = typename Traits::Exact_nt;
   using Clipper = internal::Tangent_cell_clipper<Exact_nt>;
 
@@ -79,24 +76,25 @@ class Exact_cells
   std::vector<int> m_patches;
   double m_cos_theta;
   internal::Weighted_site_tree m_tree;
-  internal::Power_neighbours m_power_neighbours;
+  internal::Power_neighbors m_power_neighbors;
 
 public:
   /// `points`, `normals` (not zero; unit where NVISPC is used), `weights` (length squared): one per
-  /// sample. `cos_theta`: j counts for i when `dot(n_i, n_j) > cos_theta`; anything below -1: always.
-  /// `patches`: one per sample, samples of other patches do not count; or empty: all count.
+  /// sample. `cos_theta`: j counts for i when `dot(n_i, n_j) > cos_theta`; anything below -1:
+  /// always. `patches`: one per sample, samples of other patches do not count; or empty: all count.
   /// \throw Invalid_input_error for arrays of different sizes, zero normals, and values that are
   /// not finite.
   Exact_cells(std::vector<Vec3d> points, std::vector<Vec3d> normals, std::vector<double> weights,
-              double cos_theta, Exact_neighbours source = Exact_neighbours::automatic,
+              double cos_theta, Exact_neighbors source = Exact_neighbors::automatic,
               std::vector<int> patches = {})
       : m_points(std::move(points)), m_normals(std::move(normals)), m_weights(std::move(weights)),
-        m_patches(std::move(patches)), m_cos_theta(cos_theta), m_tree(checked(m_points, m_normals, m_weights), m_weights)
+        m_patches(std::move(patches)), m_cos_theta(cos_theta),
+        m_tree(checked(m_points, m_normals, m_weights), m_weights)
   {
     if (!m_patches.empty() && m_patches.size() != m_points.size())
       throw Invalid_input_error("points and patches differ in number");
-    if (source == Exact_neighbours::automatic)
-      m_power_neighbours = internal::Power_neighbours(m_points, m_weights);
+    if (source == Exact_neighbors::automatic)
+      m_power_neighbors = internal::Power_neighbors(m_points, m_weights);
   }
 
   std::size_t size() const { return m_points.size(); }
@@ -104,7 +102,9 @@ public:
   /// NVISPC. The same double expression as the fast engines evaluate (no fused multiply-add: both
   /// are to be compiled with -ffp-contract=off), so that all engines agree on the compatible set.
   bool compatible(int i, int j) const
-  { return same_patch(i, j) && dot(m_normals[i], m_normals[j]) > m_cos_theta; }
+  {
+    return same_patch(i, j) && dot(m_normals[i], m_normals[j]) > m_cos_theta;
+  }
 
   bool same_patch(int i, int j) const { return m_patches.empty() || m_patches[i] == m_patches[j]; }
 
@@ -165,7 +165,7 @@ private:
   {
     Exact_cell result;
     result.contains_site = clipper.contains_site();
-    if (!clipper.is_empty()) result.neighbours = clipper.cycle();
+    if (!clipper.is_empty()) result.neighbors = clipper.cycle();
     result.degenerate = clipper.statistics().ties > 0;
     if (statistics) *statistics += clipper.statistics();
     return result;
@@ -176,22 +176,21 @@ private:
   bool from_triangulation(int i, const Exact_square* square, Exact_cell& result,
                           Filter_statistics* statistics, const Counts& counts) const
   {
-    if (m_power_neighbours.doubtful(i)) return false;
-    const std::vector<int>& near = m_power_neighbours.of(i);
+    if (m_power_neighbors.doubtful(i)) return false;
+    const std::vector<int>& near = m_power_neighbors.of(i);
     for (int j : near)
       if (!counts(j)) return false;
     Clipper clipper(i, m_points[i], m_normals[i], m_weights[i], square);
     for (int j : near) clipper.clip(j, m_points[j], m_weights[j]);
 
-    // A tie with a sample that is no neighbour of i in the triangulation would show at a vertex
-    // (j, k) of the cell and with a neighbour of j or k.
+    // A tie with a sample that is no neighbor of i in the triangulation would show at a vertex
+    // (j, k) of the cell and with a neighbor of j or k.
     std::vector<int> others;
     if (!clipper.is_empty()) {
       for (int j : clipper.cycle()) {
         if (j < 0) continue;
-        if (m_power_neighbours.doubtful(j)) return false;
-        others.insert(others.end(), m_power_neighbours.of(j).begin(),
-                      m_power_neighbours.of(j).end());
+        if (m_power_neighbors.doubtful(j)) return false;
+        others.insert(others.end(), m_power_neighbors.of(j).begin(), m_power_neighbors.of(j).end());
       }
     }
     others.push_back(i);
@@ -226,9 +225,9 @@ Exact_cell_geometry Exact_cells<Kernel, Traits>::geometry(int i, const Exact_cel
     return g;
   }
   const internal::Tangent_frame f(m_normals[i]);
-  const int n = int(cell.neighbours.size());
+  const int n = int(cell.neighbors.size());
   std::vector<internal::Tangent_line<Exact_nt>> lines;
-  for (int id : cell.neighbours) {
+  for (int id : cell.neighbors) {
     if (id >= 0) {
       lines.push_back(internal::sample_line<Exact_nt>(f, m_points[i], m_weights[i], m_points[id],
                                                       m_weights[id]));
@@ -283,7 +282,6 @@ Exact_cell_geometry Exact_cells<Kernel, Traits>::geometry(int i, const Exact_cel
   return g;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXACT_EXACT_CELLS_H

@@ -27,15 +27,9 @@
 #include <limits>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
-class Rounding_bound
-{
+class Rounding_bound {
   const Sites_view<double>& m_view;
   int m_i;
   PowerRTF::Tangent_frame<double> m_frame;
@@ -49,10 +43,9 @@ public:
   /// Cell `i`, constructed within distance `reach` (S) in arithmetic of precision `epsilon`.
   Rounding_bound(const Sites_view<double>& view, int i, double reach, double epsilon)
       : m_view(view), m_i(i), m_frame(view.normals[i]), m_reach(reach), m_epsilon(epsilon)
-  {
-  }
+  {}
 
-  /// Bound of the length of `edge`, a neighbour or side of the square in one of two cells, by the
+  /// Bound of the length of `edge`, a neighbor or side of the square in one of two cells, by the
   /// edges (not empty) of the other one.
   double length_of(int edge, const std::vector<int>& other) const
   {
@@ -90,8 +83,8 @@ public:
 private:
   bool stays_off(const Line& e, const Line& other, double angle) const
   {
-    return std::fabs(e.offset - other.offset) > e.displacement + other.displacement +
-                                                    2 * m_reach * std::sin(angle / 2);
+    return std::fabs(e.offset - other.offset) >
+           e.displacement + other.displacement + 2 * m_reach * std::sin(angle / 2);
   }
 
   Line line(int id) const
@@ -110,8 +103,6 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H

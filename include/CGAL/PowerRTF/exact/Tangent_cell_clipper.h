@@ -14,23 +14,19 @@
 #include <optional>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFExact
 /// A square in a tangent plane, centered at \f$s_i\f$: \f$t_1 \cdot x \le B\f$,
-/// \f$t_2 \cdot x \le B\f$, \f$-t_1 \cdot x \le B\f$, \f$-t_2 \cdot x \le B\f$, whose sides have the
-/// ids -1, -2, -3, -4. The directions need be neither unit nor tangent to the last
-/// bit: only the traces of these half-spaces in the tangent plane count, as exact doubles.
+/// \f$t_2 \cdot x \le B\f$, \f$-t_1 \cdot x \le B\f$, \f$-t_2 \cdot x \le B\f$, whose sides have
+/// the ids -1, -2, -3, -4. The directions need be neither unit nor tangent to the last bit: only
+/// the traces of these half-spaces in the tangent plane count, as exact doubles.
 struct Exact_square {
   Vec3d t1, t2;     ///< \f$(t_1, t_2, n_i)\f$ right-handed
   double half_size; ///< \f$B > 0\f$
 };
 
-namespace internal
-{
+namespace internal {
 
 /// An axis-aligned box of samples and the largest weight among them.
 struct Weighted_box {
@@ -39,8 +35,7 @@ struct Weighted_box {
 };
 
 template <class Exact_nt>
-class Tangent_cell_clipper
-{
+class Tangent_cell_clipper {
   struct Line {
     int id;          // sample, or -1 .. -4: side of the square
     Vec3d direction; // the sample's position, or the side's outward direction
@@ -262,7 +257,6 @@ private:
 };
 
 } // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXACT_TANGENT_CELL_CLIPPER_H

@@ -3,7 +3,7 @@
 //
 // The predicates of the exact cells: the turn between two edges of a restricted
 // cell, and the side of a vertex with respect to a third equal-power plane. A vertex is implicit:
-// the tangent plane of s_i and the equal-power planes of i with two neighbours.
+// the tangent plane of s_i and the equal-power planes of i with two neighbors.
 //
 // The answers are exact for inputs taken as exact doubles: interval arithmetic first, an exact ring
 // (CGAL::Exact_kernel_selector: Mpzf or GMP) where an interval holds zero. Three lines through one
@@ -28,10 +28,7 @@
 #include <limits>
 #include <utility>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFExact
 /// Model of the concept `TangentCellTraits_3` for any CGAL kernel. The oracle's inputs are
@@ -79,8 +76,7 @@ struct Filter_statistics {
   }
 };
 
-namespace internal
-{
+namespace internal {
 
 /// Needs the FPU to round upward (`Protect_FPU_rounding`).
 using Filter_nt = Interval_nt_advanced;
@@ -155,8 +151,7 @@ struct Indexed_sample_3 {
 /// The turn from the edge that j makes in i's restricted cell to the edge that k makes.
 /// \tparam Traits a model of `TangentCellTraits_3`
 template <class Traits>
-class Orientation_in_tangent_plane_3
-{
+class Orientation_in_tangent_plane_3 {
   Traits m_traits;
 
 public:
@@ -197,8 +192,7 @@ public:
 /// The side of a vertex of i's restricted cell with respect to a further equal-power plane.
 /// \tparam Traits a model of `TangentCellTraits_3`
 template <class Traits>
-class Side_of_tangent_vertex_3
-{
+class Side_of_tangent_vertex_3 {
   Traits m_traits;
   Orientation_in_tangent_plane_3<Traits> m_orientation;
   Filter_statistics* m_statistics;
@@ -211,8 +205,7 @@ public:
   explicit Side_of_tangent_vertex_3(const Traits& traits = Traits(),
                                     Filter_statistics* statistics = nullptr)
       : m_traits(traits), m_orientation(traits), m_statistics(statistics)
-  {
-  }
+  {}
 
   /// The vertex is where the tangent plane (s_i, n) meets the equal-power planes of `i` with `j`
   /// and with `k`. ON_POSITIVE_SIDE when it has less power with respect to `i` than to `l` (`l`
@@ -253,7 +246,6 @@ public:
   }
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXACT_TANGENT_CELL_PREDICATES_H

@@ -12,7 +12,7 @@
 #ifndef CGAL_POWER_RTF_EXACT_TANGENT_LINES_H
 #define CGAL_POWER_RTF_EXACT_TANGENT_LINES_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
 #include <CGAL/PowerRTF/internal/compat.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 
@@ -21,12 +21,7 @@
 #include <cmath>
 #include <utility>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
 /// The projection of a tangent plane along a coordinate axis. `normal` is n_i or -n_i, so that
 /// its coordinate along `axis` is positive; (p, q) are the kept axes, in the order that makes a
@@ -132,8 +127,6 @@ Tangent_vertex<NT> crossing(const Tangent_line<NT>& j, const Tangent_line<NT>& k
   return v;
 }
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXACT_TANGENT_LINES_H

@@ -16,15 +16,9 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
-class Weighted_site_tree
-{
+class Weighted_site_tree {
   static constexpr int leaf_size = 8;
 
   struct Node {
@@ -114,8 +108,6 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXACT_WEIGHTED_SITE_TREE_H

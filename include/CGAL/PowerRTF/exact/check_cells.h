@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The comparison of any engine's cells with the oracle: first the cycles of
-// neighbours, which must be equal but for edges shorter than a rounding bound; then areas and
+// neighbors, which must be equal but for edges shorter than a rounding bound; then areas and
 // centroids.
 #ifndef CGAL_POWER_RTF_EXACT_CHECK_CELLS_H
 #define CGAL_POWER_RTF_EXACT_CHECK_CELLS_H
 
-#include <CGAL/PowerRTF/engines/Cell_polygon.h>
-#include <CGAL/PowerRTF/engines/Site_tree.h>
+#include <CGAL/PowerRTF/cells/Cell_polygon.h>
+#include <CGAL/PowerRTF/cells/Tree_cells.h>
 #include <CGAL/PowerRTF/exact/Exact_cells.h>
 #include <CGAL/PowerRTF/exact/Rounding_bound.h>
 #include <CGAL/PowerRTF/exact/construct_exact_cell.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/errors.h>
-#include <CGAL/PowerRTF/surface/Surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +22,7 @@
 #include <limits>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFExact
 /// Median, 99th percentile and maximum.
@@ -35,11 +33,11 @@ struct Error_distribution {
 /// \ingroup PkgPowerRTFExact
 /// The result of `check_cells()`. A cell is certified when the engine gives it a status other than
 /// `incomplete`; each status is a claim about the cell (see `construct_cell()`). It is right when
-/// its status is the oracle's and its cycle of neighbours is, but for edges below the rounding
+/// its status is the oracle's and its cycle of neighbors is, but for edges below the rounding
 /// bound: without the differing edges, the two cycles are one.
 struct Cell_comparison {
   std::size_t cells = 0;
-  std::size_t equal_cycles = 0;      ///< the oracle's neighbours in the oracle's order
+  std::size_t equal_cycles = 0;      ///< the oracle's neighbors in the oracle's order
   std::size_t certified_wrong = 0;   ///< must be 0
   std::size_t uncertified_right = 0; ///< incomplete, but with the oracle's cycle
   std::size_t uncertified_wrong = 0;
@@ -55,11 +53,9 @@ struct Cell_comparison {
   bool passed() const { return certified_wrong == 0; }
 };
 
-namespace internal
-{
+namespace internal {
 
-class Cell_checker
-{
+class Cell_checker {
   using Cells = Exact_cells<Exact_predicates_inexact_constructions_kernel>;
 
   const Cells& m_exact;
@@ -77,8 +73,7 @@ public:
   /// `spacing`: sqrt(mean area).
   Cell_checker(const Cells& exact, const Sites_view<double>& view, double spacing, double epsilon)
       : m_exact(exact), m_view(view), m_spacing(spacing), m_epsilon(epsilon)
-  {
-  }
+  {}
 
   Answer check(int i, const Cell_polygon& cell) const
   {
@@ -102,10 +97,15 @@ public:
     const bool is_small = !exact.reaches_square() && radius < guard * (1 - slack);
     bool is_status_right = true;
     switch (cell.status) {
-    case Cell_status::ok: is_status_right = !is_large; break;
-    case Cell_status::guarded: is_status_right = !is_small; break;
+    case Cell_status::ok:
+      is_status_right = !is_large;
+      break;
+    case Cell_status::guarded: // of an empty cell `compare()` tells whether it has an area
+      is_status_right = exact.is_empty() || !is_small;
+      break;
     case Cell_status::empty: // the whole cell, or else the guarded one
-    case Cell_status::incomplete: break;
+    case Cell_status::incomplete:
+      break;
     }
     if (cell.status == Cell_status::guarded || (cell.status != Cell_status::ok && is_large)) {
       exact = m_exact.cell_of_all(i, &square, &answer.predicates);
@@ -124,7 +124,7 @@ private:
   {
     std::vector<int> cycle = cell.neighbors;
     std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
-    answer.is_right = answer.is_equal = cycle == exact.neighbours;
+    answer.is_right = answer.is_equal = cycle == exact.neighbors;
     if (answer.is_equal) return;
 
     const Rounding_bound bound(m_view, i, 4 * (std::max)(guard, m_spacing), m_epsilon);
@@ -135,16 +135,16 @@ private:
     if (cycle.empty() || exact.is_empty()) {
       // Lines displaced by delta empty no polygon that holds a disc of radius delta; the area is
       // at most inradius times perimeter.
-      const std::vector<int>& edges = cycle.empty() ? exact.neighbours : cycle;
+      const std::vector<int>& edges = cycle.empty() ? exact.neighbors : cycle;
       double perimeter = 0;
       for (double l : cycle.empty() ? geometry.edge_lengths : lengths) perimeter += l;
       const double most = perimeter * bound.displacement(edges);
       answer.worst_edge = (cycle.empty() ? geometry.area : cell.area) / most;
       answer.differing_edges = int(edges.size());
     } else {
-      const std::vector<int> common = common_cycle(exact.neighbours, cell.neighbors);
-      add_missing(exact.neighbours, geometry.edge_lengths, common, cell.neighbors, bound, answer);
-      add_missing(cell.neighbors, lengths, common, exact.neighbours, bound, answer);
+      const std::vector<int> common = common_cycle(exact.neighbors, cell.neighbors);
+      add_missing(exact.neighbors, geometry.edge_lengths, common, cell.neighbors, bound, answer);
+      add_missing(cell.neighbors, lengths, common, exact.neighbors, bound, answer);
     }
     answer.is_right = answer.differing_edges > 0 && answer.worst_edge <= 1;
   }
@@ -188,9 +188,9 @@ private:
       for (int id : others)
         if (id != edges[k]) rest.push_back(id);
       const double most = rest.empty() ? 0 : bound.length_of(edges[k], rest);
-      answer.worst_edge = (std::max)(
-          answer.worst_edge,
-          most > 0 ? lengths[k] / most : std::numeric_limits<double>::infinity());
+      answer.worst_edge =
+          (std::max)(answer.worst_edge,
+                     most > 0 ? lengths[k] / most : std::numeric_limits<double>::infinity());
     }
   }
 
@@ -248,24 +248,27 @@ Cell_comparison check_cells(const Samples& samples, const std::vector<Cell_polyg
   const std::size_t n = samples.size();
   if (cells.size() > n || samples.normals.size() != n || samples.weights.size() != n)
     throw Invalid_input_error("samples and cells differ in number");
-  Site_tree<ConcurrencyTag> tree;
-  tree.resize(n, 1);
-  tree.guard_factor = guard_factor;
-  tree.normals = samples.normals;
-  tree.patches = samples.patches;
-  for (std::size_t i = 0; i < n; ++i) tree.sites[i] = {samples.points[i], samples.weights[i]};
+  Owned_sites sites;
+  sites.patches = samples.patches;
+  for (std::size_t i = 0; i < n; ++i)
+    sites.add(samples.points[i], samples.normals[i], samples.weights[i]);
+  Remeshing_options options;
+  options.guard_factor = guard_factor;
+  Host_backend<ConcurrencyTag> backend;
+  Tree_cells<double, Host_backend<ConcurrencyTag>> tree(backend, int(n), cos_angle, 1, options);
+  tree.set_sites(sites.arrays());
   double area = 0;
   for (const Cell_polygon& cell : cells) area += cell.area;
-  tree.refit();
   const auto view = tree.view();
   const Exact_cells<Exact_predicates_inexact_constructions_kernel> exact(
-      samples.points, samples.normals, samples.weights, cos_angle, Exact_neighbours::automatic,
+      samples.points, samples.normals, samples.weights, cos_angle, Exact_neighbors::automatic,
       samples.patches);
-  const internal::Cell_checker checker(exact, view, std::sqrt(area / double(cells.size())), epsilon);
+  const internal::Cell_checker checker(exact, view, std::sqrt(area / double(cells.size())),
+                                       epsilon);
 
   std::vector<internal::Cell_checker::Answer> answers(cells.size());
-  internal::for_each_index<ConcurrencyTag>(
-      int(cells.size()), [&](int i) { answers[i] = checker.check(i, cells[i]); });
+  internal::for_each_index<ConcurrencyTag>(int(cells.size()),
+                                           [&](int i) { answers[i] = checker.check(i, cells[i]); });
   Cell_comparison result;
   std::vector<double> area_errors, centroid_errors;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -291,7 +294,6 @@ Cell_comparison check_cells(const Samples& samples, const std::vector<Cell_polyg
   return result;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXACT_CHECK_CELLS_H

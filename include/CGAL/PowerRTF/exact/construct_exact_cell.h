@@ -14,10 +14,7 @@
 #include <cmath>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// A polygon of any size with the members of `Tangent_polygon` that its readers use.
 struct Exact_polygon {
@@ -31,8 +28,8 @@ struct Exact_polygon {
   void set(const Exact_cell& cell, const Exact_cell_geometry& geometry,
            const Tangent_frame<double>& frame)
   {
-    size = int(cell.neighbours.size());
-    neighbor = cell.neighbours;
+    size = int(cell.neighbors.size());
+    neighbor = cell.neighbors;
     x.clear();
     y.clear();
     for (int k = 0; k < size; ++k) { // geometry's vertex k ends edge k
@@ -83,7 +80,6 @@ void construct_exact_cell(const Exact_cells<Kernel>& cells, const Sites_view<dou
   sink(i, cell.is_empty() ? Cell_status::empty : Cell_status::guarded, polygon, frame);
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXACT_CONSTRUCT_EXACT_CELL_H

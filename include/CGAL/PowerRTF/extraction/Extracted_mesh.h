@@ -5,15 +5,12 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
 
-#include <CGAL/PowerRTF/surface/Surface.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
 
 #include <algorithm>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFSurface
 /// Triangles on the samples, in the coordinates of the unit box.
@@ -33,7 +30,6 @@ struct Extracted_mesh {
   }
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H

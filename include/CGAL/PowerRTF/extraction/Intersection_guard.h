@@ -22,15 +22,9 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
-class Intersection_guard
-{
+class Intersection_guard {
 public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
@@ -46,7 +40,8 @@ public:
 
   /// `sight`: by vertex.
   Intersection_guard(const Working_mesh& mesh, std::vector<Sight>&& sight)
-      : m(mesh), m_triangles(mesh.mesh), m_sight(std::move(sight)), m_is_inserted(mesh.mesh.number_of_faces(), false)
+      : m(mesh), m_triangles(mesh.mesh), m_sight(std::move(sight)),
+        m_is_inserted(mesh.mesh.number_of_faces(), false)
   {
     for (const Face f : m.mesh.faces()) insert(f);
   }
@@ -54,8 +49,7 @@ public:
   /// Watches the vertices around `u`.
   void watch_around(Vertex u)
   {
-    for (const Halfedge h : halfedges_around_target(u, m.mesh))
-      m_sight[m.mesh.source(h)] = watched;
+    for (const Halfedge h : halfedges_around_target(u, m.mesh)) m_sight[m.mesh.source(h)] = watched;
     for (const Halfedge h : halfedges_around_target(u, m.mesh))
       for (const Halfedge g : halfedges_around_target(m.mesh.source(h), m.mesh))
         if (!m.mesh.is_border(g) && !m_is_inserted[m.mesh.face(g)]) insert(m.mesh.face(g));
@@ -115,7 +109,6 @@ public:
   }
 
 private:
-  using Points = Face_triangles::Points;
   using Tree_point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
   using Tree_box = boost::geometry::model::box<Tree_point>;
   using Entry = std::pair<Tree_box, Face>;
@@ -123,7 +116,7 @@ private:
 
   Entry entry(Face f) const
   {
-    const Bbox_3 b = Face_triangles::box(m_triangles.points(m_triangles.corners(f)));
+    const Bbox_3 b = box_of(m_triangles.points(m_triangles.corners(f)));
     return {to_tree(b), f};
   }
   static Tree_box to_tree(const Bbox_3& b)
@@ -134,16 +127,16 @@ private:
   // The faces, none of `except`, that intersect the triangle; at most `most`.
   std::size_t count(const Corners& t, const Faces& except, std::size_t most) const
   {
-    const Points p = m_triangles.points(t);
-    const Bbox_3 b = Face_triangles::box(p);
+    const Triangle_points p = m_triangles.points(t);
+    const Bbox_3 b = box_of(p);
     std::size_t found = 0;
     for (auto it = m_tree.qbegin(boost::geometry::index::intersects(to_tree(b)));
          it != m_tree.qend() && found < most; ++it) {
       const Face f = it->second;
       if (std::find(except.begin(), except.end(), f) != except.end()) continue;
       const Corners u = m_triangles.corners(f);
-      const Points q = m_triangles.points(u);
-      if (!Face_triangles::is_degenerate(q) && triangles_intersect(t, p, u, q)) ++found;
+      const Triangle_points q = m_triangles.points(u);
+      if (!has_no_area(q) && triangles_intersect(t, p, u, q)) ++found;
     }
     return found;
   }
@@ -154,13 +147,13 @@ private:
   {
     std::size_t sum = 0;
     for (auto t = triangles.begin(); t != triangles.end() && sum < most; ++t) {
-      if (Face_triangles::is_degenerate(m_triangles.points(*t))) {
+      if (has_no_area(m_triangles.points(*t))) {
         ++sum;
         continue;
       }
       sum += count(*t, except, most - sum);
       for (auto u = triangles.begin(); u != t; ++u)
-        if (!Face_triangles::is_degenerate(m_triangles.points(*u)) &&
+        if (!has_no_area(m_triangles.points(*u)) &&
             triangles_intersect(*t, m_triangles.points(*t), *u, m_triangles.points(*u)))
           ++sum;
     }
@@ -206,8 +199,6 @@ private:
   Tree m_tree;                     // of the inserted faces' boxes
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXTRACTION_INTERSECTION_GUARD_H

@@ -17,12 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
 struct Working_mesh {
   using Point = Exact_predicates_inexact_constructions_kernel::Point_3;
@@ -56,8 +51,8 @@ struct Working_mesh {
     return {p.x(), p.y(), p.z()};
   }
 
-  /// The neighbours of `v` along creases and borders that must stay.
-  const std::vector<Vertex>& feature_neighbours(Vertex v) const
+  /// The neighbors of `v` along creases and borders that must stay.
+  const std::vector<Vertex>& feature_neighbors(Vertex v) const
   {
     static const std::vector<Vertex> none;
     const auto found = m_features.find(v);
@@ -66,16 +61,18 @@ struct Working_mesh {
   bool is_on_feature(Vertex v) const { return m_features.count(v) > 0; }
   bool is_feature(Vertex a, Vertex b) const
   {
-    const std::vector<Vertex>& near = feature_neighbours(a);
+    const std::vector<Vertex>& near = feature_neighbors(a);
     return std::find(near.begin(), near.end(), b) != near.end();
   }
   bool is_feature(Edge e) const
-  { return !m_features.empty() && is_feature(mesh.vertex(e, 0), mesh.vertex(e, 1)); }
+  {
+    return !m_features.empty() && is_feature(mesh.vertex(e, 0), mesh.vertex(e, 1));
+  }
 
-  /// Takes `u`, which has two neighbours along features, out of its curve; \pre `v` is one of them.
+  /// Takes `u`, which has two neighbors along features, out of its curve; \pre `v` is one of them.
   void shorten_feature(Vertex u, Vertex v)
   {
-    const std::vector<Vertex>& ends = feature_neighbours(u);
+    const std::vector<Vertex>& ends = feature_neighbors(u);
     const Vertex w = ends[0] == v ? ends[1] : ends[0];
     std::vector<Vertex>&at_v = m_features[v], &at_w = m_features[w];
     *std::find(at_v.begin(), at_v.end(), u) = w;
@@ -148,7 +145,9 @@ struct Working_mesh {
   /// The cosine between a vector of length `l` and the normal at `v`; 1 on creases and borders,
   /// where a normal says little about the triangles.
   double agreement(const Vec3d& n, double l, Vertex v) const
-  { return !m_features.empty() && is_on_feature(v) ? 1 : dot(n, normals[v]) / l; }
+  {
+    return !m_features.empty() && is_on_feature(v) ? 1 : dot(n, normals[v]) / l;
+  }
 
   /// Shape of a triangle: 1 equilateral, 0 without area (mean ratio).
   double shape(Vertex a, Vertex b, Vertex c) const
@@ -168,8 +167,6 @@ private:
   std::unordered_map<Vertex, std::vector<Vertex>> m_features;
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Second half of "insertion and decimation": every vertex that is no sample
-// is removed by collapsing it into a neighbour. The link condition (Dey et al., "Topology
+// is removed by collapsing it into a neighbor. The link condition (Dey et al., "Topology
 // preserving edge contraction", 1999) holds for each collapse, so the mesh stays homeomorphic to
 // the surface. Each pass removes vertices that are far apart and flips the edges around them to
 // Delaunay, so degrees stay small and the cost is linear. Vertices that cannot go are tried again
@@ -15,18 +15,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
-class Decimator
-{
+class Decimator {
 public:
   /// What `guard` forbids is not done.
   Decimator(Working_mesh& mesh, Edge_flipper& flipper, Intersection_guard* guard = nullptr)
@@ -93,26 +88,26 @@ private:
     bool operator<(const Candidate& o) const { return shape > o.shape; }
   };
 
-  // Collapses u into the neighbour that leaves the best triangles. At a border without samples
+  // Collapses u into the neighbor that leaves the best triangles. At a border without samples
   // there may be none: the border then recedes to the samples.
   bool remove(Vertex u)
   {
     Cancellation::poll();
     m_ring.clear();
     for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
-    const std::vector<Vertex>& curve = m.feature_neighbours(u);
+    const std::vector<Vertex>& curve = m.feature_neighbors(u);
     if (!curve.empty())
       return curve.size() == 2 && !m.is_feature(curve[0], curve[1]) &&
-             collapse_to_neighbour(u, [&](Halfedge h) { return m.is_feature(u, m.mesh.target(h)); });
+             collapse_to_neighbor(u, [&](Halfedge h) { return m.is_feature(u, m.mesh.target(h)); });
     const auto anywhere = [](Halfedge) { return true; };
-    if (!m.mesh.is_border(u)) return collapse_to_neighbour(u, anywhere);
+    if (!m.mesh.is_border(u)) return collapse_to_neighbor(u, anywhere);
     const auto along_border = [&](Halfedge h) { return m.mesh.is_border(m.mesh.edge(h)); };
-    return collapse_to_neighbour(u, along_border) || (m_borders_may_recede && cut_off()) ||
-           (m_borders_may_recede && collapse_to_neighbour(u, anywhere));
+    return collapse_to_neighbor(u, along_border) || (m_borders_may_recede && cut_off()) ||
+           (m_borders_may_recede && collapse_to_neighbor(u, anywhere));
   }
 
   template <class IsAllowed>
-  bool collapse_to_neighbour(Vertex u, IsAllowed is_allowed)
+  bool collapse_to_neighbor(Vertex u, IsAllowed is_allowed)
   {
     m_candidates.clear();
     for (const Halfedge h : m_ring) {
@@ -210,12 +205,12 @@ private:
   // The faces at `u` move out of their facets unless all are in the same.
   void leave_facets(Vertex u)
   {
-    int facet = -1;
+    std::optional<int> facet;
     bool is_one = true;
     for (const Halfedge h : m_ring) {
       if (m.mesh.is_border(h)) continue;
       const int f = m.facets[m.mesh.face(h)];
-      is_one = is_one && (facet < 0 || f == facet);
+      is_one = is_one && f == facet.value_or(f);
       facet = f;
     }
     if (is_one && !m.mesh.is_border(u)) return;
@@ -247,8 +242,8 @@ private:
   Working_mesh& m;
   Edge_flipper& m_flipper;
   Intersection_guard* m_guard; // or none
-  std::vector<Vertex> m_rest; // no samples: still to be removed
-  std::vector<int> m_touched; // by vertex: the last pass that changed something around it
+  std::vector<Vertex> m_rest;  // no samples: still to be removed
+  std::vector<int> m_touched;  // by vertex: the last pass that changed something around it
   std::vector<Halfedge> m_ring;
   std::vector<Candidate> m_candidates;
   int m_pass = 0;
@@ -256,8 +251,6 @@ private:
   bool m_borders_may_recede = false;
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXTRACTION_DECIMATE_H

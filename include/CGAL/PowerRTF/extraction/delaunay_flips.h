@@ -20,15 +20,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
-class Edge_flipper
-{
+class Edge_flipper {
 public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
@@ -39,8 +33,7 @@ public:
   Edge_flipper(Working_mesh& mesh, double good_agreement, Intersection_guard* guard = nullptr)
       : m(mesh), m_guard(guard), m_good_agreement(good_agreement),
         m_waiting(mesh.mesh.num_edges(), false), m_flips(mesh.mesh.num_edges(), 0)
-  {
-  }
+  {}
 
   /// Marks an edge to be looked at by the next `run()`.
   void push(Edge e)
@@ -79,7 +72,9 @@ public:
 
   /// True if the edge can be flipped without a change of topology or of features.
   bool is_legal(Edge e) const
-  { return m.is_flippable(e) && !m.is_feature(e) && !(m_guard && m_guard->forbids_flip(e)); }
+  {
+    return m.is_flippable(e) && !m.is_feature(e) && !(m_guard && m_guard->forbids_flip(e));
+  }
 
   void flip(Edge e)
   {
@@ -171,8 +166,6 @@ private:
   std::vector<unsigned int> m_flips; // by edge
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXTRACTION_DELAUNAY_FLIPS_H

@@ -19,16 +19,13 @@
 #include <type_traits>
 #include <vector>
 
-namespace CGAL
-{
+namespace CGAL {
 
 template <class Point>
 class Surface_mesh;
 
-namespace PowerRTF
-{
-namespace internal
-{
+namespace PowerRTF {
+namespace internal {
 
 template <class Point>
 Point from_vec3d(const Vec3d& p)

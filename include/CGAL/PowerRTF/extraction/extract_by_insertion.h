@@ -12,14 +12,10 @@
 #include <CGAL/PowerRTF/extraction/extract_guarded.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/remove_intersections.h>
-#include <CGAL/PowerRTF/quality/self_intersections.h>
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF {
+namespace internal {
 
 inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Samples& samples)
 {
@@ -42,7 +38,7 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
   }
   result.sort_triangles();
   for (const auto v : mesh.vertices())
-    for (const auto w : working.feature_neighbours(v))
+    for (const auto w : working.feature_neighbors(v))
       if (name[v] < name[w]) result.feature_edges.push_back({name[v], name[w]});
   std::sort(result.feature_edges.begin(), result.feature_edges.end());
   return result;
@@ -90,25 +86,25 @@ inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples
 
   // Where the samples are too sparse: more carefully there, and more widely if that does not help.
   std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
+  if (sparse.empty()) return result;
   std::size_t fewest = sparse.size();
   std::vector<internal::Ball> guarded;
   const bool is_input_simple = self_intersections(surface.points, surface.triangles) == 0;
   for (const double reach : {2., 8., 1e3}) {
-    if (sparse.empty()) break;
     guarded.insert(guarded.end(), sparse.begin(), sparse.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, is_input_simple);
+    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach,
+                                            is_input_simple);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
     if (sparse.size() < fewest) {
       fewest = sparse.size();
       result = internal::to_extracted_mesh(extraction.mesh(), samples);
     }
-    if (extraction.is_hopeless()) break;
+    if (sparse.empty() || extraction.is_hopeless()) break;
   }
   return result;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H

@@ -12,9 +12,9 @@
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/geometry/point_grid.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/surface/feature_samples.h>
-#include <CGAL/PowerRTF/surface/point_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
 struct Ball {
   Vec3d center;
@@ -54,8 +49,7 @@ inline std::vector<Ball> sparse_places(const Working_mesh& m)
   return balls;
 }
 
-class Guarded_extraction
-{
+class Guarded_extraction {
 public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
@@ -68,8 +62,7 @@ public:
       : m_may_go(may_go(samples, features)), m_is_input_simple(is_input_simple),
         m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
         m_flipper(m, 0.1, &m_guard)
-  {
-  }
+  {}
 
   void run()
   {
@@ -169,7 +162,7 @@ private:
   }
 
   // Samples that are so many edges away from the vertices that are to stay, no two of them
-  // neighbours, those first over whose neighbours the mesh is least high; no more than needed.
+  // neighbors, those first over whose neighbors the mesh is least high; no more than needed.
   // `at_once`: only those that can be collapsed as the mesh is now. A small component may have
   // none: it would only give back what it takes.
   std::vector<Vertex> removable_samples(Place place, int rings, bool at_once)
@@ -213,7 +206,7 @@ private:
   bool is_at(Place place, Vertex v) const
   {
     if (place == Place::inside) return !m.is_on_feature(v) && !m.mesh.is_border(v);
-    const std::vector<Vertex>& curve = m.feature_neighbours(v);
+    const std::vector<Vertex>& curve = m.feature_neighbors(v);
     return curve.size() == 2 && !m.is_feature(curve[0], curve[1]);
   }
 
@@ -238,8 +231,6 @@ private:
   Edge_flipper m_flipper;
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H

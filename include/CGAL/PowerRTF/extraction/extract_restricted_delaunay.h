@@ -8,7 +8,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_RESTRICTED_DELAUNAY_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/surface/feature_samples.h>
+#include <CGAL/PowerRTF/features/feature_samples.h>
 #include <CGAL/PowerRTF/internal/compat.h>
 
 #include <CGAL/AABB_tree.h>
@@ -22,15 +22,10 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF {
+namespace internal {
 
-class Restricted_delaunay_extractor
-{
+class Restricted_delaunay_extractor {
 public:
   Restricted_delaunay_extractor(const Surface& surface, const Samples& samples)
       : m_surface(surface), m_samples(samples)
@@ -87,7 +82,7 @@ private:
   }
 
   // The dual Voronoi edge: a segment, a ray where one of the cells is infinite (or so flat that its
-  // circumcentre is), a line in a planar triangulation.
+  // circumcenter is), a line in a planar triangulation.
   bool dual_meets_surface(const Facet& f) const
   {
     const auto v = corners(f);
@@ -153,7 +148,6 @@ inline Extracted_mesh extract_restricted_delaunay(const Surface& surface, const 
   return mesh;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXTRACTION_EXTRACT_RESTRICTED_DELAUNAY_H

@@ -12,9 +12,9 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 #define CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 
+#include <CGAL/PowerRTF/features/feature_samples.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/errors.h>
-#include <CGAL/PowerRTF/surface/feature_samples.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -31,12 +31,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
 /// The surface with the samples as additional vertices.
 struct Refined_surface {
@@ -49,8 +44,7 @@ struct Refined_surface {
 };
 
 /// Builds a `Refined_surface`. The result does not depend on the samples' order.
-class Sample_inserter
-{
+class Sample_inserter {
 public:
   /// `features`: places of the last samples.
   /// \throw Invalid_input_error if a sample names no facet of the surface or is not finite.
@@ -227,7 +221,7 @@ private:
     }
   }
 
-  // Equal places on an edge become neighbouring ones.
+  // Equal places on an edge become neighboring ones.
   void separate_edge_places()
   {
     std::sort(m_on_edges.begin(), m_on_edges.end(), [](const Edge_sample& a, const Edge_sample& b) {
@@ -334,8 +328,6 @@ inline Refined_surface insert_samples(const Surface& surface, const Samples& sam
   return Sample_inserter(surface, samples, features).release();
 }
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H

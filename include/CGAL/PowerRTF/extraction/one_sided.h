@@ -8,8 +8,8 @@
 #define CGAL_POWER_RTF_EXTRACTION_ONE_SIDED_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/surface/cut_surface.h>
-#include <CGAL/PowerRTF/surface/feature_samples.h>
+#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/geometry/cut_surface.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -17,8 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// A surface cut along its seams, with its samples.
 class Opened_surface {
@@ -64,7 +63,8 @@ public:
         for (const int v : copies[p.from]) places.push_back({v, v, 0});
       else
         for (const Edge& e : edge_copies[sorted_edge(p.from, p.to)])
-          places.push_back(p.from < p.to ? Edge_place{e[0], e[1], p.at} : Edge_place{e[1], e[0], p.at});
+          places.push_back(p.from < p.to ? Edge_place{e[0], e[1], p.at}
+                                         : Edge_place{e[1], e[0], p.at});
       m_features.places.push_back(places.front());
       for (std::size_t c = 1; c < places.size(); ++c) {
         twins.push_back(places[c]);
@@ -117,7 +117,6 @@ private:
   std::size_t m_first_feature, m_first_twin;
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_EXTRACTION_ONE_SIDED_H

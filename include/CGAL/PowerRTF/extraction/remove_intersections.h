@@ -15,21 +15,14 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
-class Intersection_remover
-{
+class Intersection_remover {
 public:
   Intersection_remover(Working_mesh& mesh, Edge_flipper& flipper)
       : m(mesh), m_flipper(flipper), m_triangles(mesh.mesh), m_finder(mesh.mesh),
         m_has_changed(mesh.mesh.num_faces())
-  {
-  }
+  {}
 
   /// \returns the number of intersecting pairs of triangles that are left.
   std::size_t run()
@@ -37,7 +30,8 @@ public:
     std::vector<Face_pair> pairs = m_finder.all();
     for (int round = 0; round < max_rounds && !pairs.empty() && m_tests < max_tests; ++round) {
       std::fill(m_has_changed.begin(), m_has_changed.end(), false);
-      for (const Face_pair& pair : pairs) separate(pair);
+      for (const Face_pair& pair : pairs)
+        if (m_tests < max_tests) separate(pair);
       pairs = m_finder.updated(std::move(pairs), m_has_changed);
     }
     return pairs.size();
@@ -53,7 +47,7 @@ private:
 
   static constexpr int max_rounds = 5;
   static constexpr int max_flips = 8; // for each pair
-  // Of pairs of triangles, a second's work: hopeless cases must not cost minutes.
+  // Of pairs of triangles: hopeless cases must not cost minutes.
   static constexpr std::size_t max_tests = 4000000;
   static constexpr int rings = 2;
 
@@ -123,12 +117,11 @@ private:
 
   bool meet(Face f, Face g) const
   {
-    const auto p = m_triangles.points(m_triangles.corners(f));
-    if (f == g) return Face_triangles::is_degenerate(p);
-    const auto q = m_triangles.points(m_triangles.corners(g));
-    return do_overlap(Face_triangles::box(p), Face_triangles::box(q)) &&
-           !Face_triangles::is_degenerate(p) && !Face_triangles::is_degenerate(q) &&
-           m_triangles.intersect(f, g);
+    const Triangle_points p = m_triangles.points(m_triangles.corners(f));
+    if (f == g) return has_no_area(p);
+    const Triangle_points q = m_triangles.points(m_triangles.corners(g));
+    return do_overlap(box_of(p), box_of(q)) && !has_no_area(p) && !has_no_area(q) &&
+           m_finder.intersect(f, g);
   }
 
   double worst_shape(Edge e) const
@@ -143,16 +136,24 @@ private:
   Faces faces_around(Faces faces, int n) const
   {
     for (; n > 0; --n) {
-      Faces more;
+      std::vector<Vertex> vertices;
       for (const Face f : faces)
-        for (const Halfedge h : m.mesh.halfedges_around_face(m.mesh.halfedge(f)))
-          for (const Halfedge g : m.mesh.halfedges_around_target(h))
-            if (!m.mesh.is_border(g)) more.push_back(m.mesh.face(g));
-      std::sort(more.begin(), more.end());
-      more.erase(std::unique(more.begin(), more.end()), more.end());
-      faces.swap(more);
+        for (const Vertex v : m_triangles.corners(f)) vertices.push_back(v);
+      sort_uniquely(vertices);
+      faces.clear();
+      for (const Vertex v : vertices)
+        for (const Halfedge g : m.mesh.halfedges_around_target(m.mesh.halfedge(v)))
+          if (!m.mesh.is_border(g)) faces.push_back(m.mesh.face(g));
+      sort_uniquely(faces);
     }
     return faces;
+  }
+
+  template <class T>
+  static void sort_uniquely(std::vector<T>& items)
+  {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
   }
 
   std::vector<Edge> edges_of(const Faces& faces) const
@@ -161,8 +162,7 @@ private:
     for (const Face f : faces)
       for (const Halfedge h : m.mesh.halfedges_around_face(m.mesh.halfedge(f)))
         edges.push_back(m.mesh.edge(h));
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_uniquely(edges);
     return edges;
   }
 
@@ -174,8 +174,6 @@ private:
   std::size_t m_tests = 0;
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_EXTRACTION_REMOVE_INTERSECTIONS_H

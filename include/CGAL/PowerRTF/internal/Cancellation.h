@@ -8,20 +8,15 @@
 #include <chrono>
 #include <functional>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
-/// A visitor has stopped the run; thrown by `Cancellation::poll()` alone.
+/// A visitor has stopped the run; thrown by `Cancellation::poll()` and, before the run, by the
+/// program's readers.
 struct Run_cancelled {};
 
 /// While it lives, loops that may take long, on the thread that made it, ask the visitor whether
 /// the run goes on. Loops on other threads do not ask.
-class Cancellation
-{
+class Cancellation {
 public:
   /// \param visitor is asked by `go_further()`
   template <class Visitor>
@@ -76,8 +71,6 @@ bool run_unless_cancelled(Visitor& visitor, Stage&& stage)
   }
 }
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_INTERNAL_CANCELLATION_H

@@ -5,9 +5,7 @@
 
 #include <chrono>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL::PowerRTF::internal {
 
 /// Adds the wall-clock seconds of its own lifetime to a total.
 class Stopwatch {
@@ -23,8 +21,6 @@ private:
   Clock::time_point m_start;
 };
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_INTERNAL_STOPWATCH_H

@@ -3,10 +3,9 @@
 #ifndef CGAL_POWER_RTF_INTERNAL_TOTALS_H
 #define CGAL_POWER_RTF_INTERNAL_TOTALS_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/internal/host_device.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// What a reduction gathers, in double precision.
 template <int Sums, int Maxima>
@@ -33,7 +32,6 @@ struct Totals {
   }
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_INTERNAL_TOTALS_H

@@ -19,12 +19,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF::internal {
 
 #if CGAL_VERSION_NR >= 1060000000
 template <class GeomTraits, class Primitive>
@@ -38,8 +33,6 @@ template <class GeomTraits, class Iterator>
 using AABB_triangle_primitive_3 = CGAL::AABB_triangle_primitive<GeomTraits, Iterator>;
 #endif
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_INTERNAL_COMPAT_H

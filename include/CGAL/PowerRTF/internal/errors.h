@@ -5,8 +5,7 @@
 
 #include <stdexcept>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFRef
 /// The input mesh or a parameter cannot be used; `what()` says why.
@@ -15,7 +14,6 @@ public:
   using std::invalid_argument::invalid_argument;
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_INTERNAL_ERRORS_H

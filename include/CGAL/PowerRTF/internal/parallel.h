@@ -13,15 +13,14 @@
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #endif
 
 #include <algorithm>
 #include <type_traits>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
-namespace internal {
+namespace CGAL::PowerRTF::internal {
 
 /// Calls `f(begin, end)` for consecutive chunks of [0, n) of at most `chunk` items.
 template <class ConcurrencyTag, class F>
@@ -71,16 +70,25 @@ T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
   return total;
 }
 
+/// Sorts items that all differ.
+template <class ConcurrencyTag, class Iterator>
+void sort(Iterator begin, Iterator end)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if constexpr (std::is_convertible<ConcurrencyTag, Parallel_tag>::value)
+    return tbb::parallel_sort(begin, end);
+#endif
+  std::sort(begin, end);
+}
+
 /// Sum of `f(i)` over [0, n).
 template <class ConcurrencyTag, class F>
 double sum(int n, F&& f)
 {
-  return reduce<ConcurrencyTag>(n, 0.0, [&](double& s, int i) { s += f(i); },
-                                [](double& s, double p) { s += p; });
+  return reduce<ConcurrencyTag>(
+      n, 0.0, [&](double& s, int i) { s += f(i); }, [](double& s, double p) { s += p; });
 }
 
-} // namespace internal
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF::internal
 
 #endif // CGAL_POWER_RTF_INTERNAL_PARALLEL_H

@@ -3,14 +3,13 @@
 #ifndef CGAL_POWER_RTF_OPTIMIZATION_LAPLACIAN_ROWS_H
 #define CGAL_POWER_RTF_OPTIMIZATION_LAPLACIAN_ROWS_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
 
 #include <cstddef>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
-/// The Laplacian of the cells (see `newton_weights_direction()`) in rows that are padded to one
+/// The Laplacian of the cells (see `Newton_solver`) in rows that are padded to one
 /// length: entry k of row i at [k * n + i].
 template <class Real>
 struct Laplacian_rows {
@@ -23,7 +22,9 @@ struct Laplacian_rows {
 
   CGAL_POWER_RTF_HD std::size_t place(int k, int i) const { return std::size_t(k) * n + i; }
   CGAL_POWER_RTF_HD double inverse_diagonal(int i) const
-  { return diagonal[i] > 0 ? 1 / diagonal[i] : 0; }
+  {
+    return diagonal[i] > 0 ? 1 / diagonal[i] : 0;
+  }
 
   /// Where among the first `length` entries of row i the one of column j is; else `length`.
   CGAL_POWER_RTF_HD int entry(int i, int j, int length) const
@@ -53,7 +54,6 @@ struct Laplacian_rows {
   }
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_OPTIMIZATION_LAPLACIAN_ROWS_H

@@ -8,80 +8,20 @@
 
 #include <cmath>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
-/// Conjugate gradients for the Laplacian of the cells, preconditioned by `Multigrid`.
-template <class Real, class Backend>
-class Multigrid_gradients {
-public:
-  explicit Multigrid_gradients(Backend& backend) : m_backend(backend), m_multigrid(backend)
-  { m_state.allocate(backend, 1); }
+namespace internal {
 
-  /// Solves for x. `r`: the right side before, the residual after. It is enough where all residuals
-  /// are at most `limits` (or null), or their norm is at most `tolerance` times the first.
-  /// \returns the number of iterations; -1 if there were numbers that are none, x is then 0.
-  int solve(const Laplacian_rows<Real>& rows, double* x, double* r, const double* limits,
-            double tolerance);
-
-  // Public for the device compiler alone.
-  struct State { // on the device
-    double rz, alpha, beta, curvature, squares, above;
-  };
-  void begin(double* x, double* r, const double* limits);
-  void find_direction(const double* r, bool is_first);
-  void step(double* x, double* r, const double* limits);
-
-private:
-  static constexpr int most = 200; // iterations; some 40 are usual
-  template <class T>
-  using Buffer = typename Backend::template Buffer<T>;
-
-  State state()
-  {
-    State s;
-    m_backend.download(&s, m_state.data(), 1);
-    return s;
-  }
-
-  Backend& m_backend;
-  Multigrid<Real, Backend> m_multigrid;
-  Laplacian_rows<Real> m_rows;
-  int m_now = 0; // which of the two directions
-  Buffer<double> m_direction[2], m_product;
-  Buffer<State> m_state;
+struct Gradients_state { // where the loops run
+  double rz, alpha, beta, curvature, squares, above;
 };
 
+/// x and the first direction become 0.
 template <class Real, class Backend>
-int Multigrid_gradients<Real, Backend>::solve(const Laplacian_rows<Real>& rows, double* x,
-                                              double* r, const double* limits, double tolerance)
+void begin_gradients(Backend& backend, const Laplacian_rows<Real>& a, double* x, double* r,
+                     const double* limits, double* direction, Gradients_state* state)
 {
-  m_rows = rows;
-  for (Buffer<double>* b : {&m_direction[0], &m_direction[1], &m_product})
-    b->allocate(m_backend, rows.n);
-  m_multigrid.set_rows(rows);
-  begin(x, r, limits);
-  State s = state();
-  const double enough = tolerance * tolerance * s.squares;
-  int iterations = 0;
-  for (; iterations < most && s.squares > enough && s.above > 0; ++iterations) {
-    find_direction(r, iterations == 0);
-    step(x, r, limits);
-    s = state();
-    if (!(s.curvature > 0)) break;
-  }
-  if (s.squares < 1e300) return iterations;
-  m_backend.fill(x, 0., rows.n);
-  return -1;
-}
-
-template <class Real, class Backend>
-void Multigrid_gradients<Real, Backend>::begin(double* x, double* r, const double* limits)
-{
-  const Laplacian_rows<Real> a = m_rows;
-  State* const state = m_state.data();
-  double* const direction = m_direction[m_now].data();
-  m_backend.template reduce<2, 0>(
+  backend.template reduce<2, 0>(
       a.n,
       [=] CGAL_POWER_RTF_HD(int i, Totals<2, 0>& t) {
         if (!(a.diagonal[i] > 0)) r[i] = 0; // nothing can be done for this cell
@@ -89,28 +29,22 @@ void Multigrid_gradients<Real, Backend>::begin(double* x, double* r, const doubl
         t.add(0, r[i] * r[i]);
         t.add(1, !limits || std::fabs(r[i]) > limits[i]);
       },
-      [=] CGAL_POWER_RTF_HD(const Totals<2, 0>& t) {
-        *state = {0, 0, 0, 0, t.sum(0), t.sum(1)};
-      });
+      [=] CGAL_POWER_RTF_HD(const Totals<2, 0>& t) { *state = {0, 0, 0, 0, t.sum(0), t.sum(1)}; });
 }
 
+/// The next direction from the preconditioned residual z, and its product with the matrix.
 template <class Real, class Backend>
-void Multigrid_gradients<Real, Backend>::find_direction(const double* r, bool is_first)
+void find_direction(Backend& backend, const Laplacian_rows<Real>& a, const double* r, const Real* z,
+                    bool is_first, const double* before, double* direction, double* product,
+                    Gradients_state* state)
 {
-  const Laplacian_rows<Real> a = m_rows;
-  State* const state = m_state.data();
-  const Real* const z = m_multigrid.apply(r);
-  m_backend.template reduce<1, 0>(
+  backend.template reduce<1, 0>(
       a.n, [=] CGAL_POWER_RTF_HD(int i, Totals<1, 0>& t) { t.add(0, r[i] * z[i]); },
       [=] CGAL_POWER_RTF_HD(const Totals<1, 0>& t) {
         state->beta = is_first ? 0 : t.sum(0) / state->rz;
         state->rz = t.sum(0);
       });
-  const double* const before = m_direction[m_now].data();
-  m_now = 1 - m_now;
-  double* const direction = m_direction[m_now].data();
-  double* const product = m_product.data();
-  m_backend.template reduce<1, 0>(
+  backend.template reduce<1, 0>(
       a.n,
       [=] CGAL_POWER_RTF_HD(int i, Totals<1, 0>& t) {
         const double beta = state->beta;
@@ -126,13 +60,12 @@ void Multigrid_gradients<Real, Backend>::find_direction(const double* r, bool is
       });
 }
 
-template <class Real, class Backend>
-void Multigrid_gradients<Real, Backend>::step(double* x, double* r, const double* limits)
+template <class Backend>
+void step_along(Backend& backend, int n, const double* direction, const double* product, double* x,
+                double* r, const double* limits, Gradients_state* state)
 {
-  const double *const direction = m_direction[m_now].data(), *const product = m_product.data();
-  State* const state = m_state.data();
-  m_backend.template reduce<2, 0>(
-      m_rows.n,
+  backend.template reduce<2, 0>(
+      n,
       [=] CGAL_POWER_RTF_HD(int i, Totals<2, 0>& t) {
         x[i] += state->alpha * direction[i];
         r[i] -= state->alpha * product[i];
@@ -145,7 +78,72 @@ void Multigrid_gradients<Real, Backend>::step(double* x, double* r, const double
       });
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace internal
+
+/// Conjugate gradients for the Laplacian of the cells, preconditioned by `Multigrid`.
+template <class Real, class Backend>
+class Multigrid_gradients {
+public:
+  explicit Multigrid_gradients(Backend& backend) : m_backend(backend), m_multigrid(backend)
+  {
+    m_state.allocate(backend, 1);
+  }
+
+  /// Solves for x. `r`: the right side before, the residual after. It is enough where all residuals
+  /// are at most `limits` (or null), or their norm is at most `tolerance` times the first.
+  /// \returns the number of iterations; -1 if there were numbers that are none, x is then 0.
+  int solve(const Laplacian_rows<Real>& rows, double* x, double* r, const double* limits,
+            double tolerance);
+
+private:
+  static constexpr int max_iterations = 200; // some 40 are usual
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  using State = internal::Gradients_state;
+
+  State state()
+  {
+    State s;
+    m_backend.download(&s, m_state.data(), 1);
+    return s;
+  }
+
+  Backend& m_backend;
+  Multigrid<Real, Backend> m_multigrid;
+  int m_now = 0; // which of the two directions
+  Buffer<double> m_direction[2], m_product;
+  Buffer<State> m_state;
+};
+
+template <class Real, class Backend>
+int Multigrid_gradients<Real, Backend>::solve(const Laplacian_rows<Real>& rows, double* x,
+                                              double* r, const double* limits, double tolerance)
+{
+  for (Buffer<double>* b : {&m_direction[0], &m_direction[1], &m_product})
+    b->allocate(m_backend, rows.n);
+  m_multigrid.set_rows(rows);
+  internal::begin_gradients(m_backend, rows, x, r, limits, m_direction[m_now].data(),
+                            m_state.data());
+  State s = state();
+  const double enough = tolerance * tolerance * s.squares;
+  int iterations = 0;
+  for (; iterations < max_iterations && s.squares > enough && s.above > 0; ++iterations) {
+    const Real* const z = m_multigrid.apply(r);
+    const double* const before = m_direction[m_now].data();
+    m_now = 1 - m_now;
+    double *const direction = m_direction[m_now].data(), *const product = m_product.data();
+    internal::find_direction(m_backend, rows, r, z, iterations == 0, before, direction, product,
+                             m_state.data());
+    internal::step_along(m_backend, rows.n, direction, product, x, r, limits, m_state.data());
+    s = state();
+    if (!(s.curvature > 0)) break;
+  }
+  if (s.squares < 1e300) return iterations;
+  m_backend.fill(x, 0., rows.n);
+  return -1;
+}
+
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_OPTIMIZATION_MULTIGRID_GRADIENTS_H

@@ -8,18 +8,17 @@
 #ifndef CGAL_POWER_RTF_OPTIMIZATION_MULTIPLICATIVE_WEIGHTS_H
 #define CGAL_POWER_RTF_OPTIMIZATION_MULTIPLICATIVE_WEIGHTS_H
 
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 struct Multiplicative_weight_rule {
-  double tolerance;    ///< gamma; 0: the limit of the rule (CCCPD), a step in proportion
-  double step;         ///< tau
-  bool round_down;     ///< alpha as printed in the paper
-  double mean_mass;    ///< the interval is [(1 - gamma), (1 + gamma)] times this
+  double tolerance; ///< gamma; 0: the limit of the rule (CCCPD), a step in proportion
+  double step;      ///< tau
+  bool round_down;  ///< alpha as printed in the paper
+  double mean_mass; ///< the interval is [(1 - gamma), (1 + gamma)] times this
 
-  /// The change of w_i for a cell of mass `mass` whose nearest neighbour is at `distance` (D_i).
+  /// The change of w_i for a cell of mass `mass` whose nearest neighbor is at `distance` (D_i).
   CGAL_POWER_RTF_HD double operator()(double mass, double distance) const
   {
     const double d2 = distance * distance;
@@ -37,7 +36,6 @@ struct Multiplicative_weight_rule {
   }
 };
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_OPTIMIZATION_MULTIPLICATIVE_WEIGHTS_H

@@ -11,11 +11,10 @@
 
 #include <cstddef>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
-/// Whether weights can give a cell its share of the area. At tips that are narrower than the spacing
-/// none can: to count these cells would keep all others from their shares.
+/// Whether weights can give a cell its share of the area. At tips that are narrower than the
+/// spacing none can: to count these cells would keep all others from their shares.
 ///
 /// \param capacity rho_i A(F_i)
 /// \param mean of the capacities of the cells that are not guarded
@@ -41,7 +40,6 @@ inline bool may_leave_out(std::size_t vanishing, std::size_t left_out, std::size
   return vanishing > 0 && 100 * (left_out + vanishing) <= n;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_OPTIMIZATION_NEWTON_STEP_RULES_H

@@ -8,12 +8,11 @@
 #define CGAL_POWER_RTF_OPTIMIZATION_USABLE_CELLS_H
 
 #include <CGAL/PowerRTF/cells/construct_cell.h>
-#include <CGAL/PowerRTF/cells/vector.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
 
 #include <cmath>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 /// Whether a cell stands for the surface around its sample.
 ///
@@ -45,7 +44,35 @@ CGAL_POWER_RTF_HD Vec3<Real> cautious_step(const Vec3<Real>& offset, Real area, 
   return shortened(offset * Real(0.5), area < usual_area ? area : usual_area);
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+/// The cells of an engine by arrays.
+template <class Real>
+struct Usable_cells {
+  const Real *area, *mass, *density;
+  const unsigned char* status;
+  double mean_mass; ///< of the first cells
+
+  /// rho_i A(F_i)
+  CGAL_POWER_RTF_HD double capacity(int i) const { return double(density[i]) * area[i]; }
+  CGAL_POWER_RTF_HD bool is_usable(int i) const
+  {
+    return PowerRTF::is_usable(Cell_status(status[i]), mass[i], capacity(i), mean_mass);
+  }
+};
+
+/// Lloyd's method: to the center of mass. A sample with an empty cell stays.
+template <class Real>
+struct Lloyd_step {
+  Usable_cells<Real> cells;
+  const Vec3<Real>* offset; ///< c_i - s_i
+
+  CGAL_POWER_RTF_HD Vec3<Real> operator()(int i) const
+  {
+    if (cells.status[i] == int(Cell_status::empty)) return {0, 0, 0};
+    if (cells.is_usable(i)) return offset[i];
+    return cautious_step(offset[i], cells.area[i], Real(cells.mean_mass / cells.density[i]));
+  }
+};
+
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_OPTIMIZATION_USABLE_CELLS_H

@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_QUALITY_ASSESS_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/quality/self_intersections.h>
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 #include <CGAL/PowerRTF/quality/triangle_quality.h>
@@ -15,8 +15,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL {
-namespace PowerRTF {
+namespace CGAL::PowerRTF {
 
 namespace internal {
 
@@ -60,7 +59,6 @@ void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report
                                                      mesh.triangles);
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_QUALITY_ASSESS_H

@@ -9,21 +9,17 @@
 #define CGAL_POWER_RTF_QUALITY_SURFACE_DISTANCE_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
-#include <CGAL/PowerRTF/engines/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
-#include <CGAL/PowerRTF/surface/Surface.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF {
+namespace internal {
 
 inline Box3<double> bounding_box(const std::vector<Vec3d>& points,
                                  const std::vector<Triangle>& triangles)
@@ -35,8 +31,7 @@ inline Box3<double> bounding_box(const std::vector<Vec3d>& points,
 }
 
 /// Walks over a triangulated surface in spatial order: its vertices, and points spread over it.
-class Surface_samples
-{
+class Surface_samples {
 public:
   Surface_samples(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                   const Facet_tree& tree)
@@ -136,7 +131,6 @@ Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
   return result;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_QUALITY_SURFACE_DISTANCE_H

@@ -7,22 +7,17 @@
 #define CGAL_POWER_RTF_QUALITY_TOPOLOGY_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
-#include <CGAL/PowerRTF/surface/Surface.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
-namespace internal
-{
+namespace CGAL::PowerRTF {
+namespace internal {
 
 /// Disjoint sets over 0 .. n-1.
-class Disjoint_sets
-{
+class Disjoint_sets {
 public:
   explicit Disjoint_sets(std::size_t n)
   {
@@ -49,8 +44,7 @@ private:
 
 /// Halfedge 3f + k runs from corner k of facet f to corner k + 1.
 /// Halfedges with the same two ends are paired when they are exactly two.
-class Soup_edges
-{
+class Soup_edges {
 public:
   enum : int { border = -1, non_manifold = -2 };
 
@@ -202,7 +196,6 @@ inline Topology_statistics topology(const std::vector<Triangle>& triangles)
   return result;
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_QUALITY_TOPOLOGY_H

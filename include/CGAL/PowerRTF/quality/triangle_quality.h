@@ -8,17 +8,14 @@
 #define CGAL_POWER_RTF_QUALITY_TRIANGLE_QUALITY_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
-#include <CGAL/PowerRTF/surface/Surface.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace CGAL
-{
-namespace PowerRTF
-{
+namespace CGAL::PowerRTF {
 
 /// Quality of the `triangles` (#F indices into `points`). Per triangle
 /// Q_t = 6/sqrt(3) * A_t / (S_t E_t) (area, half-perimeter, longest edge; 1: equilateral, 0: flat).
@@ -91,7 +88,6 @@ inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
   return {sum / static_cast<double>(edges.size()), min, max};
 }
 
-} // namespace PowerRTF
-} // namespace CGAL
+} // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_QUALITY_TRIANGLE_QUALITY_H

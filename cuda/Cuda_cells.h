@@ -1,0 +1,109 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The cells of the engine on the GPU.
+#ifndef CGAL_POWER_RTF_CUDA_CELLS_H
+#define CGAL_POWER_RTF_CUDA_CELLS_H
+
+#include "cells/cell_builder.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::PowerRTF::device {
+
+/// Models `PowerRTFCells`.
+template <class Real>
+class Cuda_cells {
+public:
+  /// The radius of the first search is not needed: lists of near sites are made.
+  Cuda_cells(Cuda_backend& backend, int max_sites, Real cos_angle, Real,
+             const Remeshing_options& options)
+      : m_backend(backend), m_builder(backend, max_sites, cos_angle, Real(options.guard_factor))
+  {}
+
+  void set_sites(const Sites_arrays<Real>& in)
+  {
+    m_cells = in.cells;
+    m_builder.set_sites(in);
+  }
+  void set_weights(const Sites_arrays<Real>& in) { m_builder.set_weights(in); }
+  void build(const Cell_outputs<Real>& out) { m_builder.build(out); }
+
+  const int* start_weight_passes(const Sites_arrays<Real>& in, Site<Real>* sites,
+                                 const Real* density, const Multiplicative_weight_rule& rule,
+                                 int passes, const Cell_outputs<Real>& out)
+  {
+    return m_builder.start_weight_passes(in, sites, density, nullptr, nullptr, rule, passes, out)
+               ? &m_builder.weight_pass_state()->done
+               : nullptr;
+  }
+  void neighbor_distances(Real* first, Real* sixth)
+  {
+    m_builder.neighbor_distances(true, first, sixth);
+  }
+  /// Of all cells, which takes no longer.
+  void empty_cells_distances(const unsigned char*, Real* first, Real* sixth)
+  {
+    m_builder.neighbor_distances(false, first, sixth);
+  }
+
+  /// Brings the cells to the host by and by.
+  template <class Sink>
+  void for_each_cell(Sink&& sink)
+  {
+    constexpr int chunk = 1 << 16;
+    for (int begin = 0; begin < m_cells; begin += chunk)
+      for_each_cell(begin, std::min(begin + chunk, m_cells), sink);
+  }
+
+private:
+  template <class T>
+  using Buffer = Cuda_backend::Buffer<T>;
+  static constexpr int stride = Tangent_polygon<Real>::capacity;
+
+  template <class Sink>
+  void for_each_cell(int begin, int end, Sink& sink)
+  {
+    const std::size_t n = end - begin;
+    Buffer<Real> x, y;
+    Buffer<int> sizes, neighbors;
+    Buffer<unsigned char> statuses;
+    for (Buffer<Real>* b : {&x, &y}) b->allocate(m_backend, n * stride);
+    sizes.allocate(m_backend, n);
+    neighbors.allocate(m_backend, n * stride);
+    statuses.allocate(m_backend, n);
+    m_builder.polygons(begin, end, sizes.data(), x.data(), y.data(), neighbors.data(),
+                       statuses.data());
+    const std::vector<Real> xs = downloaded(x), ys = downloaded(y);
+    const std::vector<int> size = downloaded(sizes), neighbor = downloaded(neighbors);
+    const std::vector<unsigned char> status = downloaded(statuses);
+    for (std::size_t i = 0; i < n; ++i) {
+      Tangent_polygon<double> polygon;
+      polygon.size = size[i];
+      for (int k = 0; k < polygon.size; ++k) {
+        polygon.x[k] = xs[i * stride + k];
+        polygon.y[k] = ys[i * stride + k];
+        polygon.neighbor[k] = neighbor[i * stride + k];
+      }
+      sink(begin + int(i), Cell_status(status[i]), polygon, Tangent_frame<double>({0, 0, 1}));
+    }
+  }
+
+  template <class T>
+  std::vector<T> downloaded(const Buffer<T>& buffer)
+  {
+    std::vector<T> items(buffer.size());
+    m_backend.download(items.data(), buffer.data(), items.size());
+    return items;
+  }
+
+  Cuda_backend& m_backend;
+  Cell_builder<Real> m_builder;
+  int m_cells = 0;
+};
+
+} // namespace CGAL::PowerRTF::device
+
+#endif // CGAL_POWER_RTF_CUDA_CELLS_H

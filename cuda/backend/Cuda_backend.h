@@ -1,0 +1,373 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The device engine's operations on one GPU and one stream: buffers, loops, reductions in a fixed
+// order, copies, time. Every error of the CUDA runtime is thrown.
+#ifndef CGAL_POWER_RTF_CUDA_CUDA_BACKEND_H
+#define CGAL_POWER_RTF_CUDA_CUDA_BACKEND_H
+
+#include "Eight_lanes.cuh"
+#include "Warp_lanes.cuh"
+#include "teams.cuh"
+#include <CGAL/PowerRTF/internal/Single_lane.h>
+#include <CGAL/PowerRTF/internal/Totals.h>
+
+#include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
+
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace CGAL::PowerRTF::device {
+
+/// \throws Cuda_error with what the runtime says
+inline void check(cudaError_t code, const char* what)
+{
+  if (code == cudaSuccess) return;
+  cudaGetLastError(); // an error that is not sticky is forgotten
+  throw Cuda_error(std::string("the GPU failed (") + what + "): " + cudaGetErrorString(code));
+}
+
+template <class F>
+__global__ void for_each_kernel(int n, F f)
+{
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < n) f(i);
+}
+
+template <class F>
+__global__ void for_each_by_one_kernel(int n, const __grid_constant__ F f)
+{
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < n) f(i, Single_lane());
+}
+
+template <class F>
+__global__ void for_each_by_eight_kernel(int n, const __grid_constant__ F f)
+{
+  const int i = (blockIdx.x * blockDim.x + threadIdx.x) / Eight_lanes::size;
+  if (i < n) f(i, Eight_lanes());
+}
+
+template <class F>
+__global__ void for_each_by_warp_kernel(int n, const __grid_constant__ F f)
+{
+  const int i = (blockIdx.x * blockDim.x + threadIdx.x) / Warp_lanes::size;
+  if (i < n) f(i, Warp_lanes());
+}
+
+constexpr int reduction_threads = 256, reduction_blocks = 528;
+
+/// Each block sums a fixed set of items; the block that ends last joins the blocks in a fixed
+/// order.
+template <int Sums, int Maxima, class F, class Finish>
+__global__ void __launch_bounds__(reduction_threads)
+    reduce_kernel(int n, F f, Finish finish, double* partials, unsigned* ticket)
+{
+  using T = Totals<Sums, Maxima>;
+  constexpr int warps = reduction_threads / 32;
+  __shared__ double of_warp[warps][T::size];
+  __shared__ bool is_last;
+  T totals;
+  totals.clear();
+  for (int i = blockIdx.x * blockDim.x + threadIdx.x; i < n; i += gridDim.x * blockDim.x)
+    f(i, totals);
+  const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
+#pragma unroll
+  for (int k = 0; k < T::size; ++k) {
+    double x = totals.values[k];
+#pragma unroll
+    for (int step = 16; step > 0; step /= 2)
+      x = T::joined(k, x, __shfl_xor_sync(0xffffffffu, x, step));
+    if (lane == 0) of_warp[warp][k] = x;
+  }
+  __syncthreads();
+  for (int k = threadIdx.x; k < T::size; k += blockDim.x) {
+    double x = of_warp[0][k];
+    for (int w = 1; w < warps; ++w) x = T::joined(k, x, of_warp[w][k]);
+    partials[blockIdx.x * T::size + k] = x;
+  }
+  __threadfence();
+  __syncthreads();
+  if (threadIdx.x == 0) is_last = atomicAdd(ticket, 1u) == gridDim.x - 1;
+  __syncthreads();
+  if (!is_last) return;
+  __threadfence();
+  const int blocks = gridDim.x;
+  for (int k = warp; k < T::size; k += warps) {
+    double x = k < Sums ? 0 : -1e300;
+    for (int b = lane; b < blocks; b += 32) x = T::joined(k, x, __ldcg(partials + b * T::size + k));
+    for (int step = 16; step > 0; step /= 2)
+      x = T::joined(k, x, __shfl_xor_sync(0xffffffffu, x, step));
+    if (lane == 0) of_warp[0][k] = x;
+  }
+  __syncthreads();
+  if (threadIdx.x == 0) {
+    for (int k = 0; k < T::size; ++k) totals.values[k] = of_warp[0][k];
+    finish(totals);
+    *ticket = 0; // for the next reduction of the stream
+  }
+}
+
+template <class T>
+__global__ void fill_kernel(T* to, T value, std::size_t n)
+{
+  const std::size_t i = std::size_t(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (i < n) to[i] = value;
+}
+
+/// Two reductions by a team; see `Host_backend::reduce_twice()`.
+template <class Rule>
+struct Two_reductions {
+  Rule rule;
+  int n;
+
+  template <class Team>
+  __device__ void operator()(Team& team) const
+  {
+    typename Rule::First first;
+    first.clear();
+    for (int i = team.first(); i < n; i += team.stride()) rule.add_first(i, first);
+    team.join(first);
+    auto result = rule.middle(first);
+    typename Rule::Second second;
+    second.clear();
+    for (int i = team.first(); i < n; i += team.stride()) rule.add_second(i, result, second);
+    team.join(second);
+    if (team.first() == 0) rule.finish(result, second);
+  }
+};
+
+class Cuda_backend {
+public:
+  static constexpr bool works_by_warps = true;
+
+  /// Device memory that is freed with it. Its contents are lost when it grows.
+  template <class T>
+  class Buffer {
+  public:
+    Buffer() = default;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+    ~Buffer() { release(); }
+
+    /// \throws Cuda_error when the memory does not suffice, with how much was needed
+    void allocate(Cuda_backend& backend, std::size_t n)
+    {
+      if (n <= m_capacity) {
+        m_size = n;
+        return;
+      }
+      release();
+      m_data = static_cast<T*>(backend.take(n * sizeof(T)));
+      m_backend = &backend;
+      m_capacity = m_size = n;
+    }
+    T* data() { return m_data; }
+    const T* data() const { return m_data; }
+    std::size_t size() const { return m_size; }
+
+  private:
+    void release()
+    {
+      if (m_data) m_backend->give_back(m_data, m_capacity * sizeof(T));
+      m_data = nullptr;
+      m_capacity = m_size = 0;
+    }
+
+    Cuda_backend* m_backend = nullptr;
+    T* m_data = nullptr;
+    std::size_t m_size = 0, m_capacity = 0;
+  };
+
+  /// One item that both host and device see: the device writes it through the bus, the host reads
+  /// it after `synchronize()`.
+  template <class T>
+  class Shared_item {
+  public:
+    explicit Shared_item(Cuda_backend&)
+    {
+      check(cudaMallocHost(&m_item, sizeof(T)), "taking memory of the host");
+      *m_item = T();
+    }
+    ~Shared_item() { cudaFreeHost(m_item); }
+    Shared_item(const Shared_item&) = delete;
+    Shared_item& operator=(const Shared_item&) = delete;
+    T* data() { return m_item; }
+
+  private:
+    T* m_item = nullptr;
+  };
+
+  /// \throws Cuda_error when the device is missing or cannot be used
+  explicit Cuda_backend(int device);
+  ~Cuda_backend();
+  Cuda_backend(const Cuda_backend&) = delete;
+  Cuda_backend& operator=(const Cuda_backend&) = delete;
+
+  template <class F>
+  void for_each(int n, F f)
+  {
+    if (n <= 0) return;
+    const int threads = n <= small ? 32 : 128;
+    for_each_kernel<<<(n + threads - 1) / threads, threads, 0, m_stream>>>(n, f);
+    check(cudaGetLastError(), "starting a kernel");
+  }
+
+  /// Calls `f(i, lanes)` for i in [0, n): by eight lanes each when there are few items.
+  template <class F>
+  void for_each_by_lanes(int n, F f)
+  {
+    if (n <= 0) return;
+    if (n <= few) {
+      constexpr int threads = 64, items = threads / Eight_lanes::size;
+      for_each_by_eight_kernel<<<(n + items - 1) / items, threads, 0, m_stream>>>(n, f);
+    } else {
+      for_each_by_one_kernel<<<(n + 127) / 128, 128, 0, m_stream>>>(n, f);
+    }
+    check(cudaGetLastError(), "starting a kernel");
+  }
+
+  /// The same by a warp each.
+  template <class F>
+  void for_each_by_warps(int n, F f)
+  {
+    if (n <= 0) return;
+    constexpr int items = Warp_lanes::in_block, threads = items * Warp_lanes::size;
+    for_each_by_warp_kernel<<<(n + items - 1) / items, threads, 0, m_stream>>>(n, f);
+    check(cudaGetLastError(), "starting a kernel");
+  }
+
+  template <int Sums, int Maxima, class F, class Finish>
+  void reduce(int n, F f, Finish finish)
+  {
+    static_assert(Totals<Sums, Maxima>::size <= max_totals, "the partial sums have no room");
+    int blocks = (n + reduction_threads - 1) / reduction_threads;
+    blocks = blocks < 1 ? 1 : blocks > reduction_blocks ? reduction_blocks : blocks;
+    reduce_kernel<Sums, Maxima><<<blocks, reduction_threads, 0, m_stream>>>(
+        n, f, finish, m_partials.data(), m_ticket.data());
+    check(cudaGetLastError(), "starting a reduction");
+  }
+
+  /// Runs `f(team)` once for all: its threads share the work on n items and add numbers up, so that
+  /// an iteration needs no further launches.
+  template <class F>
+  void run_team(int n, F f)
+  {
+    if (n <= block_team_items) {
+      block_team_kernel<<<1, block_team_threads, 0, m_stream>>>(f);
+      check(cudaGetLastError(), "starting a kernel");
+      return;
+    }
+    run_grid_team(std::min((n + grid_team_threads - 1) / grid_team_threads, max_team_blocks<F>()),
+                  f);
+  }
+
+  /// Two reductions, of which the second knows the result of the first; see `Summary_rule`.
+  template <class Rule>
+  void reduce_twice(int n, const Rule& rule)
+  {
+    run_team(n, Two_reductions<Rule>{rule, n});
+  }
+
+  /// Runs `f(team)` with a thread for each item; false: there are not so many at a time.
+  template <class F>
+  bool run_resident_team(int n, F f)
+  {
+    const int blocks = (n + grid_team_threads - 1) / grid_team_threads;
+    if (blocks > max_team_blocks<F>()) return false;
+    run_grid_team(blocks, f);
+    return true;
+  }
+
+  /// The order of n points along the Hilbert curve, by their codes; those in one small cube keep
+  /// theirs. `keys` are lost.
+  void sort_order(int n, std::uint64_t* keys, int* order);
+
+  template <class T>
+  void upload(T* to, const T* from, std::size_t n)
+  {
+    check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyHostToDevice, m_stream), "upload");
+    synchronize();
+  }
+  template <class T>
+  void download(T* to, const T* from, std::size_t n)
+  {
+    const std::size_t bytes = n * sizeof(T);
+    const bool is_small = bytes <= pinned_bytes; // at once, without the runtime's own buffer
+    check(cudaMemcpyAsync(is_small ? m_pinned : static_cast<void*>(to), from, bytes,
+                          cudaMemcpyDeviceToHost, m_stream),
+          "download");
+    synchronize();
+    if (is_small) std::memcpy(static_cast<void*>(to), m_pinned, bytes);
+  }
+  template <class T>
+  void fill(T* to, T value, std::size_t n)
+  {
+    if (n == 0) return;
+    fill_kernel<<<unsigned((n + 255) / 256), 256, 0, m_stream>>>(to, value, n);
+    check(cudaGetLastError(), "starting a kernel");
+  }
+
+  cudaStream_t stream() const { return m_stream; }
+  void synchronize() { check(cudaStreamSynchronize(m_stream), "waiting for the kernels"); }
+  int multiprocessors() const { return m_multiprocessors; }
+
+  /// The time on the device from `start_clock()` to the last `stop_clock()`.
+  void start_clock() { check(cudaEventRecord(m_begin, m_stream), "clock"); }
+  void stop_clock() { check(cudaEventRecord(m_end, m_stream), "clock"); }
+  double seconds() const;
+
+  std::size_t bytes() const { return m_bytes; }
+  const std::string& name() const { return m_name; }
+
+  /// \throws Cuda_error when the memory does not suffice
+  void* take(std::size_t bytes);
+  void give_back(void* p, std::size_t bytes) noexcept;
+
+private:
+  void release() noexcept;
+
+  template <class F>
+  int max_team_blocks() const
+  {
+    int per_multiprocessor = 0;
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_multiprocessor, grid_team_kernel<F>,
+                                                        grid_team_threads, 0),
+          "occupancy");
+    return std::min(per_multiprocessor * m_multiprocessors, grid_team_blocks);
+  }
+  template <class F>
+  void run_grid_team(int blocks, F f)
+  {
+    double* partials = m_partials.data();
+    void* arguments[] = {&f, &partials};
+    check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(grid_team_kernel<F>), dim3(blocks),
+                                      dim3(grid_team_threads), arguments, 0, m_stream),
+          "starting a cooperative kernel");
+  }
+
+  static constexpr int small = 32768, few = 200000, max_totals = 128;
+
+  int m_device, m_multiprocessors = 0;
+  std::string m_name;
+  std::size_t m_bytes = 0;
+  cudaStream_t m_stream = nullptr;
+  cudaEvent_t m_begin = nullptr, m_end = nullptr;
+  static constexpr std::size_t pinned_bytes = 4096;
+  void* m_pinned = nullptr;
+  Buffer<double> m_partials;
+  Buffer<unsigned> m_ticket;
+  Buffer<std::uint64_t> m_keys; // of sort_order()
+  Buffer<int> m_places;
+  Buffer<unsigned char> m_scratch;
+};
+
+} // namespace CGAL::PowerRTF::device
+
+#endif // CGAL_POWER_RTF_CUDA_CUDA_BACKEND_H

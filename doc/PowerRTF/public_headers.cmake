@@ -1,0 +1,27 @@
+# The headers for users, in include/CGAL: the manual describes them, and tests compile each alone.
+set(public_headers
+    power_rtf_remeshing.h
+    PowerRTF_remesher.h
+    PowerRTF/PowerRTF_traits_3.h
+    PowerRTF/PowerRTF_exact_traits_3.h
+    PowerRTF/PowerRTF_cuda_traits_3.h
+    PowerRTF/Remeshing_options.h
+    PowerRTF/Remeshing_report.h
+    PowerRTF/Remeshing_visitor.h
+    PowerRTF/named_parameters.h
+    PowerRTF/option_table.h
+    PowerRTF/cells/construct_cell.h
+    PowerRTF/cells/Cell_polygon.h
+    PowerRTF/engines/Cuda_engine.h
+    PowerRTF/engines/Cuda_engine_api.h
+    PowerRTF/exact/Exact_cells.h
+    PowerRTF/exact/Tangent_cell_clipper.h
+    PowerRTF/exact/Tangent_cell_predicates.h
+    PowerRTF/exact/check_cells.h
+    PowerRTF/extraction/Extracted_mesh.h
+    PowerRTF/internal/errors.h
+    PowerRTF/geometry/Surface.h
+    PowerRTF/fields/density.h
+    PowerRTF/features/feature_samples.h
+    PowerRTF/input/import_surface.h
+    PowerRTF/prepare_surface.h)

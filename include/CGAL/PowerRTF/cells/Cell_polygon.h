@@ -1,0 +1,26 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_CELLS_CELL_POLYGON_H
+#define CGAL_POWER_RTF_CELLS_CELL_POLYGON_H
+
+#include <CGAL/PowerRTF/cells/construct_cell.h>
+
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// \ingroup PkgPowerRTFSurface
+/// A cell \f$F_i\f$ as users see it.
+struct Cell_polygon {
+  std::vector<Vec3d> vertices; ///< counter-clockwise seen from outside, unit-box coordinates
+  std::vector<int> neighbors; ///< of edge k (vertices k, k + 1); negative: side of the guard square
+  double area = 0;            ///< \f$A(F_i)\f$
+  double mass = 0;            ///< \f$m_i = \rho_i A(F_i)\f$
+  double density = 0;         ///< \f$\rho_i\f$
+  double weight = 0;          ///< \f$w_i\f$
+  Cell_status status = Cell_status::ok;
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_CELLS_CELL_POLYGON_H

@@ -1,0 +1,195 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// All cells (Algorithm 1) on the CPU, by searches in a packed tree of the sites.
+#ifndef CGAL_POWER_RTF_CELLS_TREE_CELLS_H
+#define CGAL_POWER_RTF_CELLS_TREE_CELLS_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+struct Multiplicative_weight_rule;
+
+/// Sites that all have cells.
+struct Owned_sites {
+  std::vector<Site<double>> sites;
+  std::vector<Vec3d> normals; ///< unit
+  std::vector<int> patches;   ///< empty: all are of one
+
+  void add(const Vec3d& point, const Vec3d& normal, double weight)
+  {
+    sites.push_back({point, weight});
+    normals.push_back(normal);
+  }
+  Sites_arrays<double> arrays() const
+  {
+    Sites_arrays<double> a;
+    a.sites = sites.data();
+    a.normals = normals.data();
+    a.patches = patches.empty() ? nullptr : patches.data();
+    a.cells = a.sites_size = static_cast<int>(sites.size());
+    return a;
+  }
+};
+
+/// Cells in floating point: what `Tree_cells` constructs if nothing else is asked for.
+struct Inexact_construction {
+  explicit Inexact_construction(const Remeshing_options&) {}
+
+  template <class Cells, class Sink>
+  void operator()(Cells& cells, Sink&& sink) const
+  {
+    cells.construct_by_leaves(sink);
+  }
+};
+
+/// Models `PowerRTFCells`. The sites should come in spatial order.
+///
+/// \tparam Backend a `Host_backend`
+/// \tparam Construction constructs the cells, with the tree or without it
+template <class Real, class Backend, class Construction = Inexact_construction>
+class Tree_cells {
+public:
+  /// Keeps a reference to `backend`. `cos_angle`: the cosine of Theta; -2: all sites are
+  /// compatible. `radius`: the first guess of the cells' radii.
+  Tree_cells(Backend& backend, int max_sites, Real cos_angle, Real radius,
+             const Remeshing_options& options)
+      : m_backend(backend), m_cos_angle(cos_angle), m_guard_factor(Real(options.guard_factor)),
+        m_construction(options), m_radii(max_sites, radius)
+  {
+    const Packed_tree_layout tree(max_sites);
+    m_boxes.resize(tree.nodes());
+    m_max_weights.resize(tree.nodes());
+  }
+
+  /// The arrays must live until the next call. They are read again by every construction.
+  void set_sites(const Sites_arrays<Real>& in)
+  {
+    m_in = in;
+    m_tree = Packed_tree_layout(in.sites_size);
+    for (int level = 0; level < m_tree.levels; ++level)
+      m_backend.for_each(m_tree.nodes(level), [&](int k) {
+        refit_sites_node(m_tree, level, k, m_in.sites, m_boxes.data(), m_max_weights.data());
+      });
+  }
+  /// The same sites with new weights.
+  void set_weights(const Sites_arrays<Real>& in) { set_sites(in); }
+
+  /// Constructs the cells of the current sites.
+  void build(const Cell_outputs<Real>& out)
+  {
+    for_each_cell(
+        [&](int i, Cell_status status, const auto& polygon, const Tangent_frame<Real>& frame) {
+          write_cell(m_in, out, i, status, polygon, frame);
+        });
+  }
+
+  /// Null: passes over the weights are the engine's.
+  const int* start_weight_passes(const Sites_arrays<Real>&, Site<Real>*, const Real*,
+                                 const Multiplicative_weight_rule&, int, const Cell_outputs<Real>&)
+  {
+    return nullptr;
+  }
+
+  /// Calls `sink(i, status, polygon, frame)` for each cell, concurrently.
+  template <class Sink>
+  void for_each_cell(Sink&& sink)
+  {
+    m_construction(*this, sink);
+  }
+
+  /// Distances of every cell's site to its nearest and to its sixth compatible neighbor.
+  void neighbor_distances(Real* first, Real* sixth)
+  {
+    m_backend.for_each(m_in.cells, [&, v = view()](int i) {
+      first[i] = distance_to_neighbor(v, i, 1, m_cos_angle);
+      sixth[i] = distance_to_neighbor(v, i, 6, m_cos_angle);
+    });
+  }
+  /// The same among all sites, of those with empty cells.
+  void empty_cells_distances(const unsigned char* status, Real* first, Real* sixth)
+  {
+    m_backend.for_each(m_in.cells, [&, v = view()](int i) {
+      if (Cell_status(status[i]) != Cell_status::empty) return;
+      first[i] = distance_to_neighbor(v, i, 1);
+      sixth[i] = distance_to_neighbor(v, i, 6);
+    });
+  }
+
+  Sites_view<Real> view() const
+  {
+    return {m_in.sites, m_in.normals,   m_boxes.data(), m_max_weights.data(),
+            m_tree,     m_guard_factor, m_in.patches};
+  }
+  Backend& backend() { return m_backend; }
+  /// The number of cells: sites from there on only clip.
+  int size() const { return m_in.cells; }
+  Real cos_angle() const { return m_cos_angle; }
+
+  /// `for_each_cell()` in floating point. `Filtered`: see `construct_cell()`.
+  template <bool Filtered = false, class Sink>
+  void construct_by_leaves(Sink&& sink)
+  {
+    constexpr int leaves_per_chunk = 32, arity = Packed_tree_layout::arity;
+    const Sites_view<Real> v = view();
+    m_backend.for_each_chunk(size(), leaves_per_chunk * arity, [&](int begin, int end) {
+      std::vector<int> gathered;
+      for (int leaf = begin; leaf < end; leaf += arity)
+        construct_leaf<Filtered>(v, leaf, (std::min)(end, leaf + arity), gathered, sink);
+    });
+  }
+
+private:
+  /// Constructs the cells of one leaf from candidates gathered for all of them at once.
+  template <bool Filtered, class Sink>
+  void construct_leaf(const Sites_view<Real>& v, int begin, int end, std::vector<int>& gathered,
+                      Sink& sink)
+  {
+    constexpr Real growth = Real(1.1); // after a step the radii differ by a few per cent
+    Real group_radius = 0, min_weight = std::numeric_limits<Real>::infinity();
+    for (int i = begin; i < end; ++i) {
+      group_radius = (std::max)(group_radius, growth * m_radii[i]);
+      min_weight = (std::min)(min_weight, m_in.sites[i].weight);
+    }
+    gathered.clear();
+    for_each_possible_neighbor(v, m_boxes[begin / Packed_tree_layout::arity], min_weight,
+                               group_radius, [&](int j) { gathered.push_back(j); });
+    for (int i = begin; i < end; ++i) {
+      const auto candidates = [&](Real radius, auto&& f) {
+        if (radius <= group_radius) {
+          for (const int j : gathered) f(j);
+          return;
+        }
+        const Site<Real>& site = m_in.sites[i];
+        for_each_possible_neighbor(v, Box3<Real>{site.point, site.point}, site.weight, radius, f);
+      };
+      construct_cell<Filtered>(v, i, growth * m_radii[i], m_cos_angle, candidates,
+                               [&](int site, Cell_status status,
+                                   const Tangent_polygon<Real>& polygon,
+                                   const Tangent_frame<Real>& frame, auto... certain) {
+                                 if (status == Cell_status::ok)
+                                   m_radii[site] = std::sqrt(polygon.squared_radius());
+                                 sink(site, status, polygon, frame, certain...);
+                               });
+    }
+  }
+
+  Backend& m_backend;
+  Real m_cos_angle, m_guard_factor;
+  Construction m_construction;
+  Sites_arrays<Real> m_in;
+  Packed_tree_layout m_tree;
+  std::vector<Box3<Real>> m_boxes;
+  std::vector<Real> m_max_weights;
+  std::vector<Real> m_radii; // of the last construction: the next one's guess
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_CELLS_TREE_CELLS_H

@@ -1,0 +1,160 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The steps of Algorithms 1 to 3 over all samples at once: the one engine, over a backend that says
+// where the arrays lie and how loops run, and a construction of the cells.
+#ifndef CGAL_POWER_RTF_ENGINES_ENGINE_H
+#define CGAL_POWER_RTF_ENGINES_ENGINE_H
+
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
+#include <CGAL/PowerRTF/engines/Engine_base.h>
+#include <CGAL/PowerRTF/engines/Surface_arrays.h>
+#include <CGAL/PowerRTF/engines/sample_rules.h>
+#include <CGAL/PowerRTF/optimization/Newton_solver.h>
+#include <CGAL/PowerRTF/optimization/position_steps.h>
+#include <CGAL/PowerRTF/optimization/weight_steps.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// The result is the same bit for bit for any number of threads.
+///
+/// \tparam Real what positions and cells are computed in; sums are double
+/// \tparam Backend a model of `PowerRTFBackend`
+/// \tparam Cells a model of `PowerRTFCells`
+template <class Real, class Backend, class Cells>
+class Engine final : public Engine_base {
+public:
+  /// `backend`: the arguments of the backend's constructor.
+  template <class... Arguments>
+  Engine(const Packed_surface& surface, const Remeshing_options& options, Arguments&&... backend)
+      : m_options(options), m_cos_angle(Real(compatibility_cosine(options.normal_angle))),
+        m_backend(std::forward<Arguments>(backend)...), m_surface(m_backend, surface),
+        m_area_of_surface(surface.area), m_lbfgs(m_backend), m_long_lbfgs(m_backend),
+        m_newton(m_backend), m_shared_summary(m_backend)
+  {
+    m_summary.allocate(m_backend, 1);
+    m_scalar.allocate(m_backend, 1);
+  }
+
+  void set_samples(const Engine_samples& samples) override;
+  void build_cells() override;
+  bool optimize_weights(int passes) override;
+  bool newton_weights() override;
+  void clear_weights() override;
+  void move_samples(Position_method method) override;
+  void restore_best() override;
+  Cell_summary summary() override;
+  std::size_t constructions() const override { return m_constructions; }
+  Engine_samples samples() override;
+  std::vector<Cell_polygon> cells() override;
+  double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }
+  Device_report device_report() override
+  {
+    return {m_backend.name(), m_backend.seconds(), m_backend.bytes()};
+  }
+
+private:
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+  static constexpr int short_memory = 5; // of L-BFGS: the default
+
+  void allocate();
+  void sort(const Engine_samples& samples);
+  void upload_boundaries(const Engine_samples& samples);
+  void update_attributes();
+  /// The sites have moved.
+  void set_sites();
+  void update_weights();
+  void use_weights();
+  /// Makes the cells that `build_cells()` has promised.
+  void finish_cells();
+  void start_summary();
+  void forget_summary() { m_is_summary_known = m_is_summary_started = false; }
+  void find_distances();
+  void choose_left_out();
+  /// Returns the residual over the least one so far.
+  double remember_best();
+  template <class Step>
+  void project(const Step& step);
+
+  bool has_features() const { return m_size > m_cells; }
+  bool has_short_memory() const { return m_options.lbfgs_memory <= short_memory; }
+  Attribute_rule<Real> attribute_rule()
+  {
+    return {m_surface.view(),
+            m_normals.data(),
+            m_density.data(),
+            m_density_root.data(),
+            m_options.attributes == Attributes::facet,
+            m_options.normal_neighbors,
+            m_options.density_neighbors,
+            m_cos_angle,
+            Real(m_options.centroid_density_power)};
+  }
+  Usable_cells<Real> usable_cells() const
+  {
+    return {m_area.data(), m_mass.data(), m_density.data(), m_status.data(), m_mean_mass};
+  }
+  /// The mean mass is that of the summary.
+  Multiplicative_weight_rule weight_rule() const
+  {
+    return {m_options.capacity_tolerance, m_options.weight_step,
+            m_options.weight_operator == Weight_operator::floor, 0};
+  }
+  Sites_arrays<Real> sites();
+  Cell_outputs<Real> outputs();
+
+  Remeshing_options m_options;
+  Real m_cos_angle;
+  Backend m_backend;
+  Surface_arrays<Real, Backend> m_surface;
+  double m_area_of_surface;
+  std::unique_ptr<Cells> m_builder;
+  Lbfgs<Real, Backend, short_memory> m_lbfgs;
+  Lbfgs<Real, Backend, max_lbfgs_memory> m_long_lbfgs; // used when the other is too short
+  Newton_solver<Real, Backend> m_newton;
+
+  int m_cells = 0, m_size = 0; // n, and with the sites that only clip
+  bool m_has_patches = false;
+  Buffer<Site<Real>> m_sites;
+  Buffer<Vec3<Real>> m_normals;
+  Buffer<int> m_facets, m_patches;
+  Buffer<int> m_next, m_previous;         // see `clip_at_features()`
+  Buffer<Real> m_density, m_density_root; // rho_i; cube root of what weights the centroids
+  Buffer<Real> m_area, m_mass;
+  Buffer<Vec3<Real>> m_offset, m_step; // c_i - s_i; the next move
+  Buffer<unsigned char> m_status;
+  Buffer<Real> m_nearest, m_sixth;     // distances, of the weight rule
+  Buffer<Real> m_weights_before;       // of Newton's step
+  Buffer<unsigned char> m_is_left_out; // of the capacities, by Newton's steps
+  Buffer<double> m_scalar;             // that one loop leaves for the next
+
+  struct Best_state { // where the residual of L-BFGS was least
+    double residual = std::numeric_limits<double>::infinity();
+    Buffer<Site<Real>> sites;
+    Buffer<int> facets;
+  } m_best;
+
+  Buffer<Cell_summary> m_summary;
+  typename Backend::template Shared_item<Cell_summary> m_shared_summary; // when it is known
+  double m_mean_mass = 0;             // of the first cells; 0: there was no look at them
+  const int* m_passes_made = nullptr; // by the builder, where the summary shall tell
+  bool m_is_summary_started = false, m_is_summary_known = false;
+  bool m_are_cells_due = false; // until something needs them
+  bool m_are_distances_known = false, m_are_components_known = false, m_is_left_out_known = false;
+  std::size_t m_constructions = 0;
+};
+
+} // namespace CGAL::PowerRTF
+
+#include <CGAL/PowerRTF/engines/Engine_samples.h>
+#include <CGAL/PowerRTF/engines/Engine_steps.h>
+
+#endif // CGAL_POWER_RTF_ENGINES_ENGINE_H

@@ -1,0 +1,76 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// An engine behind plain arrays: it knows no mesh, no type of CUDA and none of CGAL, so that a
+// library can carry it compiled. `Surface_engine` makes the engine of the remesher from it.
+#ifndef CGAL_POWER_RTF_ENGINES_ENGINE_BASE_H
+#define CGAL_POWER_RTF_ENGINES_ENGINE_BASE_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/cells/Cell_polygon.h>
+#include <CGAL/PowerRTF/geometry/nearest_facet.h>
+#include <CGAL/PowerRTF/optimization/Cell_summary.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// The surface as an engine gets it: all facets and vertices in the order of their trees.
+struct Packed_surface {
+  struct Facet {
+    Vec3d corners[3], normal; ///< the normal is of length 1
+    int vertices[3];          ///< places in the tree of the vertices
+    int patch;                ///< a sample is projected only onto facets of its own patch
+  };
+  struct Vertex {
+    Vec3d point, normal;
+    double density;
+  };
+  std::vector<Facet> facets;
+  std::vector<Child_boxes> facet_nodes; ///< of a `Packed_tree_layout` over the facets
+  std::vector<Vertex> vertices;
+  std::vector<Child_boxes> vertex_nodes; ///< of one over the vertices; empty: not needed
+  /// The facets at vertex v are `vertex_facets[first_facet[v]]` and so on to `first_facet[v + 1]`
+  /// (places in the tree, by increasing number in the surface); empty: not needed.
+  std::vector<int> first_facet, vertex_facets;
+  double area = 0;
+  bool has_patches = false;
+};
+
+/// The samples as arrays: the first `cells` have cells and move; the others only clip.
+struct Engine_samples {
+  std::vector<Vec3d> points, normals;
+  std::vector<int> facets;  ///< places in the tree
+  std::vector<int> patches; ///< empty: all on one patch
+  std::vector<double> density, weights;
+  /// Of each sample the next one along its patch's boundary, or -1; empty when all have cells.
+  std::vector<int> next;
+  int cells = 0;
+
+  std::size_t size() const { return points.size(); }
+};
+
+/// The steps of Algorithms 1 to 3 over all samples at once; see the concept `PowerRTFEngine`.
+class Engine_base {
+public:
+  virtual ~Engine_base() = default;
+  /// Takes the samples with cells into spatial order; the others keep theirs. Weights become 0.
+  virtual void set_samples(const Engine_samples& samples) = 0;
+  virtual void build_cells() = 0;
+  virtual bool optimize_weights(int passes) = 0;
+  virtual bool newton_weights() = 0;
+  virtual void clear_weights() = 0;
+  virtual void move_samples(Position_method method) = 0;
+  virtual void restore_best() = 0;
+  virtual Cell_summary summary() = 0;
+  virtual std::size_t constructions() const = 0;
+  virtual Engine_samples samples() = 0;
+  virtual std::vector<Cell_polygon> cells() = 0;
+  virtual double epsilon() const = 0;
+  virtual Device_report device_report() = 0;
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_ENGINES_ENGINE_BASE_H

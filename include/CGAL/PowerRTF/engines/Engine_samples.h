@@ -1,0 +1,207 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The member functions of `Engine` that take the samples in, and give samples and cells out.
+#ifndef CGAL_POWER_RTF_ENGINES_ENGINE_SAMPLES_H
+#define CGAL_POWER_RTF_ENGINES_ENGINE_SAMPLES_H
+
+#include <CGAL/PowerRTF/cells/cell_moments.h>
+#include <CGAL/PowerRTF/engines/Engine.h>
+#include <CGAL/PowerRTF/geometry/hilbert_code.h>
+#ifdef __CUDACC__ // CGAL's headers are for the host alone
+namespace CGAL::PowerRTF::internal {
+std::vector<int> spatial_order(const std::vector<Vec3d>& points);
+}
+#else
+#include <CGAL/PowerRTF/geometry/Spatial_order.h>
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace CGAL::PowerRTF {
+
+template <class Real, class Backend>
+void find_hilbert_codes(Backend& backend, int n, const Site<Real>* sites, std::uint64_t* codes)
+{
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { codes[i] = hilbert_code(sites[i].point); });
+}
+
+template <class Real, class Backend>
+void find_density_roots(Backend& backend, int n, const Attribute_rule<Real>& rule)
+{
+  backend.for_each(
+      n, [=] CGAL_POWER_RTF_HD(int i) { rule.density_root[i] = rule.root(rule.density[i]); });
+}
+
+template <class R, class B, class C>
+void Engine<R, B, C>::set_samples(const Engine_samples& samples)
+{
+  m_cells = samples.cells;
+  m_size = int(samples.size());
+  m_has_patches = !samples.patches.empty();
+  allocate();
+  m_best.residual = std::numeric_limits<double>::infinity();
+  // The first neighbor search: a ball of radius 2 R that holds k samples.
+  const double radius =
+      std::sqrt(m_options.neighbors * m_area_of_surface / (4 * 3.14159265358979 * m_size));
+  m_builder.reset(new C(m_backend, m_size, m_cos_angle, R(radius), m_options));
+  m_constructions = 0;
+  m_mean_mass = 0;
+  sort(samples);
+  m_backend.start_clock();
+  update_attributes();
+}
+
+template <class R, class B, class C>
+void Engine<R, B, C>::allocate()
+{
+  const std::size_t n = m_cells, m = m_size;
+  for (Buffer<R>* b : {&m_density, &m_density_root}) b->allocate(m_backend, m);
+  for (Buffer<R>* b : {&m_area, &m_mass, &m_nearest, &m_sixth, &m_weights_before})
+    b->allocate(m_backend, n);
+  m_sites.allocate(m_backend, m);
+  m_normals.allocate(m_backend, m);
+  m_facets.allocate(m_backend, m);
+  if (m_has_patches) m_patches.allocate(m_backend, m);
+  m_offset.allocate(m_backend, n);
+  m_step.allocate(m_backend, n);
+  m_status.allocate(m_backend, n);
+  if (m_options.position_method == Position_method::lbfgs) {
+    if (has_short_memory())
+      m_lbfgs.resize(m_cells, m_options.lbfgs_memory);
+    else
+      m_long_lbfgs.resize(m_cells, m_options.lbfgs_memory);
+    m_best.sites.allocate(m_backend, m);
+    m_best.facets.allocate(m_backend, m);
+  }
+}
+
+/// The samples with cells along a space-filling curve. Those that only clip are not sorted, so that
+/// their numbers stay.
+template <class R, class B, class C>
+void Engine<R, B, C>::sort(const Engine_samples& samples)
+{
+  const int n = m_cells, m = m_size;
+  std::vector<Site<R>> sites(m);
+  for (int i = 0; i < m; ++i) sites[i] = {to_real<R>(samples.points[i]), R(0)};
+  m_backend.upload(m_sites.data(), sites.data(), m);
+  Buffer<std::uint64_t> codes;
+  Buffer<int> places;
+  codes.allocate(m_backend, n);
+  places.allocate(m_backend, n);
+  std::vector<int> order(m);
+  std::iota(order.begin(), order.end(), 0);
+  if constexpr (B::works_by_warps) {
+    find_hilbert_codes(m_backend, n, m_sites.data(), codes.data());
+    m_backend.sort_order(n, codes.data(), places.data());
+    m_backend.download(order.data(), places.data(), n);
+  } else { // by medians: scaling the input changes no order
+    std::vector<Vec3d> points(samples.points.begin(), samples.points.begin() + n);
+    const std::vector<int> sorted = internal::spatial_order(points);
+    std::copy(sorted.begin(), sorted.end(), order.begin());
+  }
+
+  std::vector<int> facets(m), patches;
+  std::vector<Vec3<R>> normals(m);
+  std::vector<R> density(m);
+  for (int i = 0; i < m; ++i) {
+    const int k = order[i];
+    sites[i] = {to_real<R>(samples.points[k]), R(0)};
+    facets[i] = samples.facets[k];
+    normals[i] = to_real<R>(samples.normals[k]);
+    density[i] = R(samples.density[k]);
+    if (m_has_patches) patches.push_back(samples.patches[k]);
+  }
+  m_backend.upload(m_sites.data(), sites.data(), m);
+  m_backend.upload(m_facets.data(), facets.data(), m);
+  m_backend.upload(m_normals.data(), normals.data(), m);
+  m_backend.upload(m_density.data(), density.data(), m);
+  if (m_has_patches) m_backend.upload(m_patches.data(), patches.data(), m);
+  if (has_features()) upload_boundaries(samples);
+  find_density_roots(m_backend, m, attribute_rule());
+}
+
+template <class R, class B, class C>
+void Engine<R, B, C>::upload_boundaries(const Engine_samples& samples)
+{
+  std::vector<int> previous(m_size, -1);
+  for (int i = 0; i < m_size; ++i)
+    if (samples.next[i] >= 0) previous[samples.next[i]] = i;
+  m_next.allocate(m_backend, m_size);
+  m_previous.allocate(m_backend, m_size);
+  m_backend.upload(m_next.data(), samples.next.data(), m_size);
+  m_backend.upload(m_previous.data(), previous.data(), m_size);
+}
+
+/// Normals and densities of the samples where they are.
+template <class R, class B, class C>
+void Engine<R, B, C>::update_attributes()
+{
+  const Placed_attributes_rule<R> rule{attribute_rule(), m_sites.data(), m_facets.data()};
+  if (rule.attributes.over_facet)
+    m_backend.for_each_by_lanes(m_cells, rule);
+  else
+    m_backend.for_each_by_warps(m_cells, rule);
+  set_sites();
+}
+
+template <class R, class B, class C>
+void Engine<R, B, C>::set_sites()
+{
+  m_builder->set_sites(sites());
+  m_are_distances_known = m_are_components_known = m_is_left_out_known = false;
+  forget_summary();
+}
+
+template <class R, class B, class C>
+Engine_samples Engine<R, B, C>::samples()
+{
+  Engine_samples s;
+  s.cells = m_cells;
+  std::vector<Site<R>> sites(m_size);
+  std::vector<Vec3<R>> normals(m_size);
+  std::vector<R> density(m_size);
+  s.facets.resize(m_size);
+  m_backend.download(sites.data(), m_sites.data(), m_size);
+  m_backend.download(normals.data(), m_normals.data(), m_size);
+  m_backend.download(density.data(), m_density.data(), m_size);
+  m_backend.download(s.facets.data(), m_facets.data(), m_size);
+  if (m_has_patches) {
+    s.patches.resize(m_size);
+    m_backend.download(s.patches.data(), m_patches.data(), m_size);
+  }
+  for (int i = 0; i < m_size; ++i) {
+    s.points.push_back(to_double(sites[i].point));
+    s.weights.push_back(sites[i].weight);
+    s.normals.push_back(to_double(normals[i]));
+    s.density.push_back(density[i]);
+  }
+  return s;
+}
+
+template <class R, class B, class C>
+std::vector<Cell_polygon> Engine<R, B, C>::cells()
+{
+  const Engine_samples s = samples();
+  std::vector<Cell_polygon> cells(m_cells);
+  m_builder->for_each_cell([&](int i, Cell_status status, const auto& polygon, const auto&) {
+    Cell_polygon& cell = cells[i];
+    const Tangent_frame<double> frame(s.normals[i]);
+    for (int k = 0; k < polygon.size; ++k) {
+      cell.vertices.push_back(s.points[i] + frame.u * polygon.x[k] + frame.v * polygon.y[k]);
+      cell.neighbors.push_back(polygon.neighbor[k]);
+    }
+    cell.area = double(cell_moments(polygon).area);
+    cell.density = s.density[i];
+    cell.mass = cell.area * cell.density;
+    cell.weight = s.weights[i];
+    cell.status = status;
+  });
+  return cells;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_ENGINES_ENGINE_SAMPLES_H

@@ -1,0 +1,128 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Samples along curves: on their corners, and between them as far apart as the density says.
+#ifndef CGAL_POWER_RTF_FEATURES_CURVE_SAMPLES_H
+#define CGAL_POWER_RTF_FEATURES_CURVE_SAMPLES_H
+
+#include <CGAL/PowerRTF/features/feature_curves.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// A place on an edge of the surface, or at a vertex (`from == to`).
+struct Edge_place {
+  int from, to;
+  double at; ///< 0: at `from`, 1: at `to`
+};
+
+struct Curve_samples {
+  std::vector<Edge_place> places;
+  std::vector<Edge> edges; ///< pairs of neighbors on a curve
+};
+
+namespace internal {
+
+class Curve_sampler {
+public:
+  Curve_sampler(const Surface& surface, const std::vector<Feature_curve>& curves)
+      : m_surface(surface), m_curves(curves)
+  {
+    for (const Feature_curve& curve : curves) {
+      std::vector<double> sums(1, 0);
+      for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k)
+        sums.push_back(sums.back() + weighted_length(curve.vertices[k], curve.vertices[k + 1]));
+      m_sums.push_back(std::move(sums));
+    }
+  }
+
+  /// The number of samples that `run()` makes.
+  std::size_t count(double spacing) const
+  {
+    std::size_t count = 0;
+    std::vector<char> is_corner(m_surface.points.size(), 0);
+    for (std::size_t c = 0; c < m_curves.size(); ++c) {
+      count += segments(c, spacing);
+      if (!m_curves[c].has_corners) continue;
+      --count;
+      is_corner[m_curves[c].vertices.front()] = is_corner[m_curves[c].vertices.back()] = 1;
+    }
+    return count + std::count(is_corner.begin(), is_corner.end(), 1);
+  }
+
+  /// `spacing`: the constant C of the spacing C / sqrt(rho).
+  Curve_samples run(double spacing) const
+  {
+    Curve_samples result;
+    std::map<int, int> corners; // vertex -> sample
+    const auto corner_sample = [&](int v) {
+      const auto [it, is_new] = corners.insert({v, static_cast<int>(result.places.size())});
+      if (is_new) result.places.push_back({v, v, 0});
+      return it->second;
+    };
+    for (std::size_t c = 0; c < m_curves.size(); ++c) {
+      const Feature_curve& curve = m_curves[c];
+      int last = curve.has_corners ? corner_sample(curve.vertices.front()) : -1;
+      const int first = static_cast<int>(result.places.size());
+      const std::size_t n = segments(c, spacing);
+      for (std::size_t s = curve.has_corners ? 1 : 0; s < n; ++s) {
+        const int now = static_cast<int>(result.places.size());
+        result.places.push_back(place(c, static_cast<double>(s) / static_cast<double>(n)));
+        if (last >= 0) result.edges.push_back({last, now});
+        last = now;
+      }
+      result.edges.push_back(
+          {last, curve.has_corners ? corner_sample(curve.vertices.back()) : first});
+    }
+    return result;
+  }
+
+private:
+  /// Length of edge `ab` times sqrt(rho), integrated over the linear density.
+  double weighted_length(int a, int b) const
+  {
+    const double ra = std::sqrt(m_surface.vertex_density[a]);
+    const double rb = std::sqrt(m_surface.vertex_density[b]);
+    const double mean = 2. / 3 * (ra * ra + ra * rb + rb * rb) / (ra + rb);
+    return mean * length(m_surface.points[b] - m_surface.points[a]);
+  }
+
+  std::size_t segments(std::size_t c, double spacing) const
+  {
+    const Feature_curve& curve = m_curves[c];
+    const bool is_closed = curve.vertices.front() == curve.vertices.back();
+    const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
+    return static_cast<std::size_t>(
+        (std::max)(least, std::floor(m_sums[c].back() / spacing + 0.5)));
+  }
+
+  /// The place on curve `c` with the given share of its weighted length before it.
+  Edge_place place(std::size_t c, double share) const
+  {
+    constexpr double near = 1e-5; // so near an end that it is taken for the end
+    const std::vector<double>& sums = m_sums[c];
+    const std::vector<int>& vertices = m_curves[c].vertices;
+    const double sum = share * sums.back();
+    const std::size_t k =
+        std::upper_bound(sums.begin() + 1, sums.end() - 1, sum) - sums.begin() - 1;
+    const double at = (sum - sums[k]) / (sums[k + 1] - sums[k]);
+    if (at < near) return {vertices[k], vertices[k], 0};
+    if (at > 1 - near) return {vertices[k + 1], vertices[k + 1], 0};
+    return {vertices[k], vertices[k + 1], at};
+  }
+
+  const Surface& m_surface;
+  const std::vector<Feature_curve>& m_curves;
+  std::vector<std::vector<double>> m_sums; // of each curve: weighted length up to each vertex
+};
+
+} // namespace internal
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_FEATURES_CURVE_SAMPLES_H

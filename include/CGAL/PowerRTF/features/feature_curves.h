@@ -1,0 +1,173 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The creases and borders of a surface as curves between corners.
+#ifndef CGAL_POWER_RTF_FEATURES_FEATURE_CURVES_H
+#define CGAL_POWER_RTF_FEATURES_FEATURE_CURVES_H
+
+#include <CGAL/PowerRTF/features/creases.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// A chain of feature edges.
+struct Feature_curve {
+  std::vector<int> vertices; ///< from corner to corner; first = last for a closed one
+  bool has_corners = true;   ///< no: closed, and none of its vertices is a corner
+  int parallels = 1;         ///< curves between the same two corners, itself included
+};
+
+namespace internal {
+
+/// Creases and border edges, smaller vertex first, sorted.
+inline std::vector<Edge> feature_edges(const Surface& surface)
+{
+  std::vector<Edge> edges = surface.creases;
+  const std::vector<int>& opposite = surface.adjacency.opposite;
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
+    if (opposite[h] == Facet_adjacency::none)
+      edges.push_back(sorted_edge(halfedge_source(surface.triangles, h),
+                                  halfedge_target(surface.triangles, h)));
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+class Feature_tracer {
+public:
+  /// \param scale over which turns are measured
+  Feature_tracer(const Surface& surface, double scale)
+      : m_surface(surface), m_scale(scale), m_edges(feature_edges(surface)),
+        m_graph(m_edges, surface.points.size()), m_is_corner(surface.points.size(), 0)
+  {
+    for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
+      m_is_corner[v] = m_graph.degree(v) != 0 && m_graph.degree(v) != 2;
+    if (scale > 0) mark_turns();
+  }
+
+  std::vector<Feature_curve> curves()
+  {
+    std::vector<Feature_curve> curves;
+    std::vector<char> seen(m_edges.size(), 0);
+    const auto trace = [&](int v, int e) {
+      Feature_curve curve;
+      curve.vertices.push_back(v);
+      while (!seen[e]) {
+        seen[e] = 1;
+        v = other_end(e, v);
+        curve.vertices.push_back(v);
+        if (m_is_corner[v]) break;
+        e = other_edge(e, v);
+      }
+      curves.push_back(std::move(curve));
+    };
+    for (int v = 0; v < static_cast<int>(m_surface.points.size()); ++v)
+      if (m_is_corner[v])
+        for (const int e : m_graph.at(v))
+          if (!seen[e]) trace(v, e);
+    for (int e = 0; e < static_cast<int>(m_edges.size()); ++e) {
+      if (seen[e]) continue;
+      trace(m_edges[e][0], e);
+      curves.back().has_corners = false;
+    }
+    count_parallels(curves);
+    return curves;
+  }
+
+private:
+  int other_end(int e, int v) const { return m_edges[e][0] == v ? m_edges[e][1] : m_edges[e][0]; }
+  int other_edge(int e, int v) const
+  {
+    return m_graph.at(v)[0] == e ? m_graph.at(v)[1] : m_graph.at(v)[0];
+  }
+
+  /// The point at arc distance `m_scale` from `v` along edge `e`, or the first corner before it.
+  Vec3d ahead(int v, int e) const
+  {
+    double left = m_scale;
+    for (std::size_t steps = 0; steps < m_edges.size(); ++steps) {
+      const int u = other_end(e, v);
+      const Vec3d a = m_surface.points[v], b = m_surface.points[u];
+      const double l = length(b - a);
+      if (l >= left) return a + (b - a) * (left / l);
+      left -= l;
+      if (m_graph.degree(u) != 2) return b;
+      v = u;
+      e = other_edge(e, u);
+    }
+    return m_surface.points[v];
+  }
+
+  /// Vertices where a curve turns by more than 50 degrees, more than any other within the scale.
+  void mark_turns()
+  {
+    constexpr double cos_turn = 0.6427876;     // 50 degrees
+    std::vector<std::pair<double, int>> turns; // sharpest first; ties by index
+    for (int v = 0; v < static_cast<int>(m_surface.points.size()); ++v) {
+      if (m_graph.degree(v) != 2) continue;
+      const Vec3d p = m_surface.points[v];
+      const Vec3d in = normalized(p - ahead(v, m_graph.at(v)[0]));
+      const Vec3d out = normalized(ahead(v, m_graph.at(v)[1]) - p);
+      if (dot(in, out) < cos_turn) turns.emplace_back(dot(in, out), v);
+    }
+    std::sort(turns.begin(), turns.end());
+    std::vector<char> is_near(m_surface.points.size(), 0); // a sharper turn
+    for (const auto& [turn, corner] : turns) {
+      if (is_near[corner]) continue;
+      m_is_corner[corner] = 1;
+      for (int side = 0; side < 2; ++side) {
+        double passed = 0;
+        for (int v = corner, e = m_graph.at(v)[side];;) {
+          const int u = other_end(e, v);
+          passed += length(m_surface.points[u] - m_surface.points[v]);
+          if (passed > m_scale || m_graph.degree(u) != 2 || u == corner) break;
+          is_near[u] = 1;
+          v = u;
+          e = other_edge(e, u);
+        }
+      }
+    }
+  }
+
+  static void count_parallels(std::vector<Feature_curve>& curves)
+  {
+    std::vector<std::pair<Edge, std::size_t>> ends;
+    for (std::size_t c = 0; c < curves.size(); ++c)
+      if (curves[c].has_corners)
+        ends.emplace_back(sorted_edge(curves[c].vertices.front(), curves[c].vertices.back()), c);
+    std::sort(ends.begin(), ends.end());
+    for (auto first = ends.begin(); first != ends.end();) {
+      const auto last =
+          std::find_if(first, ends.end(), [&](const auto& e) { return e.first != first->first; });
+      for (auto e = first; e != last; ++e)
+        curves[e->second].parallels = static_cast<int>(last - first);
+      first = last;
+    }
+  }
+
+  const Surface& m_surface;
+  double m_scale;
+  std::vector<Edge> m_edges;
+  Edge_graph m_graph;
+  std::vector<char> m_is_corner;
+};
+
+} // namespace internal
+
+/// The curves of creases and borders. Corners are the vertices where not exactly two feature edges
+/// meet, and those where a curve turns by more than 50 degrees over `scale` to both sides (0:
+/// none).
+inline std::vector<Feature_curve> feature_curves(const Surface& surface, double scale)
+{
+  return internal::Feature_tracer(surface, scale).curves();
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_FEATURES_FEATURE_CURVES_H

@@ -1,0 +1,94 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The density rho that steers how close the samples lie: uniform, from curvature or the user's own
+// (Section 4.3, "Initial Sampling"; gradation is an addition).
+#ifndef CGAL_POWER_RTF_FIELDS_DENSITY_H
+#define CGAL_POWER_RTF_FIELDS_DENSITY_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/fields/curvature.h>
+#include <CGAL/PowerRTF/fields/gradation.h>
+#include <CGAL/PowerRTF/geometry/cut_surface.h>
+#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/option_table.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+namespace internal {
+
+/// Divides the densities by the largest, and keeps them away from the limits of double: nothing is
+/// sampled at 1e-12 of the largest density.
+inline void normalize_density(std::vector<double>& density)
+{
+  constexpr double smallest = 1e-12;
+  const double largest = *std::max_element(density.begin(), density.end());
+  for (double& rho : density) rho = (std::max)(smallest, rho / largest);
+}
+
+} // namespace internal
+
+/// \ingroup PkgPowerRTFSurface
+/// Sets `surface.vertex_density` as `options` asks: 1, or \f$\kappa^p\f$ with \f$p\f$ =
+/// `density_power`, its growth limited by `gradation`. Only ratios of densities matter to any later
+/// stage. \throws Invalid_input_error an option has a value that is not allowed
+inline void set_density(Surface& surface, const Remeshing_options& options)
+{
+  validate(options);
+  surface.vertex_density.assign(surface.points.size(), 1);
+  if (options.density == Density::uniform) return;
+  const Surface_edges edges = surface_edges(surface);
+  if (surface.creases.empty()) {
+    surface.vertex_density = normalized_curvature(surface, edges);
+  } else { // a crease is no curvature: both its sides may be flat
+    const Cut_surface cut = cut_along_creases(surface);
+    const std::vector<double> curvature =
+        normalized_curvature(cut.surface, surface_edges(cut.surface));
+    std::fill(surface.vertex_density.begin(), surface.vertex_density.end(), 0);
+    for (std::size_t v = 0; v < curvature.size(); ++v) {
+      double& rho = surface.vertex_density[cut.originals[v]];
+      rho = (std::max)(rho, curvature[v]);
+    }
+  }
+  for (double& rho : surface.vertex_density) rho = std::pow(rho, options.density_power);
+  internal::normalize_density(surface.vertex_density);
+  if (options.gradation > 0)
+    limit_gradation(surface, edges, options.gradation, options.number_of_samples);
+}
+
+/// \ingroup PkgPowerRTFSurface
+/// Sets `surface.vertex_density` from the user's own densities, with their growth limited by
+/// `options.gradation`.
+/// \param densities one per vertex of the *input* (see `Surface::input_vertices`); those of
+///   vertices that the surface does not use are ignored
+/// \throws Invalid_input_error a density is missing, not positive or not finite, or an option has a
+///   value that is not allowed
+inline void set_density(Surface& surface, const Remeshing_options& options,
+                        const std::vector<double>& densities)
+{
+  validate(options);
+  surface.vertex_density.resize(surface.points.size());
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    const std::size_t input = surface.input_vertices[v];
+    if (input >= densities.size())
+      throw Invalid_input_error("vertex " + std::to_string(input) + " has no density");
+    const double rho = densities[input];
+    if (!(rho > 0) || !std::isfinite(rho))
+      throw Invalid_input_error("the density of vertex " + std::to_string(input) +
+                                " is not a positive, finite number");
+    surface.vertex_density[v] = rho;
+  }
+  internal::normalize_density(surface.vertex_density);
+  if (options.gradation > 0)
+    limit_gradation(surface, surface_edges(surface), options.gradation, options.number_of_samples);
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_FIELDS_DENSITY_H

@@ -1,0 +1,64 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Vertex normals at the scale of the samples. A cell stands for the surface over a width of h; with
+// normals that turn faster than that its tangent plane wobbles as the sample moves, and the
+// optimization stalls in bad places. (An addition to the paper, whose means over the nearest
+// vertices do the same at the scale of the input's edges.)
+#ifndef CGAL_POWER_RTF_FIELDS_SMOOTH_NORMALS_H
+#define CGAL_POWER_RTF_FIELDS_SMOOTH_NORMALS_H
+
+#include <CGAL/PowerRTF/fields/gradation.h>
+#include <CGAL/PowerRTF/geometry/surface_edges.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// Smooths `surface.vertex_normals` by a diffusion of standard deviation `width` times the local
+/// spacing h_v = sqrt(integral(rho) / (n rho_v)) of `n` samples. Edges longer than that are hardly
+/// smoothed over. At most 64 passes are made: very fine input is smoothed less.
+inline void smooth_normals(Surface& surface, std::size_t n, double width)
+{
+  if (!(width > 0)) return;
+  constexpr int max_passes = 64;
+  const Surface_edges edges = surface_edges(surface);
+  const std::size_t size = surface.points.size();
+  const double mass = density_integral(surface);
+  std::vector<double> wanted(size, 0); // 2 sigma^2 / mean squared edge length: a sum of blends
+  double largest = 0;
+  for (std::size_t v = 0; v < size; ++v) {
+    double squares = 0;
+    const int degree = edges.first[v + 1] - edges.first[v];
+    for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
+      squares += edges.length[e] * edges.length[e];
+    if (!(squares > 0)) continue;
+    const double h2 = mass / (double(n) * surface.vertex_density[v]);
+    wanted[v] = 2 * width * width * h2 * degree / squares;
+    largest = std::max(largest, wanted[v]);
+  }
+  constexpr double largest_blend = 0.5; // more than that oscillates
+  const int passes =
+      static_cast<int>(std::min<double>(max_passes, std::ceil(largest / largest_blend)));
+  std::vector<Vec3d> smooth(size);
+  for (int pass = 0; pass < passes; ++pass) {
+    internal::Cancellation::poll();
+    for (std::size_t v = 0; v < size; ++v) {
+      const double blend = std::min(largest_blend, wanted[v] / passes);
+      Vec3d sum{0, 0, 0};
+      for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
+        sum += surface.vertex_normals[edges.neighbor[e]];
+      const int degree = edges.first[v + 1] - edges.first[v];
+      const Vec3d mean = (1 - blend) * surface.vertex_normals[v] + (blend / degree) * sum;
+      smooth[v] = squared_length(mean) > 0 ? normalized(mean) : surface.vertex_normals[v];
+    }
+    surface.vertex_normals.swap(smooth);
+  }
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_FIELDS_SMOOTH_NORMALS_H

@@ -1,0 +1,252 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which facets share an edge, and whether the triangles form an oriented 2-manifold.
+// Everything is linear in the number of facets: halfedges are bucketed by their smaller vertex.
+#ifndef CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H
+#define CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H
+
+#include <CGAL/PowerRTF/geometry/Surface.h>
+
+#include <boost/range/iterator_range.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// Halfedge `h = 3 f + i` runs from corner `i` to corner `i + 1` of facet `f`.
+inline int halfedge_source(const std::vector<Triangle>& triangles, int h)
+{
+  return triangles[h / 3][h % 3];
+}
+inline int halfedge_target(const std::vector<Triangle>& triangles, int h)
+{
+  return triangles[h / 3][(h + 1) % 3];
+}
+/// The facet's corner that is not on halfedge `h`.
+inline int opposite_vertex(const std::vector<Triangle>& triangles, int h)
+{
+  return triangles[h / 3][(h + 2) % 3];
+}
+inline int next_halfedge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// Finds the facets that share each edge of `triangles`, whose indices are in
+/// `[0, number_of_vertices)` and differ within a triangle.
+inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
+                                       std::size_t number_of_vertices)
+{
+  const int halfedges = static_cast<int>(3 * triangles.size());
+  Facet_adjacency result;
+  result.opposite.assign(halfedges, Facet_adjacency::none);
+
+  std::vector<int> first(number_of_vertices + 1, 0);
+  for (const Triangle& t : triangles)
+    for (int i = 0; i < 3; ++i) ++first[(std::min)(t[i], t[(i + 1) % 3]) + 1];
+  for (std::size_t v = 0; v < number_of_vertices; ++v) first[v + 1] += first[v];
+
+  std::vector<std::pair<int, int>> entries(halfedges); // larger vertex, halfedge
+  std::vector<int> end(first.begin(), first.end() - 1);
+  for (int h = 0; h < halfedges; ++h) {
+    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+    entries[end[(std::min)(a, b)]++] = {(std::max)(a, b), h};
+  }
+
+  for (std::size_t v = 0; v < number_of_vertices; ++v) {
+    const auto bucket_end = entries.begin() + first[v + 1];
+    std::sort(entries.begin() + first[v], bucket_end);
+    for (auto e = entries.begin() + first[v]; e != bucket_end;) {
+      auto f = e + 1;
+      while (f != bucket_end && f->first == e->first) {
+        for (auto g = e; g != f; ++g)
+          if (opposite_vertex(triangles, g->second) == opposite_vertex(triangles, f->second))
+            result.repeated_facets = true;
+        ++f;
+      }
+      if (f - e == 1)
+        ++result.border_edges;
+      else if (f - e == 2) {
+        const int h = e->second, o = (e + 1)->second;
+        result.opposite[h] = o;
+        result.opposite[o] = h;
+        if (halfedge_source(triangles, h) == halfedge_source(triangles, o))
+          result.same_direction = true;
+      } else
+        ++result.non_manifold_edges;
+      e = f;
+    }
+  }
+  return result;
+}
+
+/// The component of each facet: facets that share an edge have the same number. Numbered by
+/// the first facet of each component.
+/// \returns the numbers (#F) and the number of components
+inline std::pair<std::vector<int>, int> facet_components(const Facet_adjacency& adjacency)
+{
+  const int facets = static_cast<int>(adjacency.opposite.size() / 3);
+  std::vector<int> component(facets, -1), stack;
+  int components = 0;
+  for (int seed = 0; seed < facets; ++seed) {
+    if (component[seed] >= 0) continue;
+    component[seed] = components;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const int f = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const int o = adjacency.opposite[3 * f + i];
+        if (o == Facet_adjacency::none || component[o / 3] >= 0) continue;
+        component[o / 3] = components;
+        stack.push_back(o / 3);
+      }
+    }
+    ++components;
+  }
+  return {std::move(component), components};
+}
+
+/// Calls `at_fan` for each fan of facets around a vertex, in the order of their first halfedges,
+/// with the fan's halfedges that leave the vertex (as a vector). Needs consistent orientations.
+/// \param opposite function halfedge -> the halfedge of the next facet, or `none`
+template <class Opposite, class At_fan>
+void for_each_fan(std::size_t halfedges, const Opposite& opposite, const At_fan& at_fan)
+{
+  std::vector<char> visited(halfedges, 0);
+  std::vector<int> fan;
+  for (int start = 0; start < static_cast<int>(halfedges); ++start) {
+    if (visited[start]) continue;
+    fan.clear();
+    const auto visit = [&](int h) {
+      visited[h] = 1;
+      fan.push_back(h);
+    };
+    int h = start; // counter-clockwise around the source, then clockwise if a border stopped it
+    do {
+      visit(h);
+      h = opposite(previous_halfedge(h));
+    } while (h != Facet_adjacency::none && h != start);
+    if (h != start)
+      for (h = opposite(start); h != Facet_adjacency::none; h = opposite(h)) {
+        h = next_halfedge(h);
+        visit(h);
+      }
+    at_fan(fan);
+  }
+}
+
+/// The number of vertices whose facets form more than one fan. Needs consistent orientations.
+inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& triangles,
+                                               const Facet_adjacency& adjacency,
+                                               std::size_t number_of_vertices)
+{
+  std::vector<char> fans(number_of_vertices, 0);
+  std::size_t count = 0;
+  const auto opposite = [&](int h) { return adjacency.opposite[h]; };
+  for_each_fan(adjacency.opposite.size(), opposite, [&](const std::vector<int>& fan) {
+    char& n = fans[halfedge_source(triangles, fan[0])];
+    if (n == 1) ++count;
+    n = static_cast<char>((std::min)(n + 1, 2));
+  });
+  return count;
+}
+
+/// Turns facets so that neighbors agree; in each component as few as possible.
+/// \param partners function halfedge -> range of the halfedges that must run the other way
+/// \param is_allowed function halfedge, partner -> bool, called where neighbors cannot agree:
+///   whether to go on
+/// \returns false if a component cannot be oriented; `turned` counts the turned facets
+template <class Partners, class IsAllowed>
+bool orient_facets(std::vector<Triangle>& triangles, const Partners& partners,
+                   const IsAllowed& is_allowed, std::size_t& turned)
+{
+  const int facets = static_cast<int>(triangles.size());
+  std::vector<char> side(facets, -1); // 1: turned with respect to the component's first facet
+  std::vector<int> component;
+  for (int seed = 0; seed < facets; ++seed) {
+    if (side[seed] >= 0) continue;
+    component.assign(1, seed);
+    side[seed] = 0;
+    std::size_t ones = 0;
+    for (std::size_t k = 0; k < component.size(); ++k) {
+      const int f = component[k];
+      ones += side[f];
+      for (int h = 3 * f; h < 3 * f + 3; ++h)
+        for (const int o : partners(h)) {
+          const bool differ = halfedge_source(triangles, h) == halfedge_source(triangles, o);
+          const char expected = differ ? 1 - side[f] : side[f];
+          if (side[o / 3] < 0) {
+            side[o / 3] = expected;
+            component.push_back(o / 3);
+          } else if (side[o / 3] != expected && !is_allowed(h, o))
+            return false;
+        }
+    }
+    const char minority = 2 * ones <= component.size() ? 1 : 0;
+    for (const int f : component) side[f] = side[f] == minority;
+    turned += minority == 1 ? ones : component.size() - ones;
+  }
+  for (int f = 0; f < facets; ++f)
+    if (side[f]) std::swap(triangles[f][1], triangles[f][2]);
+  return true;
+}
+
+/// The same, of facets that share an edge with one other.
+/// \returns the edges, smaller vertex first, sorted, at which neighbors do not agree: a component
+///   with one side only is oriented once it is cut there
+inline std::vector<Edge> orient_facets(std::vector<Triangle>& triangles,
+                                       const Facet_adjacency& adjacency, std::size_t& turned)
+{
+  std::vector<Edge> seams;
+  orient_facets(
+      triangles,
+      [&](int h) {
+        return boost::make_iterator_range_n(&adjacency.opposite[h],
+                                            adjacency.opposite[h] == Facet_adjacency::none ? 0 : 1);
+      },
+      [&](int h, int) {
+        seams.push_back(sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h)));
+        return true;
+      },
+      turned);
+  std::sort(seams.begin(), seams.end());
+  seams.erase(std::unique(seams.begin(), seams.end()), seams.end());
+  return seams;
+}
+
+/// Whether the facets at each vertex form one fan, whatever their orientations.
+inline bool has_single_fans(const std::vector<Triangle>& triangles,
+                            const Facet_adjacency& adjacency, std::size_t number_of_vertices)
+{
+  // An edge joins two facets at both its ends; a fan of k facets has k - 1 edges, or k if closed.
+  std::vector<int> parent(3 * triangles.size());
+  for (std::size_t c = 0; c < parent.size(); ++c) parent[c] = static_cast<int>(c);
+  const auto root = [&](int c) {
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  const auto corner_at = [&](int f, int v) {
+    return triangles[f][0] == v ? 3 * f : triangles[f][1] == v ? 3 * f + 1 : 3 * f + 2;
+  };
+  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
+    if (adjacency.opposite[h] < h) continue;
+    for (const int v : {halfedge_source(triangles, h), halfedge_target(triangles, h)})
+      parent[root(corner_at(h / 3, v))] = root(corner_at(adjacency.opposite[h] / 3, v));
+  }
+  std::vector<int> fan(number_of_vertices, -1);
+  for (int c = 0; c < static_cast<int>(parent.size()); ++c) {
+    int& of_vertex = fan[triangles[c / 3][c % 3]];
+    if (of_vertex < 0)
+      of_vertex = root(c);
+    else if (of_vertex != root(c))
+      return false;
+  }
+  return true;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H

@@ -1,0 +1,63 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_GEOMETRY_HILBERT_CODE_H
+#define CGAL_POWER_RTF_GEOMETRY_HILBERT_CODE_H
+
+#include <CGAL/PowerRTF/geometry/vector.h>
+
+#include <cstdint>
+
+namespace CGAL::PowerRTF {
+
+/// Every third bit of the result is one of the 21 low bits of `x`.
+CGAL_POWER_RTF_HD inline std::uint64_t spread_bits(std::uint64_t x)
+{
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffffull;
+  x = (x | x << 16) & 0x1f0000ff0000ffull;
+  x = (x | x << 8) & 0x100f00f00f00f00full;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+  x = (x | x << 2) & 0x1249249249249249ull;
+  return x;
+}
+
+/// Position of a cube, of 2^63, along the Hilbert curve, which has no leaps; its coordinates are
+/// below 2^21. (Skilling, "Programming the Hilbert curve", 2004.)
+CGAL_POWER_RTF_HD inline std::uint64_t hilbert_index(std::uint32_t i, std::uint32_t j,
+                                                     std::uint32_t k)
+{
+  constexpr std::uint32_t top = 1u << 20;
+  std::uint32_t x[3] = {i, j, k};
+  for (std::uint32_t q = top; q > 1; q >>= 1)
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t below = q - 1, t = (x[0] ^ x[axis]) & below;
+      if (x[axis] & q) {
+        x[0] ^= below;
+      } else {
+        x[0] ^= t;
+        x[axis] ^= t;
+      }
+    }
+  x[1] ^= x[0]; // Gray code
+  x[2] ^= x[1];
+  std::uint32_t t = 0;
+  for (std::uint32_t q = top; q > 1; q >>= 1)
+    if (x[2] & q) t ^= q - 1;
+  return spread_bits(x[0] ^ t) << 2 | spread_bits(x[1] ^ t) << 1 | spread_bits(x[2] ^ t);
+}
+
+/// Position along the curve of the cube with a point of [-1, 1)^3. Planes of symmetry, like x = 0,
+/// are not sides of cubes: rounding would decide there.
+template <class Real>
+CGAL_POWER_RTF_HD inline std::uint64_t hilbert_code(const Vec3<Real>& p)
+{
+  const auto cell = [](Real x) {
+    const double at = (0.9510565 * double(x) + 1.0190983) * 0x1p20;
+    return at > 0 ? at < 0x1p21 ? std::uint32_t(at) : 0x1fffffu : 0u;
+  };
+  return hilbert_index(cell(p.x), cell(p.y), cell(p.z));
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_GEOMETRY_HILBERT_CODE_H

@@ -1,0 +1,226 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Projection of a point onto the surface: the nearest point of the facets whose normals agree with
+// a given one, by a packed tree of boxes (Section 4.2.2, with all facets as candidates instead of
+// those at the nearest vertices; NVISPC as in Section 4.3).
+#ifndef CGAL_POWER_RTF_GEOMETRY_NEAREST_FACET_H
+#define CGAL_POWER_RTF_GEOMETRY_NEAREST_FACET_H
+
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
+
+namespace CGAL::PowerRTF {
+
+/// A point of a surface and the facet that carries it.
+template <class FT>
+struct Surface_point {
+  Vec3<FT> point;
+  int facet = -1;
+  FT squared_distance = 0; ///< to the query
+};
+
+/// Nearest point of the triangle (a, b, c). (Ericson, "Real-Time Collision Detection", 5.1.5.)
+template <class FT>
+CGAL_POWER_RTF_HD inline Vec3<FT> nearest_point_on_triangle(const Vec3<FT>& p, const Vec3<FT>& a,
+                                                            const Vec3<FT>& b, const Vec3<FT>& c)
+{
+  const Vec3<FT> ab = b - a, ac = c - a, ap = p - a;
+  const FT d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3<FT> bp = p - b;
+  const FT d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const FT vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return d1 - d3 > 0 ? a + ab * (d1 / (d1 - d3)) : a;
+  const Vec3<FT> cp = p - c;
+  const FT d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const FT vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return d2 - d6 > 0 ? a + ac * (d2 / (d2 - d6)) : a;
+  const FT va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const FT s = (d4 - d3) + (d5 - d6);
+    return s > 0 ? b + (c - b) * ((d4 - d3) / s) : b;
+  }
+  const FT denominator = 1 / (va + vb + vc);
+  return a + ab * (vb * denominator) + ac * (vc * denominator);
+}
+
+/// The boxes of a tree node's children side by side, so that one loop over them is one run of
+/// vector instructions. Single precision and rounded outwards: distances to them are lower bounds.
+struct Child_boxes {
+  static constexpr int size = Packed_tree_layout::arity;
+  float center[3][size], half[3][size]; ///< per axis
+
+  /// Coordinates are those of the unit box, at most 1 in size: this covers the rounding of a box
+  /// and of the query.
+  static constexpr float margin = 2.5e-7f;
+
+  template <class FT>
+  CGAL_POWER_RTF_HD void set(int child, const Box3<FT>& box)
+  {
+    const Vec3<FT> c = (box.lo + box.hi) * FT(0.5), h = (box.hi - box.lo) * FT(0.5);
+    const FT cs[3] = {c.x, c.y, c.z}, hs[3] = {h.x, h.y, h.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis][child] = static_cast<float>(cs[axis]);
+      half[axis][child] = static_cast<float>(hs[axis]) + margin;
+    }
+  }
+
+  /// Lower bounds of the squared distances to a point.
+  CGAL_POWER_RTF_HD void squared_distances(const float (&p)[3], float (&d)[size]) const
+  {
+    for (int child = 0; child < size; ++child) {
+      float sum = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float outside = std::fabs(p[axis] - center[axis][child]) - half[axis][child];
+        const float twice = outside + std::fabs(outside); // 2 max(outside, 0), without a branch
+        sum += twice * twice;
+      }
+      d[child] = 0.25f * sum;
+    }
+  }
+};
+
+/// Non-owning view of a triangulated surface with its facets in spatial order. Coordinates are
+/// those of the unit box.
+template <class FT>
+struct Facets_view {
+  /// The corners of a facet side by side, and its number in the surface.
+  struct Facet {
+    Vec3<FT> a, b, c;
+    int id;
+  };
+  const Facet* facets = nullptr;      ///< #F, in the order of the tree
+  const Vec3<FT>* normals = nullptr;  ///< #F unit normals, in the order of the tree
+  const int* places = nullptr;        ///< #F, place in the tree of each facet of the surface
+  const Child_boxes* nodes = nullptr; ///< one per node of `tree`
+  Packed_tree_layout tree;
+  const int* patches = nullptr; ///< #F, in the order of the tree; null: one patch
+};
+
+/// Computes node `k` of `level` and its own box `boxes[...]`; the levels are done in ascending
+/// order.
+template <class FT>
+CGAL_POWER_RTF_HD inline void fit_facets_node(const Packed_tree_layout& tree, int level, int k,
+                                              const typename Facets_view<FT>::Facet* facets,
+                                              Box3<FT>* boxes, Child_boxes* nodes)
+{
+  const int begin = tree.children_begin(k), end = tree.children_end(level, k);
+  const int node = tree.first[level] + k;
+  for (int c = begin; c < end; ++c) {
+    Box3<FT> box;
+    if (level > 0) {
+      box = boxes[tree.first[level - 1] + c];
+    } else {
+      box = {facets[c].a, facets[c].a};
+      box.add(facets[c].b);
+      box.add(facets[c].c);
+    }
+    nodes[node].set(c - begin, box);
+    if (c > begin)
+      boxes[node].add(box);
+    else
+      boxes[node] = box;
+  }
+  for (int c = end - begin; c < Child_boxes::size; ++c) nodes[node].set(c, boxes[node]); // unused
+}
+
+/// Calls `visit(item)` for the items of a tree whose boxes are no farther from `query` than
+/// `bound()`, near ones first; the bound may shrink meanwhile.
+template <class Real, class Bound, class Visit>
+CGAL_POWER_RTF_HD inline void visit_near(const Packed_tree_layout& tree, const Child_boxes* nodes,
+                                         const Vec3<Real>& query, Bound bound, Visit visit)
+{
+  if (tree.items == 0) return;
+  const float q[3] = {float(query.x), float(query.y), float(query.z)};
+  struct Pending {
+    int level, node;
+    float squared_distance;
+  };
+  Pending stack[Packed_tree_layout::stack_size];
+  int size = 0;
+  stack[size++] = {tree.levels - 1, 0, 0};
+  while (size > 0) {
+    const Pending top = stack[--size];
+    if (top.squared_distance > bound()) continue;
+    const int begin = tree.children_begin(top.node), end = tree.children_end(top.level, top.node);
+    float d[Child_boxes::size];
+    nodes[tree.first[top.level] + top.node].squared_distances(q, d);
+    const int bottom = size;
+    CGAL_POWER_RTF_UNROLL
+    for (int k = 0; k < Child_boxes::size; ++k) {
+      if (begin + k >= end || d[k] > bound()) continue;
+      if (top.level == 0) {
+        visit(begin + k);
+        continue;
+      }
+      int place = size++; // the nearest child ends on top of the stack
+      for (; place > bottom && d[k] > stack[place - 1].squared_distance; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = {top.level - 1, begin + k, d[k]};
+    }
+  }
+}
+
+/// An upper bound of a squared distance in single precision, for comparisons with boxes.
+template <class Real>
+CGAL_POWER_RTF_HD inline float bound_of(Real squared_distance)
+{
+  return float(squared_distance) * (1 + 1e-6f) + 1e-37f;
+}
+
+/// The nearest point to `p` on the facets whose normals make less than Theta with `normal`
+/// (`cos_angle`: its cosine; -2: all facets). `hint` is a facet of the surface that is probably
+/// near, or -1; with patches, only facets of the hint's one count. When no facet agrees, `facet` is
+/// -1. Ties go to the facet first in the tree.
+template <class FT>
+CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& view,
+                                                         const Vec3<FT>& p, const Vec3<FT>& normal,
+                                                         FT cos_angle, int hint)
+{
+  Surface_point<FT> best;
+  int best_place = -1;
+  float bound = 3e38f; // no less than the best squared distance
+  const int first = hint >= 0 ? view.places[hint] : -1;
+  const int patch = view.patches && first >= 0 ? view.patches[first] : -1;
+  const auto test = [&](int place) {
+    if (patch >= 0 && view.patches[place] != patch) return;
+    if (cos_angle > -1 && !(dot(view.normals[place], normal) > cos_angle)) return;
+    const auto& f = view.facets[place];
+    const Vec3<FT> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
+    const FT d = squared_length(q - p);
+    if (best.facet >= 0 &&
+        (d > best.squared_distance || (d == best.squared_distance && place > best_place)))
+      return;
+    best = {q, f.id, d};
+    best_place = place;
+    bound = bound_of(d);
+  };
+  if (first >= 0) test(first);
+  visit_near(
+      view.tree, view.nodes, p, [&]() { return bound; },
+      [&](int place) {
+        if (place != first) test(place);
+      });
+  return best;
+}
+
+/// Barycentric coordinates (of b and c) of a point of the triangle, clamped to it.
+template <class FT>
+CGAL_POWER_RTF_HD inline void barycentric_coordinates(const Vec3<FT>& p, const Vec3<FT>& a,
+                                                      const Vec3<FT>& b, const Vec3<FT>& c,
+                                                      FT& beta, FT& gamma)
+{
+  const Vec3<FT> ab = b - a, ac = c - a, ap = p - a;
+  const FT bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), pb = dot(ap, ab), pc = dot(ap, ac);
+  const FT determinant = bb * cc - bc * bc;
+  beta = determinant > 0 ? (cc * pb - bc * pc) / determinant : FT(0);
+  gamma = determinant > 0 ? (bb * pc - bc * pb) / determinant : FT(0);
+  beta = beta < 0 ? FT(0) : beta > 1 ? FT(1) : beta;
+  gamma = gamma < 0 ? FT(0) : gamma > 1 - beta ? 1 - beta : gamma;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_GEOMETRY_NEAREST_FACET_H

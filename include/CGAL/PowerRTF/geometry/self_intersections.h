@@ -1,0 +1,53 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Self-intersections of a triangle soup, manifold or not, decided by exact predicates. The same
+// answer as CGAL::Polygon_mesh_processing::self_intersections() gives for a mesh; CGAL 5.5 has no
+// version for soups.
+#ifndef CGAL_POWER_RTF_GEOMETRY_SELF_INTERSECTIONS_H
+#define CGAL_POWER_RTF_GEOMETRY_SELF_INTERSECTIONS_H
+
+#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/intersecting_pairs.h>
+
+#include <boost/range/irange.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+namespace internal {
+
+/// The facets of a soup for `Intersecting_pairs`.
+struct Soup_triangles {
+  using Face = int;
+
+  const std::vector<Vec3d>& all_points;
+  const std::vector<Triangle>& triangles;
+
+  const Triangle& corners(Face f) const { return triangles[f]; }
+  Triangle_points points(const Triangle& t) const
+  {
+    return {point(t[0]), point(t[1]), point(t[2])};
+  }
+
+private:
+  Epick::Point_3 point(int v) const { return {all_points[v].x, all_points[v].y, all_points[v].z}; }
+};
+
+} // namespace internal
+
+/// The number of pairs of facets of the soup that meet in more than a shared vertex or edge; a
+/// facet without area counts as a pair with itself. `points` must be finite.
+inline std::size_t self_intersections(const std::vector<Vec3d>& points,
+                                      const std::vector<Triangle>& triangles)
+{
+  std::size_t count = 0;
+  internal::Intersecting_pairs<internal::Soup_triangles>({points, triangles})
+      .find(boost::irange(0, static_cast<int>(triangles.size())), [&](int, int) { ++count; });
+  return count;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_GEOMETRY_SELF_INTERSECTIONS_H

@@ -1,0 +1,108 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Normals and areas of a surface. Vertex normals are weighted by the facets' angles (Thuermer and
+// Wuethrich 1998), so they do not depend on how the surface is cut into triangles.
+#ifndef CGAL_POWER_RTF_GEOMETRY_SURFACE_GEOMETRY_H
+#define CGAL_POWER_RTF_GEOMETRY_SURFACE_GEOMETRY_H
+
+#include <CGAL/PowerRTF/geometry/degenerate_facets.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+namespace internal {
+
+/// Gives vertices whose facets' normals cancel (the rim of a folded sheet) the normal of their
+/// largest facet.
+inline void mend_vertex_normals(Surface& surface)
+{
+  std::vector<double> largest(surface.points.size(), 0);
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f)
+    for (const int v : surface.triangles[f])
+      if (surface.facet_areas[f] > largest[v] && squared_length(surface.vertex_normals[v]) < 0.5) {
+        largest[v] = surface.facet_areas[f];
+        surface.vertex_normals[v] = 0.5 * surface.facet_normals[f]; // 0.5: still to be replaced
+      }
+  for (Vec3d& n : surface.vertex_normals) {
+    n = normalized(n);
+    if (squared_length(n) == 0) n = {0, 0, 1}; // all its facets are degenerate
+  }
+}
+
+} // namespace internal
+
+/// Sets `facet_normals`, `facet_areas`, `area` and `vertex_normals` from points and triangles.
+/// Facets without a direction of their own (\ref is_degenerate) count in no vertex normal and get
+/// the mean normal of their vertices. All normals are of length 1.
+inline void compute_geometry(Surface& surface)
+{
+  const std::size_t facets = surface.triangles.size();
+  surface.facet_normals.resize(facets);
+  surface.facet_areas.resize(facets);
+  surface.vertex_normals.assign(surface.points.size(), Vec3d{0, 0, 0});
+  surface.area = 0;
+  constexpr double pi = 3.14159265358979323846;
+
+  std::vector<std::size_t> degenerate;
+  for (std::size_t f = 0; f < facets; ++f) {
+    const Triangle& t = surface.triangles[f];
+    const Vec3d &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+    const Vec3d n = cross(b - a, c - a);
+    const double twice_area = length(n);
+    surface.facet_areas[f] = twice_area / 2;
+    surface.area += twice_area / 2;
+    if (is_degenerate(a, b, c)) {
+      degenerate.push_back(f);
+      continue;
+    }
+    const Vec3d unit = n * (1 / twice_area);
+    surface.facet_normals[f] = unit;
+    const double angle_a = std::atan2(twice_area, dot(b - a, c - a));
+    const double angle_b = std::atan2(twice_area, dot(c - b, a - b));
+    surface.vertex_normals[t[0]] += angle_a * unit;
+    surface.vertex_normals[t[1]] += angle_b * unit;
+    surface.vertex_normals[t[2]] += (pi - angle_a - angle_b) * unit;
+  }
+
+  bool cancelled = false;
+  for (Vec3d& n : surface.vertex_normals) {
+    const double l = length(n);
+    constexpr double no_direction = 1e-6; // of sums of angles, which are of order 1
+    n = l > no_direction ? n * (1 / l) : Vec3d{0, 0, 0};
+    cancelled = cancelled || !(l > no_direction);
+  }
+  if (cancelled) internal::mend_vertex_normals(surface);
+  for (const std::size_t f : degenerate) {
+    const Triangle& t = surface.triangles[f];
+    const auto& n = surface.vertex_normals;
+    const Vec3d mean = normalized(n[t[0]] + n[t[1]] + n[t[2]]);
+    surface.facet_normals[f] = squared_length(mean) > 0 ? mean : n[t[0]];
+  }
+}
+
+/// The barycentric combination of the vertices' normals of facet `f`, of length 1.
+inline Vec3d interpolated_normal(const Surface& surface, int f,
+                                 const std::array<double, 3>& weights)
+{
+  const Triangle& t = surface.triangles[f];
+  const auto& n = surface.vertex_normals;
+  const Vec3d mean = weights[0] * n[t[0]] + weights[1] * n[t[1]] + weights[2] * n[t[2]];
+  return squared_length(mean) > 1e-6 ? normalized(mean) : surface.facet_normals[f];
+}
+
+/// The barycentric combination of the vertices' densities of facet `f`.
+inline double interpolated_density(const Surface& surface, int f,
+                                   const std::array<double, 3>& weights)
+{
+  const Triangle& t = surface.triangles[f];
+  const auto& rho = surface.vertex_density;
+  return weights[0] * rho[t[0]] + weights[1] * rho[t[1]] + weights[2] * rho[t[2]];
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_GEOMETRY_SURFACE_GEOMETRY_H

@@ -1,0 +1,320 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The one-sided distance from the surface to the mesh, sampled at the surface's vertices. For each
+// of them the nearest point of the mesh is kept, on a face whose normal agrees (if there is one).
+// After changes of the mesh it is updated by descent from face to face, which can overestimate
+// small distances; large ones are exact.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
+#define CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
+
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+class Distance_tracker {
+public:
+  using Vertex = Star_mesh::Vertex;
+  using Halfedge = Star_mesh::Halfedge;
+  using Face = Working_mesh::Mesh::Face_index;
+
+  /// A point of the surface and where the mesh is nearest to it.
+  struct Tracked_point {
+    Vec3d point, normal;
+    double weight; ///< area of the surface that it stands for, of its vertices
+    Halfedge face;
+    std::array<double, 3> barycentric; ///< of the nearest point: source, target, apex of `face`
+    Vec3d nearest;
+    double distance;
+    int facet; ///< of the surface, at the point
+  };
+
+  /// \pre `mesh` has a face
+  explicit Distance_tracker(const Star_mesh& mesh)
+      : m_mesh(&mesh),
+        m_tree_search_distance(Parameters::tree_search_distance *
+                               std::sqrt(mesh.projector().surface().area / double(mesh.size())))
+  {
+    choose_points();
+    Halfedge start = topology().halfedge(*topology().faces().begin());
+    for (Tracked_point& w : m_points) { // they are in spatial order: most often it is not far
+      w.face = start;
+      descend(w);
+      if (w.distance <= m_tree_search_distance) start = w.face;
+    }
+    find_far();
+  }
+
+  /// Measures the distance to a copy of that mesh from now on.
+  void track(const Star_mesh& copy)
+  {
+    m_mesh = &copy;
+    m_updated = 0;
+    update();
+  }
+
+  int size() const { return int(m_points.size()); }
+  const Tracked_point& operator[](int i) const { return m_points[i]; }
+
+  /// Those that are nearest to a face.
+  const auto& at_face(Face f) const { return m_at_face[f]; }
+
+  double max_distance() const
+  {
+    double d = 0;
+    for (const Tracked_point& w : m_points) d = std::max(d, w.distance);
+    return d;
+  }
+
+  /// After any changes of the mesh.
+  void update()
+  {
+    std::vector<char> changed(m_mesh->size()); // by vertex: its star
+    for (const Vertex v : topology().vertices()) changed[v] = m_mesh->changed_around(v) > m_updated;
+    for (Tracked_point& w : m_points)
+      if (changed[topology().source(w.face)] || changed[topology().target(w.face)] ||
+          changed[topology().target(topology().next(w.face))])
+        descend(w);
+    m_updated = m_mesh->now();
+    find_far();
+  }
+
+  /// The largest distance of what is nearest to the star of `v`, with `v` at `p`; or any that is no
+  /// less than `limit`.
+  double farthest_around(Vertex v, const Vec3d& p,
+                         double limit = std::numeric_limits<double>::infinity()) const
+  {
+    const Faces faces = patch(v, p);
+    double farthest = 0;
+    for (const Halfedge h : halfedges_around_target(v, topology()))
+      if (!topology().is_border(h))
+        for (const int i : m_at_face[topology().face(h)]) {
+          Tracked_point w = m_points[i];
+          search_faces(w, faces, v, p);
+          farthest = std::max(farthest, w.distance);
+          if (farthest >= limit) return farthest;
+        }
+    return farthest;
+  }
+
+  /// After `v` has moved.
+  void update_around(Vertex v)
+  {
+    const Faces faces = patch(v, m_mesh->point(v));
+    boost::container::small_vector<int, 64> tracked;
+    for (const Halfedge h : halfedges_around_target(v, topology())) {
+      if (topology().is_border(h)) continue;
+      auto& here = m_at_face[topology().face(h)];
+      tracked.insert(tracked.end(), here.begin(), here.end());
+      here.clear();
+    }
+    for (const int i : tracked) {
+      search_faces(m_points[i], faces, v, m_mesh->point(v));
+      m_at_face[topology().face(m_points[i].face)].push_back(i);
+    }
+  }
+
+private:
+  using Parameters = Improvement_parameters::Tracking;
+  static constexpr double min_normal_cosine = Improvement_parameters::Projection::min_normal_cosine;
+
+  // A face in a ball.
+  struct Bounded_face {
+    Halfedge halfedge;
+    Vec3d center;
+    double radius;
+  };
+  using Faces = boost::container::small_vector<Bounded_face, 32>;
+
+  const Working_mesh::Mesh& topology() const { return m_mesh->working().mesh; }
+
+  // In spatial order. Of a surface with very many vertices, every k-th.
+  void choose_points()
+  {
+    const Surface& surface = m_mesh->projector().surface();
+    const auto& facets = m_mesh->projector().facets();
+    const std::size_t vertices = surface.points.size();
+    const std::size_t stride = 1 + vertices / (Parameters::max_points_per_vertex * m_mesh->size());
+    std::vector<int> numbers(vertices, -1); // of the points
+    std::vector<char> seen(vertices, false);
+    std::size_t order = 0;
+    for (int place = 0; place < facets.tree.items; ++place) {
+      const int f = facets.facets[place].id;
+      for (const int v : surface.triangles[f]) {
+        if (!std::exchange(seen[v], true) && order++ % stride == 0) {
+          numbers[v] = size();
+          m_points.push_back({surface.points[v],
+                              surface.vertex_normals[v],
+                              0,
+                              Halfedge(),
+                              {1, 0, 0},
+                              surface.points[v],
+                              0,
+                              f});
+        }
+        if (numbers[v] >= 0) m_points[numbers[v]].weight += surface.facet_areas[f] / 3;
+      }
+    }
+  }
+
+  // Those that seem to be far are searched for in the whole mesh.
+  void find_far()
+  {
+    std::vector<Tracked_point*> far;
+    for (Tracked_point& w : m_points)
+      if (w.distance > m_tree_search_distance) far.push_back(&w);
+    if (!far.empty()) search_mesh(far);
+    assign();
+  }
+
+  // \pre all faces are there: what has been taken out has been put back elsewhere
+  void search_mesh(const std::vector<Tracked_point*>& some)
+  {
+    std::vector<Vec3d> points;
+    std::vector<Triangle> triangles;
+    for (const Vertex v : topology().vertices()) points.push_back(m_mesh->point(v));
+    for (const Face f : topology().faces()) {
+      const Halfedge h = topology().halfedge(f);
+      triangles.push_back({int(topology().source(h)), int(topology().target(h)),
+                           int(topology().target(topology().next(h)))});
+    }
+    if (!m_tree)
+      m_tree.emplace(points, triangles);
+    else
+      m_tree->refit(points, triangles);
+    for (Tracked_point* w : some) {
+      Cancellation::poll();
+      const int hint = int(topology().face(w->face));
+      int f = nearest_facet(m_tree->view(), w->point, w->normal, min_normal_cosine, hint).facet;
+      if (f < 0) f = m_tree->nearest(w->point, hint).facet; // none agrees: any
+      try_face(*w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
+    }
+  }
+
+  void assign()
+  {
+    m_at_face.resize(topology().number_of_faces());
+    for (auto& here : m_at_face) here.clear();
+    for (int i = 0; i < size(); ++i) m_at_face[topology().face(m_points[i].face)].push_back(i);
+  }
+
+  static bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+  {
+    const Vec3d n = cross(b - a, c - a);
+    return dot(n, w.normal) > min_normal_cosine * length(n);
+  }
+
+  // Assigns the face of `h` to the point if it is nearer than `distance` and agrees, or if
+  // `distance` is `any`. With v at p.
+  bool try_face(Tracked_point& w, Halfedge h, Vertex v, const Vec3d& p, double distance) const
+  {
+    const auto [a, b, c] = corners(h, v, p);
+    const Vec3d y = nearest_point_on_triangle(w.point, a, b, c);
+    const double d = length(y - w.point);
+    if (distance < any && !(d < distance && agrees(w, a, b, c))) return false;
+    double beta, gamma;
+    barycentric_coordinates(y, a, b, c, beta, gamma);
+    w.face = h;
+    w.nearest = y;
+    w.distance = d;
+    w.barycentric = {1 - beta - gamma, beta, gamma};
+    return true;
+  }
+
+  // Goes from the face on to those at the edge or corner where the nearest point is.
+  void descend(Tracked_point& w) const
+  {
+    const auto& mesh = topology();
+    try_face(w, w.face, Vertex(), {}, any);
+    if (!agrees(w, m_mesh->point(mesh.source(w.face)), m_mesh->point(mesh.target(w.face)),
+                m_mesh->point(mesh.target(mesh.next(w.face)))))
+      w.distance = disagreement; // worse than all that agree
+    for (int step = 0; step < Parameters::max_downhill_steps; ++step) {
+      const std::array<Halfedge, 3> around{w.face, mesh.next(w.face), mesh.prev(w.face)};
+      int corner = -1, opposite = -1; // of the corners source, target, apex
+      for (int k = 0; k < 3; ++k) {
+        if (w.barycentric[k] >= 1 - rounding)
+          corner = k;
+        else if (w.barycentric[k] <= rounding)
+          opposite = k;
+      }
+      bool nearer = false;
+      if (corner >= 0) {
+        for (const Halfedge h : halfedges_around_target(around[(corner + 2) % 3], mesh))
+          if (!mesh.is_border(h) && mesh.face(h) != mesh.face(w.face))
+            nearer |= try_face(w, h, Vertex(), {}, clearly_less * w.distance);
+      } else if (opposite >= 0) {
+        const Halfedge h = mesh.opposite(around[(opposite + 1) % 3]);
+        if (!mesh.is_border(h)) nearer = try_face(w, h, Vertex(), {}, clearly_less * w.distance);
+      }
+      if (!nearer) return;
+    }
+  }
+
+  // The faces around v, which is at p, and its neighbors.
+  Faces patch(Vertex v, const Vec3d& p) const
+  {
+    const auto& mesh = topology();
+    boost::container::small_vector<Face, 48> around;
+    for (const Halfedge h : halfedges_around_target(v, mesh))
+      for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
+        if (!mesh.is_border(g)) around.push_back(mesh.face(g));
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    Faces faces;
+    for (const Face f : around) {
+      const Halfedge h = mesh.halfedge(f);
+      const auto [a, b, c] = corners(h, v, p);
+      const Vec3d center = (a + b + c) * (1 / 3.);
+      const double squared_radius = std::max(
+          {squared_length(a - center), squared_length(b - center), squared_length(c - center)});
+      faces.push_back({h, center, std::sqrt(squared_radius)});
+    }
+    return faces;
+  }
+
+  // With v at p.
+  std::array<Vec3d, 3> corners(Halfedge h, Vertex v, const Vec3d& p) const
+  {
+    const auto& mesh = topology();
+    const auto at = [&](Vertex u) { return u == v ? p : m_mesh->point(u); };
+    return {at(mesh.source(h)), at(mesh.target(h)), at(mesh.target(mesh.next(h)))};
+  }
+
+  void search_faces(Tracked_point& w, const Faces& faces, Vertex v, const Vec3d& p) const
+  {
+    try_face(w, w.face, v, p, any);
+    for (const Bounded_face& f : faces) {
+      const double reach = clearly_less * length(w.point - f.center) - f.radius;
+      if (reach < w.distance) try_face(w, f.halfedge, v, p, w.distance);
+    }
+  }
+
+  static constexpr double disagreement = std::numeric_limits<double>::max();
+  static constexpr double any = std::numeric_limits<double>::infinity();
+  static constexpr double rounding = 1e-9; // of barycentric coordinates
+
+  const Star_mesh* m_mesh;
+  std::optional<Facet_tree> m_tree; // of the mesh's faces
+  Star_mesh::Time m_updated = 0;
+  double m_tree_search_distance; // the least distance that is searched for in the whole mesh
+  std::vector<Tracked_point> m_points;
+  std::vector<boost::container::small_vector<int, 12>> m_at_face; // by face: the points
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H

@@ -1,0 +1,138 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The constants of the improvement, stage by stage. h = sqrt(area / n) is the spacing of the n
+// samples. Angles between normals are given by their cosines. "Agreement" is the least cosine
+// between the normals of triangles and those of the surface at their corners; "badness" is that of
+// triangle_badness.h, whose own constants stand there.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_IMPROVEMENT_PARAMETERS_H
+#define CGAL_POWER_RTF_IMPROVEMENT_IMPROVEMENT_PARAMETERS_H
+
+namespace CGAL::PowerRTF::internal {
+
+struct Improvement_parameters {
+  /// improve_mesh.h
+  struct Schedule {
+    static constexpr int max_attempts = 8;
+    static constexpr int smoothing_passes = 3;
+    static constexpr int optimization_rounds = 8;
+    static constexpr int sliding_passes = 2, sliding_rounds = 4;
+    /// Of the largest distance, in h: more is undone.
+    static constexpr double max_distance_growth = 0.2;
+    /// Share of the largest distance from which on a place is worth a vertex of its own.
+    static constexpr double far_share = 0.7;
+    /// In h: as long as places are farther away, vertices are relocated once more.
+    static constexpr double relocation_distance = 0.4;
+    /// Badness that a stage may bring upon a triangle, as the optimization after it heals it.
+    static constexpr double healable_badness = 0.3;
+    /// The same where a vertex has been relocated for the last time.
+    static constexpr double healable_relocation_badness = 0.008;
+  };
+
+  /// Surface_projector.h and Distance_tracker.h
+  struct Projection {
+    /// Between normals that agree: about 110 degrees.
+    static constexpr double min_normal_cosine = -0.35;
+  };
+
+  /// Distance_tracker.h
+  struct Tracking {
+    static constexpr int max_points_per_vertex = 16;     ///< of the mesh
+    static constexpr double tree_search_distance = 0.25; ///< in h: larger ones are exact
+    static constexpr int max_downhill_steps = 30;
+  };
+
+  /// smooth_mesh.h
+  struct Smoothing {
+    static constexpr int max_flip_passes = 10;
+    /// Agreement that a star must keep, if it had it. One on a strongly curved part stands for
+    /// features that smoothing would slide off.
+    static constexpr double min_agreement = 0.75;
+    static constexpr double max_step = 0.25; ///< in the shortest edge of the star
+  };
+
+  /// optimize_bad_triangles.h
+  struct Optimization {
+    /// The search in the tangent plane: the first step in the mean edge of the star, how often it
+    /// is halved, and the number of steps.
+    static constexpr double first_step = 0.2;
+    static constexpr int max_halvings = 3, max_steps = 8;
+    static constexpr double min_agreement = 0.5;  ///< that a star must keep, if it had it
+    static constexpr double agreement_loss = 0.1; ///< that a move may cost a star that has less
+    /// Where the agreement is below `curved_agreement`, vertices are drawn to where they were, by
+    /// so much: moves cost distance to the surface.
+    static constexpr double anchor_weight = 0.25, curved_agreement = 0.8;
+    /// Two rounds that leave more than this share of the badness are the last.
+    static constexpr double stagnation_share = 0.95;
+    /// Least shape (mean ratio) of the triangles that a flip makes, before the search; and where
+    /// the flip heals a valence that allows no good angles.
+    static constexpr double min_flip_shape = 0.6, min_healing_flip_shape = 0.35;
+    /// A vertex with so many edges (of a needle) has no good triangles, and to look at all of them
+    /// for each costs minutes.
+    static constexpr int hub_degree = 60;
+  };
+
+  /// slide_features.h
+  struct Sliding {
+    /// The search along the curve: the first step in its edges, how often it is halved, and the
+    /// number of steps.
+    static constexpr double first_step = 0.2;
+    static constexpr int max_halvings = 4, max_steps = 10;
+    /// The search of two vertices at once: the step, and the number of steps to each side.
+    static constexpr double pair_step = 0.05;
+    static constexpr int pair_steps = 10;
+    static constexpr double min_spacing = 0.4;      ///< of neighbors, in edges of the curve
+    static constexpr double corner_cosine = 0.7071; ///< curves that turn more have a corner
+    static constexpr double max_turn_cosine = 0.9;  ///< of a triangle
+  };
+
+  /// cover_tips.h
+  struct Tips {
+    /// Share of the farthest distance around a vertex to which a move must bring it down.
+    static constexpr double worthwhile_share = 0.85;
+    static constexpr double min_agreement = 0.1;
+    /// Places that are tried: so many, and one more for each so many vertices of the mesh.
+    static constexpr int max_places = 10;
+    static constexpr int vertices_per_place = 100;
+  };
+
+  /// fit_to_surface.h
+  struct Fitting {
+    static constexpr int sweeps = 8; ///< the matrix is like a mass matrix: they converge fast
+    static constexpr double max_turn_cosine = 0.5; ///< of a triangle by one move
+    /// What moves in the tangent plane cost; more where the samples are to be spaced evenly.
+    static constexpr double tangential_weight = 0.05, even_tangential_weight = 0.3;
+    static constexpr double normal_weight = 1e-3; ///< and those along the normal
+    /// Where at least this share of a star lies in a flat patch that is at least so wide (in h),
+    /// the vertex stays there, whatever is next to it: a flat face that bulges is worse than a
+    /// round one that is cut short.
+    static constexpr double flat_width = 1.2, flat_share = 0.25, flat_normal_weight = 1e6;
+    static constexpr double coplanar_cosine = 0.99999; ///< of normals of facets in one plane
+    static constexpr double sheet_cosine = 0.5;        ///< of normals of facets on one sheet
+    /// The weight of the surface's vertices where there are at least so many of them for each
+    /// vertex of the mesh. The fewer there are, the more they are a random choice: it falls with
+    /// the square of their number.
+    static constexpr double tracked_weight = 0.7, fully_tracked = 8;
+  };
+
+  /// relocate_vertices.h
+  struct Relocation {
+    static constexpr int max_tips = 4, max_tries = 3; ///< whatever the size of the mesh
+    static constexpr double min_distance = 0.2;       ///< in h: nearer places stay
+    static constexpr double min_separation = 3;       ///< in h, of places that change
+    static constexpr double intersection_radius = 4;  ///< in h, around a change: what is checked
+    static constexpr double steep_sine = 0.5;         ///< of the angle of edge and surface
+    static constexpr double flat_agreement = 0.9;     ///< of stars that can spare their vertex
+    static constexpr double worthwhile_share = 0.85;  ///< of the distance, that a flip must leave
+    /// Badness right after the change that can be healed.
+    static constexpr double max_collapse_badness = 1, max_split_badness = 5;
+    static constexpr int optimization_rounds = 16;
+  };
+};
+
+/// What is less than this times another number is less: rounding decides nothing.
+constexpr double clearly_less = 1 - 1e-9;
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_IMPROVEMENT_PARAMETERS_H

@@ -1,0 +1,348 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh that the improvement works on: the working mesh, the place of each vertex on the
+// surface, which vertices may move, and when each has changed. A move is tried on the star of a
+// vertex and kept only if it folds nothing; a flip that is undone leaves no trace. The ends of
+// feature edges and the vertices on borders never move; features have no normal: what lies beside
+// them is judged by its own side alone.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_STAR_MESH_H
+#define CGAL_POWER_RTF_IMPROVEMENT_STAR_MESH_H
+
+#include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/extraction/Working_mesh.h>
+#include <CGAL/PowerRTF/improvement/Surface_projector.h>
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+/// The edges around a vertex, one for each of its triangles: the triangle (v, a, b) is
+/// counter-clockwise.
+struct Star {
+  struct Corner {
+    Vec3d a, b;
+    Working_mesh::Vertex vertex_a, vertex_b;
+  };
+  boost::container::small_vector<Corner, 12> corners;
+};
+
+class Star_mesh {
+public:
+  using Vertex = Working_mesh::Vertex;
+  using Halfedge = Working_mesh::Halfedge;
+  using Edge = Working_mesh::Edge;
+  /// Counts the changes of the mesh.
+  using Time = std::size_t;
+
+  /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
+  Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector)
+      : m_projector(&projector), m(refined(mesh)), m_heights(mesh.points.size(), 0),
+        m_locked(mesh.points.size(), false), m_movable(mesh.points.size()),
+        m_pinned(mesh.points.size(), false), m_on_feature(mesh.points.size(), false),
+        m_changed(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
+  {
+    const std::size_t n = mesh.points.size();
+    for (const auto& [a, b] : mesh.feature_edges) {
+      m_on_feature[a] = m_on_feature[b] = true;
+      const Halfedge h =
+          m.mesh.halfedge(Vertex(Vertex::size_type(a)), Vertex(Vertex::size_type(b)));
+      if (h.is_valid()) m_is_feature[m.mesh.edge(h)] = true;
+    }
+    m_facets.reserve(n);
+    for (std::size_t v = 0; v < n; ++v) {
+      const auto place = projector.nearest(mesh.points[v]);
+      m_facets.push_back(place.facet);
+      m.normals[v] = place.normal;
+      const Vertex w = Vertex(Vertex::size_type(v));
+      m_movable[v] = !m_on_feature[v] && !m.mesh.is_isolated(w) && !m.mesh.is_border(w);
+    }
+  }
+
+  /// `locked`: by vertex, those that neither move nor get or lose an edge.
+  void lock(const std::vector<char>& locked)
+  {
+    m_locked = locked;
+    for (std::size_t v = 0; v < size(); ++v)
+      if (locked[v]) m_movable[v] = false;
+  }
+
+  Working_mesh& working() { return m; }
+  const Working_mesh& working() const { return m; }
+  const Surface_projector& projector() const { return *m_projector; }
+  std::size_t size() const { return m_facets.size(); }
+  bool is_movable(Vertex v) const { return m_movable[v]; }
+  /// A pinned vertex does not move until it is released.
+  void pin(Vertex v)
+  {
+    m_movable[v] = false;
+    m_pinned[v] = true;
+    touch(v);
+  }
+  /// \returns whether `v` was pinned.
+  bool release(Vertex v)
+  {
+    if (!m_pinned[v]) return false;
+    m_pinned[v] = false;
+    m_movable[v] = true;
+    touch(v);
+    return true;
+  }
+
+  /// The time of the last change.
+  Time now() const { return m_now; }
+  /// When `v` or a neighbor has last changed.
+  Time changed_around(Vertex v) const
+  {
+    Time last = m_changed[v];
+    if (m.mesh.is_isolated(v)) return last;
+    for (const Halfedge h : halfedges_around_target(v, m.mesh))
+      last = std::max(last, m_changed[m.mesh.source(h)]);
+    return last;
+  }
+  /// `v` counts as changed.
+  void touch(Vertex v) { m_changed[v] = ++m_now; }
+
+  Vec3d point(Vertex v) const { return m.point(v); }
+  const Vec3d& normal(Vertex v) const { return m.normals[v]; }
+  int facet(Vertex v) const { return m_facets[v]; }
+
+  bool is_on_feature(Vertex v) const { return m_on_feature[v]; }
+  bool is_feature(Edge e) const { return m_is_feature[e]; }
+  bool is_locked(Vertex v) const { return m_locked[v]; }
+
+  /// False for borders, features, and if one of the four vertices around the edge is locked.
+  bool is_free(Edge e) const
+  {
+    if (m.mesh.is_border(e) || m_is_feature[e]) return false;
+    const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
+    return !(m_locked[m.mesh.source(h)] || m_locked[m.mesh.target(h)] ||
+             m_locked[m.mesh.target(m.mesh.next(h))] || m_locked[m.mesh.target(m.mesh.next(o))]);
+  }
+
+  Star star(Vertex v) const
+  {
+    Star s;
+    for (const Halfedge h : halfedges_around_target(v, m.mesh)) {
+      if (m.mesh.is_border(h)) continue;
+      const Vertex a = m.mesh.target(m.mesh.next(h)), b = m.mesh.source(h);
+      s.corners.push_back({m.point(a), m.point(b), a, b});
+    }
+    return s;
+  }
+
+  /// The place on the surface to which `v` would go.
+  Surface_projector::Place project(Vertex v, const Vec3d& p) const
+  {
+    const double height = m_heights[v];
+    auto place = m_projector->project(p - height * m.normals[v], m.normals[v], m_facets[v]);
+    place.point += height * place.normal;
+    return place;
+  }
+
+  double height(Vertex v) const { return m_heights[v]; }
+
+  /// Moves `v`, off the surface too. False if no place of the surface agrees: then it stays.
+  bool move_off(Vertex v, const Vec3d& p)
+  {
+    const auto place = m_projector->project(p, m.normals[v], m_facets[v]);
+    if (place.facet < 0) return false;
+    move(v, place);
+    set_point(v, p);
+    m_heights[v] = dot(p - place.point, place.normal);
+    return true;
+  }
+
+  /// The smallest cosine between the normals of the star's triangles, with its center at `p`, and
+  /// the surface's normals at their corners.
+  double agreement(const Star& star, const Vec3d& p, const Vec3d& normal) const
+  {
+    double least = 1;
+    for (const Star::Corner& c : star.corners) {
+      const Vec3d n = cross(c.a - p, c.b - p);
+      const double l = length(n);
+      if (!(l > 0)) return -1;
+      double d = dot(n, normal);
+      for (const Vertex v : {c.vertex_a, c.vertex_b})
+        if (!m_on_feature[v]) d = std::min(d, dot(n, m.normals[v]));
+      least = std::min(least, d / l);
+    }
+    return least;
+  }
+
+  /// The same for one triangle. Between features alone the surface's nearest facet counts.
+  double agreement(Vertex a, Vertex b, Vertex c) const
+  {
+    const Vec3d n = m.area_vector(a, b, c);
+    const double l = length(n);
+    if (!(l > 0)) return -1;
+    double least = l;
+    bool has_normal = false;
+    for (const Vertex v : {a, b, c})
+      if (!m_on_feature[v]) {
+        least = std::min(least, dot(n, m.normals[v]));
+        has_normal = true;
+      }
+    if (!has_normal)
+      least =
+          dot(n, m_projector->nearest((m.point(a) + m.point(b) + m.point(c)) * (1 / 3.)).normal);
+    return least / l;
+  }
+
+  /// The corners of its two triangles: its ends and the two that a flip joins.
+  std::array<Vertex, 4> corners(Edge e) const
+  {
+    // not halfedge(e): that is the one that e was made from, and the order must not depend on it
+    const Halfedge h = m.mesh.halfedge(e, 0), o = m.mesh.halfedge(e, 1);
+    return {m.mesh.source(h), m.mesh.target(h), m.mesh.target(m.mesh.next(h)),
+            m.mesh.target(m.mesh.next(o))};
+  }
+
+  void flip(Edge e)
+  {
+    for (const Vertex v : corners(e)) touch(v);
+    Euler::flip_edge(m.mesh.halfedge(e), m.mesh);
+  }
+
+  /// What is around an edge, to bring it back after a flip and moves of its four corners.
+  struct Before_flip {
+    Edge edge;
+    std::array<Vertex, 4> corners;
+    std::array<Surface_projector::Place, 4> places;
+    std::array<Time, 4> changed;
+    std::array<Halfedge, 4> at_corners;
+    std::array<Halfedge, 2> at_faces;
+  };
+
+  Before_flip before_flip(Edge e) const
+  {
+    Before_flip b{e, corners(e), {}, {}, {}, {}};
+    for (int k = 0; k < 4; ++k) {
+      b.places[k] = place(b.corners[k]);
+      b.changed[k] = m_changed[b.corners[k]];
+      b.at_corners[k] = m.mesh.halfedge(b.corners[k]);
+    }
+    for (int k = 0; k < 2; ++k) b.at_faces[k] = m.mesh.halfedge(m.mesh.face(m.mesh.halfedge(e, k)));
+    return b;
+  }
+
+  /// \pre since `before_flip()`, no more has happened than the flip and moves on the surface.
+  void undo_flip(const Before_flip& b)
+  {
+    const Halfedge h = m.mesh.halfedge(b.edge);
+    for (int k = 0; k < 3; ++k) Euler::flip_edge(h, m.mesh); // four turns are a whole one
+    for (const Halfedge g : b.at_faces) m.mesh.set_halfedge(m.mesh.face(g), g);
+    for (int k = 0; k < 4; ++k) {
+      m.mesh.set_halfedge(b.corners[k], b.at_corners[k]);
+      move(b.corners[k], b.places[k]);
+      m_changed[b.corners[k]] = b.changed[k];
+    }
+  }
+
+  /// Brings back all that was in a copy. What has changed since then counts as changed now.
+  void restore(const Star_mesh& copy)
+  {
+    const Time now = m_now;
+    const std::vector<Time> changed = std::move(m_changed);
+    *this = copy;
+    m_now = now;
+    for (std::size_t v = 0; v < size(); ++v)
+      if (changed[v] != m_changed[v]) touch(Vertex(Vertex::size_type(v)));
+  }
+
+  /// Takes a vertex out of the mesh: of the two ends of `h` one stays, as its target was.
+  /// \pre both may move, the link condition holds, no feature is near
+  /// \returns what stays.
+  Vertex collapse(Halfedge h)
+  {
+    const Vertex target = m.mesh.target(h);
+    const Surface_projector::Place there = place(target);
+    const double height = m_heights[target];
+    const Vertex kept = Euler::collapse_edge(m.mesh.edge(h), m.mesh);
+    move(kept, there);
+    touch_around(kept);
+    m_heights[kept] = height;
+    return kept;
+  }
+
+  /// Splits an edge and its two triangles at a new vertex, which gets the number of one that has
+  /// been taken out.
+  Vertex split(Halfedge h, const Surface_projector::Place& place)
+  {
+    const Halfedge o = m.mesh.opposite(h), first = Euler::split_edge(h, m.mesh);
+    Euler::split_face(first, m.mesh.next(h), m.mesh);
+    Euler::split_face(o, m.mesh.next(m.mesh.opposite(first)), m.mesh);
+    const Vertex v = m.mesh.target(first);
+    move(v, place);
+    touch_around(v);
+    m_heights[v] = 0;
+    return v;
+  }
+
+  Surface_projector::Place place(Vertex v) const { return {m.point(v), m.normals[v], m_facets[v]}; }
+
+  void move(Vertex v, const Surface_projector::Place& place)
+  {
+    set_point(v, place.point);
+    m.normals[v] = place.normal;
+    m_facets[v] = place.facet;
+  }
+
+  /// To the point of the grid that is nearest to `p`.
+  void set_point(Vertex v, const Vec3d& p)
+  {
+    const Vec3d q = m_projector->surface().normalization.snapped(p);
+    m.mesh.point(v) = Working_mesh::Point(q.x, q.y, q.z);
+    touch(v);
+  }
+
+  void write(Extracted_mesh& mesh) const
+  {
+    for (std::size_t v = 0; v < size(); ++v) mesh.points[v] = m.point(Vertex(Vertex::size_type(v)));
+    mesh.triangles.clear();
+    for (const auto f : m.mesh.faces()) {
+      const Halfedge h = m.mesh.halfedge(f);
+      mesh.triangles.push_back(
+          {int(m.mesh.source(h)), int(m.mesh.target(h)), int(m.mesh.target(m.mesh.next(h)))});
+    }
+  }
+
+private:
+  static Refined_surface refined(const Extracted_mesh& mesh)
+  {
+    Refined_surface r;
+    r.points = mesh.points;
+    r.normals.assign(mesh.points.size(), {0, 0, 0});
+    r.samples.resize(mesh.points.size());
+    std::iota(r.samples.begin(), r.samples.end(), 0);
+    r.triangles = mesh.triangles;
+    return r;
+  }
+
+  void touch_around(Vertex v)
+  {
+    for (const Halfedge h : halfedges_around_target(v, m.mesh)) touch(m.mesh.source(h));
+  }
+
+  const Surface_projector* m_projector;
+  Working_mesh m;
+  std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
+  std::vector<double> m_heights; // by vertex: over the surface
+  std::vector<char> m_locked, m_movable, m_pinned, m_on_feature;
+  std::vector<Time> m_changed;    // by vertex: it or its edges
+  std::vector<char> m_is_feature; // by edge
+  Time m_now = 1;
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_STAR_MESH_H

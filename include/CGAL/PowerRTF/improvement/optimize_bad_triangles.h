@@ -1,0 +1,347 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Targeted optimization of the few bad triangles that smoothing leaves: the vertices around them
+// search their tangent planes for places with less energy, and edges are flipped where that, with
+// the search after it, lowers the energy. The rest of the mesh stays as it is. What has failed is
+// not tried again before something near it has changed.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_OPTIMIZE_BAD_TRIANGLES_H
+#define CGAL_POWER_RTF_IMPROVEMENT_OPTIMIZE_BAD_TRIANGLES_H
+
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+class Bad_triangle_optimizer {
+public:
+  using Vertex = Star_mesh::Vertex;
+  using Halfedge = Star_mesh::Halfedge;
+  using Edge = Star_mesh::Edge;
+  using Face = Working_mesh::Mesh::Face_index;
+  using Time = Star_mesh::Time;
+
+  explicit Bad_triangle_optimizer(Star_mesh& mesh)
+      : m(mesh), m_anchors(mesh.size()), m_failed_searches(mesh.size(), 0),
+        m_failed_flips(mesh.working().mesh.number_of_edges(), 0)
+  {}
+
+  /// Whether a triangle is worse than tolerable.
+  bool is_needed() const
+  {
+    const auto faces = m.working().mesh.faces();
+    return std::any_of(faces.begin(), faces.end(),
+                       [this](Face f) { return badness(f) > Triangle_badness::tolerable; });
+  }
+
+  /// Releases the pinned vertices of the triangles that are still bad. \returns their number.
+  std::size_t release_pinned()
+  {
+    const auto& mesh = m.working().mesh;
+    std::size_t released = 0;
+    for (const Face f : mesh.faces())
+      if (badness(f) > Triangle_badness::tolerable)
+        for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) released += m.release(v);
+    return released;
+  }
+
+  /// At most `rounds` passes over the bad triangles. \returns how many are left.
+  std::size_t run(int rounds)
+  {
+    std::vector<Face> bad;
+    for (const Face f : m.working().mesh.faces())
+      if (badness(f) > 0) bad.push_back(f);
+    return run(rounds, std::move(bad)).size();
+  }
+
+  /// The same for the triangles around `v` and its neighbors. \returns the largest badness that is
+  /// left there.
+  double run_around(Vertex v, int rounds)
+  {
+    const auto& mesh = m.working().mesh;
+    const auto faces = [&] {
+      std::vector<Face> result;
+      for (const Halfedge h : halfedges_around_target(v, mesh))
+        for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
+          if (!mesh.is_border(g)) result.push_back(mesh.face(g));
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(), result.end()), result.end());
+      return result;
+    };
+    std::vector<Face> bad = faces();
+    const auto is_good = [&](Face f) { return !(badness(f) > 0); };
+    bad.erase(std::remove_if(bad.begin(), bad.end(), is_good), bad.end());
+    double worst = 0;
+    for (const Face f : run(rounds, std::move(bad))) worst = std::max(worst, badness(f));
+    for (const Face f : faces()) worst = std::max(worst, badness(f));
+    return worst;
+  }
+
+private:
+  // \returns the triangles that are left.
+  std::vector<Face> run(int rounds, std::vector<Face> bad)
+  {
+    set_anchors();
+    double total = total_badness(bad);
+    for (int round = 0; round < rounds && !bad.empty(); ++round) {
+      std::vector<Vertex> vertices;
+      for (const Face f : bad)
+        for (const Vertex v : vertices_around(f)) vertices.push_back(v);
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      for (const Vertex v : vertices) {
+        Cancellation::poll();
+        search(v);
+      }
+      if (round % 2 == 1)
+        for (const Face f : bad)
+          if (badness(f) > 0) flip_around(f);
+      std::vector<Face> left;
+      for (const Vertex v : vertices) // only what is around them has changed
+        for (const Face f : m.working().mesh.faces_around_target(m.working().mesh.halfedge(v)))
+          if (f.is_valid() && f != Working_mesh::Mesh::null_face() && badness(f) > 0)
+            left.push_back(f);
+      std::sort(left.begin(), left.end());
+      left.erase(std::unique(left.begin(), left.end()), left.end());
+      bad.swap(left);
+      const double now = total_badness(bad);
+      if (round % 2 == 1 && now > Parameters::stagnation_share * total) break;
+      if (round % 2 == 1) total = now;
+    }
+    return bad;
+  }
+
+  using Parameters = Improvement_parameters::Optimization;
+  using Vertices = boost::container::small_vector<Vertex, 16>;
+
+  Vertices vertices_around(Face f) const
+  {
+    const auto& mesh = m.working().mesh;
+    Vertices result;
+    Halfedge h = mesh.halfedge(f);
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      for (const Halfedge g : halfedges_around_target(h, mesh)) result.push_back(mesh.source(g));
+      result.push_back(mesh.target(h));
+    }
+    return result;
+  }
+
+  double badness(Face f) const
+  {
+    const auto& mesh = m.working().mesh;
+    const Halfedge h = mesh.halfedge(f);
+    return triangle_badness(m.point(mesh.source(h)), m.point(mesh.target(h)),
+                            m.point(mesh.target(mesh.next(h))))
+        .badness;
+  }
+
+  double total_badness(const std::vector<Face>& faces) const
+  {
+    double sum = 0;
+    for (const Face f : faces) sum += badness(f);
+    return sum;
+  }
+
+  // Adds the triangles' energies to `sum`, until that is no less than `limit`.
+  static double star_energy(const Star& star, const Vec3d& p, double sum, double limit)
+  {
+    for (const Star::Corner& c : star.corners)
+      if (!((sum += triangle_badness(p, c.a, c.b).energy()) < limit)) break;
+    return sum;
+  }
+
+  // The worst triangles first: their sum soon tells that a place is no better.
+  static void sort_by_energy(Star& star, const Vec3d& p)
+  {
+    boost::container::small_vector<std::pair<double, Star::Corner>, 12> corners;
+    for (const Star::Corner& c : star.corners)
+      corners.emplace_back(-triangle_badness(p, c.a, c.b).energy(), c);
+    std::stable_sort(corners.begin(), corners.end(),
+                     [](const auto& x, const auto& y) { return x.first < y.first; });
+    std::transform(corners.begin(), corners.end(), star.corners.begin(),
+                   [](const auto& x) { return x.second; });
+  }
+
+  void set_anchors()
+  {
+    for (const Vertex v : m.working().mesh.vertices())
+      if (!(m_anchors[v] == m.point(v))) {
+        m_anchors[v] = m.point(v);
+        m.touch(v);
+      }
+  }
+
+  void search(Vertex v)
+  {
+    if (m.is_movable(v) && m.changed_around(v) > m_failed_searches[v] && !move_to_better(v))
+      m_failed_searches[v] = m.now();
+  }
+
+  // Looks for a place of less energy in six directions, with shorter and shorter steps.
+  bool move_to_better(Vertex v)
+  {
+    Star star = m.star(v);
+    const Vec3d p = m.point(v), n = m.normal(v);
+    sort_by_energy(star, p);
+    const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
+                w = cross(n, u);
+    double size = 0;
+    for (const Star::Corner& c : star.corners) size += length(c.a - p);
+    const double scale = size / double(star.corners.size());
+    const double pull = Parameters::anchor_weight *
+                        std::max(0., Parameters::curved_agreement - m.agreement(star, p, n)) /
+                        (scale * scale);
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    const auto energy = [&](const Vec3d& q, double limit) {
+      return star_energy(star, q, pull * squared_length(q - m_anchors[v]), limit);
+    };
+    const double start = energy(p, unlimited);
+    double step = Parameters::first_step * scale, least = start, su = 0, sw = 0;
+    constexpr double d = 0.8660254037844386;
+    constexpr double directions[6][2] = {{1, 0}, {.5, d}, {-.5, d}, {-1, 0}, {-.5, -d}, {.5, -d}};
+    int halved = 0;
+    for (int i = 0; i < Parameters::max_steps && halved < Parameters::max_halvings; ++i) {
+      int best = -1;
+      for (int k = 0; k < 6; ++k) {
+        const double e =
+            energy(p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w,
+                   clearly_less * least);
+        if (e < clearly_less * least) least = e, best = k;
+      }
+      if (best >= 0) {
+        su += step * directions[best][0];
+        sw += step * directions[best][1];
+      } else {
+        step /= 2;
+        ++halved;
+      }
+    }
+    if (!(least < clearly_less * start)) return false;
+    const auto place = m.project(v, p + su * u + sw * w);
+    if (place.facet < 0 || !(energy(place.point, clearly_less * start) < clearly_less * start))
+      return false;
+    if (m.agreement(star, place.point, place.normal) <
+        std::min(Parameters::min_agreement, m.agreement(star, p, n) - Parameters::agreement_loss))
+      return false;
+    m.move(v, place);
+    return true;
+  }
+
+  // Tries the edges of a bad triangle, and those opposite to its corners.
+  void flip_around(Face f)
+  {
+    const auto& mesh = m.working().mesh;
+    boost::container::small_vector<Edge, 24> edges;
+    Halfedge h = mesh.halfedge(f);
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) edges.push_back(mesh.edge(h));
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      if (m.working().degree_up_to(Parameters::hub_degree, mesh.target(h)) ==
+          Parameters::hub_degree)
+        continue;
+      for (const Halfedge g : halfedges_around_target(h, mesh))
+        if (std::find(edges.begin(), edges.end(), mesh.edge(g)) == edges.end())
+          edges.push_back(mesh.edge(g));
+    }
+    for (const Edge e : edges) {
+      Cancellation::poll();
+      if (flip_if_better(e) && mesh.is_valid(f) && !(badness(f) > 0)) return;
+    }
+  }
+
+  bool flip_if_better(Edge e)
+  {
+    if (!m.is_free(e) || !m.working().is_flippable(e)) return false;
+    const std::array<Vertex, 4> corners = m.corners(e);
+    // a vertex of valence 3 or 4 cannot lose an edge; one of valence 8 is to get no more
+    std::array<int, 4> valence;
+    for (int k = 0; k < 4; ++k)
+      valence[k] = m.working().degree_up_to(Parameters::hub_degree, corners[k]);
+    if (valence[0] < 5 || valence[1] < 5 || valence[2] > 7 || valence[3] > 7) return false;
+    if (valence[0] == Parameters::hub_degree || valence[1] == Parameters::hub_degree) return false;
+    const auto shape = [&](int i, int j, int k) {
+      return m.working().shape(corners[i], corners[j], corners[k]);
+    };
+    // In a plane the angles around a vertex of valence 4 or 9 cannot all be good.
+    const bool heals =
+        std::min(valence[2], valence[3]) <= 4 || std::max(valence[0], valence[1]) >= 9;
+    if (std::min(shape(0, 3, 2), shape(1, 2, 3)) <
+        (heals ? Parameters::min_healing_flip_shape : Parameters::min_flip_shape))
+      return false; // hopeless
+    Time changed = 0;
+    for (const Vertex v : corners) changed = std::max(changed, m.changed_around(v));
+    if (changed <= m_failed_flips[e]) return false;
+    const Star_mesh::Before_flip before = m.before_flip(e);
+    std::array<Time, 4> failed_searches;
+    for (int k = 0; k < 4; ++k) failed_searches[k] = m_failed_searches[corners[k]];
+    const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);
+    m.flip(e);
+    for (int pass = 0; pass < 2; ++pass)
+      for (const Vertex v : corners) search(v);
+    if (patch_energy(corners) < clearly_less * energy_before &&
+        patch_agreement(corners) >=
+            std::min(Parameters::min_agreement, agreement - Parameters::agreement_loss))
+      return true;
+    m.undo_flip(before);
+    for (int k = 0; k < 4; ++k) m_failed_searches[corners[k]] = failed_searches[k];
+    m_failed_flips[e] = m.now();
+    return false;
+  }
+
+  boost::container::small_vector<Face, 32> patch(const std::array<Vertex, 4>& corners) const
+  {
+    const auto& mesh = m.working().mesh;
+    boost::container::small_vector<Face, 32> faces;
+    for (const Vertex v : corners)
+      for (const Halfedge h : halfedges_around_target(v, mesh))
+        if (!mesh.is_border(h)) faces.push_back(mesh.face(h));
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+
+  double patch_energy(const std::array<Vertex, 4>& corners) const
+  {
+    const auto& mesh = m.working().mesh;
+    double sum = 0;
+    for (const Face f : patch(corners)) {
+      const Halfedge h = mesh.halfedge(f);
+      sum += triangle_badness(m.point(mesh.source(h)), m.point(mesh.target(h)),
+                              m.point(mesh.target(mesh.next(h))))
+                 .energy();
+    }
+    return sum;
+  }
+
+  double patch_agreement(const std::array<Vertex, 4>& corners)
+  {
+    const auto& mesh = m.working().mesh;
+    double least = 1;
+    for (const Face f : patch(corners)) {
+      const Halfedge h = mesh.halfedge(f);
+      least =
+          std::min(least, m.agreement(mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))));
+    }
+    return least;
+  }
+
+  Star_mesh& m;
+  std::vector<Vec3d> m_anchors;        // by vertex
+  std::vector<Time> m_failed_searches; // by vertex
+  std::vector<Time> m_failed_flips;    // by edge
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_OPTIMIZE_BAD_TRIANGLES_H

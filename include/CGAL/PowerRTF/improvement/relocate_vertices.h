@@ -1,0 +1,304 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lowers the maximal distance where no vertex near by can be spared: an edge that bridges a hollow
+// is flipped; or a vertex is taken out of a flat part of the mesh (edge collapse) and put where the
+// surface and the mesh are farthest apart (edge split). Kept only if the triangles around the
+// places that change can be made good, and if the maximal distance falls.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_RELOCATE_VERTICES_H
+#define CGAL_POWER_RTF_IMPROVEMENT_RELOCATE_VERTICES_H
+
+#include <CGAL/PowerRTF/extraction/intersecting_faces.h>
+#include <CGAL/PowerRTF/improvement/Distance_tracker.h>
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
+#include <CGAL/PowerRTF/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+class Vertex_relocator {
+public:
+  using Vertex = Star_mesh::Vertex;
+  using Halfedge = Star_mesh::Halfedge;
+  using Edge = Star_mesh::Edge;
+
+  Vertex_relocator(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, Distance_tracker& tracker)
+      : m(mesh), m_optimizer(optimizer), m_tracker(tracker),
+        m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size())))
+  {}
+
+  /// Looks at what is farther away than `share` times the farthest. `tolerable`: badness of the
+  /// triangles that a change may leave. \returns whether anything has changed.
+  bool run(double share, double tolerable = Triangle_badness::tolerable)
+  {
+    m_tolerable = tolerable;
+    std::vector<Tip> tips = find_tips(share);
+    if (tips.empty()) return false;
+    const double farthest = tips.front().distance;
+    const std::vector<Vertex> spare = find_spare(tips);
+    const Star_mesh before = m;
+    std::size_t next = 0;
+    bool changed = false;
+    for (const Tip& tip : tips) {
+      Cancellation::poll();
+      const Star_mesh now = m;
+      if (tip.is_edge && flip(tip) && !intersects_near(tip.point)) {
+        changed = true;
+        continue;
+      }
+      m.restore(now);
+      bool removed = false;
+      while (next < spare.size() && !(removed = remove(spare[next++]))) m.restore(now);
+      if (removed && insert(tip) && !intersects_near(tip.point)) {
+        changed = true;
+        continue;
+      }
+      m.restore(now);
+      if (!changed) return false; // the farthest stays
+    }
+    if (!changed) return false;
+    m_tracker.update();
+    tips = find_tips(share);
+    if (tips.empty() || tips.front().distance < farthest) return true;
+    m.restore(before);
+    m_tracker.update();
+    return false;
+  }
+
+  /// The largest distance that is worth a look, or 0.
+  double farthest() const
+  {
+    const std::vector<Tip> tips = find_tips(1);
+    return tips.empty() ? 0 : tips.front().distance;
+  }
+
+private:
+  // A place where surface and mesh are far apart.
+  struct Tip {
+    double distance;
+    Vec3d point; // of the surface
+    Vec3d mesh_point;
+    Halfedge near; // of the mesh
+    bool is_edge;  // the middle of that edge is what is far from the surface
+  };
+
+  using Parameters = Improvement_parameters::Relocation;
+
+  bool is_apart(const Vec3d& p, const std::vector<Vec3d>& others) const
+  {
+    const double least = Parameters::min_separation * m_spacing;
+    return std::all_of(others.begin(), others.end(),
+                       [&](const Vec3d& q) { return squared_length(p - q) > least * least; });
+  }
+
+  // The farthest first; empty if none is far.
+  std::vector<Tip> find_tips(double share) const
+  {
+    double least = Parameters::min_distance * m_spacing;
+    std::vector<Tip> all;
+    for (int i = 0; i < m_tracker.size(); ++i)
+      if (m_tracker[i].distance > least)
+        all.push_back({m_tracker[i].distance, m_tracker[i].point, m_tracker[i].nearest,
+                       m_tracker[i].face, false});
+    const auto& mesh = m.working().mesh;
+    for (const Edge e : mesh.edges()) {
+      const Halfedge h = mesh.halfedge(e);
+      if (!m.is_free(e) || !is_steep(h)) continue;
+      const auto [point, distance] = across(h);
+      if (distance > least) all.push_back({distance, point, middle(h), h, true});
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Tip& s, const Tip& t) { return s.distance > t.distance; });
+    std::vector<Tip> tips;
+    std::vector<Vec3d> places;
+    for (const Tip& tip : all) {
+      if (int(tips.size()) == Parameters::max_tips || tip.distance < share * all.front().distance)
+        break;
+      if (!is_apart(tip.point, places)) continue;
+      tips.push_back(tip);
+      places.push_back(tip.point);
+    }
+    return tips;
+  }
+
+  bool is_steep(Halfedge h) const
+  {
+    const Vertex a = m.working().mesh.source(h), b = m.working().mesh.target(h);
+    const Vec3d e = m.point(b) - m.point(a);
+    return std::max(std::abs(dot(e, m.normal(a))), std::abs(dot(e, m.normal(b)))) >
+           Parameters::steep_sine * length(e);
+  }
+
+  Vec3d middle(Halfedge h) const
+  {
+    const auto& mesh = m.working().mesh;
+    return 0.5 * (m.point(mesh.source(h)) + m.point(mesh.target(h)));
+  }
+
+  // The point of the surface that is nearest to the middle of an edge, and its distance.
+  std::pair<Vec3d, double> across(Halfedge h) const
+  {
+    const Vec3d p = middle(h);
+    const Vec3d q = m.projector().nearest(p).point;
+    return {q, length(q - p)};
+  }
+
+  bool flip(const Tip& tip)
+  {
+    const auto& mesh = m.working().mesh;
+    const Edge e = mesh.edge(tip.near);
+    const Vertex v = mesh.source(tip.near), u = mesh.target(tip.near);
+    if (!m.working().is_flippable(e) || mesh.degree(v) < 4 || mesh.degree(u) < 4) return false;
+    m.flip(e);
+    return is_good_around(mesh.source(mesh.halfedge(e))) && is_good_around(v) &&
+           across(mesh.halfedge(e)).second < Parameters::worthwhile_share * tip.distance;
+  }
+
+  // The vertices in flat parts that leave the best triangles behind.
+  std::vector<Vertex> find_spare(const std::vector<Tip>& tips) const
+  {
+    std::vector<std::pair<double, Vertex>> candidates;
+    for (const Vertex v : m.working().mesh.vertices()) {
+      const double badness = best_collapse(v).first;
+      if (badness < Parameters::max_collapse_badness) candidates.push_back({badness, v});
+    }
+    std::sort(candidates.begin(), candidates.end());
+    std::vector<Vertex> spare;
+    std::vector<Vec3d> places;
+    for (const Tip& tip : tips) places.push_back(tip.point);
+    for (const auto& [badness, v] : candidates)
+      if (is_apart(m.point(v), places)) {
+        spare.push_back(v);
+        places.push_back(m.point(v));
+        if (int(spare.size()) == Parameters::max_tips * Parameters::max_tries) break;
+      }
+    return spare;
+  }
+
+  // The halfedge from v that leaves the best triangles when it is collapsed, and the badness of the
+  // worst of them.
+  std::pair<double, Halfedge> best_collapse(Vertex v) const
+  {
+    const auto& mesh = m.working().mesh;
+    std::pair<double, Halfedge> best{Parameters::max_collapse_badness, Halfedge()};
+    if (!m.is_movable(v)) return best;
+    const Star star = m.star(v);
+    if (m.agreement(star, m.point(v), m.normal(v)) < Parameters::flat_agreement) return best;
+    for (const Star::Corner& c : star.corners)
+      if (!m.is_movable(c.vertex_a)) return best;
+    for (const Halfedge h : halfedges_around_target(v, mesh)) {
+      const Vertex u = mesh.source(h);
+      double worst = 0;
+      for (const Star::Corner& c : star.corners)
+        if (c.vertex_a != u && c.vertex_b != u)
+          worst = std::max(worst, triangle_badness(m.point(u), c.a, c.b).badness);
+      if (worst < best.first && Euler::does_satisfy_link_condition(mesh.edge(h), mesh))
+        best = {worst, mesh.opposite(h)};
+    }
+    return best;
+  }
+
+  bool remove(Vertex v)
+  {
+    const Halfedge h = best_collapse(v).second;
+    return h.is_valid() && is_good_around(m.collapse(h));
+  }
+
+  // Splits an edge near the tip; the new vertex goes to the tip or, if that breaks the triangles,
+  // part of the way.
+  bool insert(const Tip& tip)
+  {
+    const Star_mesh before = m;
+    for (const double share : {1., 0.6, 0.3}) {
+      const Vec3d p = tip.mesh_point + share * (tip.point - tip.mesh_point);
+      for (const Halfedge h : edges_to_split(tip, p)) {
+        const Vertex v = m.split(h, m.projector().nearest(p));
+        if (share < 1) m.move_off(v, p);
+        release_around(v);
+        m.pin(v);
+        if (is_good_around(v)) return true;
+        m.restore(before);
+      }
+    }
+    return false;
+  }
+
+  void release_around(Vertex v)
+  {
+    const auto& mesh = m.working().mesh;
+    for (const Halfedge h : halfedges_around_target(v, mesh))
+      for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
+        m.release(mesh.source(g));
+  }
+
+  // Those that leave the best triangles.
+  std::vector<Halfedge> edges_to_split(const Tip& tip, const Vec3d& p) const
+  {
+    const auto& mesh = m.working().mesh;
+    std::vector<std::pair<double, Halfedge>> candidates;
+    for (const Vertex v : mesh.vertices_around_face(tip.near))
+      for (const Halfedge g : halfedges_around_target(v, mesh))
+        for (const Halfedge h : {g, mesh.prev(g)}) {
+          if (!m.is_free(mesh.edge(h))) continue;
+          const auto is_same = [&](const auto& c) { return mesh.edge(c.second) == mesh.edge(h); };
+          if (std::any_of(candidates.begin(), candidates.end(), is_same)) continue;
+          const double badness = badness_of_split(h, p);
+          if (badness < Parameters::max_split_badness) candidates.push_back({badness, h});
+        }
+    std::sort(candidates.begin(), candidates.end());
+    std::vector<Halfedge> edges;
+    for (const auto& [badness, h] : candidates)
+      if (edges.size() < Parameters::max_tries) edges.push_back(h);
+    return edges;
+  }
+
+  // Of the worst of the four triangles; none may turn over.
+  double badness_of_split(Halfedge h, const Vec3d& p) const
+  {
+    const auto& mesh = m.working().mesh;
+    double worst = 0;
+    for (const Halfedge side : {h, mesh.opposite(h)}) {
+      const Vec3d a = m.point(mesh.source(side)), b = m.point(mesh.target(side)),
+                  c = m.point(mesh.target(mesh.next(side))), normal = cross(b - a, c - a);
+      if (!(dot(normal, cross(p - a, c - a)) > 0 && dot(normal, cross(b - p, c - p)) > 0))
+        return Parameters::max_split_badness;
+      worst =
+          std::max({worst, triangle_badness(a, p, c).badness, triangle_badness(p, b, c).badness});
+    }
+    return worst;
+  }
+
+  bool is_good_around(Vertex v)
+  {
+    return m_optimizer.run_around(v, Parameters::optimization_rounds) <= m_tolerable;
+  }
+
+  // Far places are often thin: what is on their other side must not be met.
+  bool intersects_near(const Vec3d& p) const
+  {
+    const auto& mesh = m.working().mesh;
+    const double radius = Parameters::intersection_radius * m_spacing;
+    std::vector<Working_mesh::Mesh::Face_index> faces;
+    for (const auto f : mesh.faces())
+      if (squared_length(m.point(mesh.target(mesh.halfedge(f))) - p) < radius * radius)
+        faces.push_back(f);
+    return Intersection_finder(mesh).any_among(faces);
+  }
+
+  Star_mesh& m;
+  Bad_triangle_optimizer& m_optimizer;
+  Distance_tracker& m_tracker;
+  double m_spacing, m_tolerable = 0;
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_RELOCATE_VERTICES_H

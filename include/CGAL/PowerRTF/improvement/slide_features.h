@@ -1,0 +1,248 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Vertices on creases and borders stay on their curves, but they may slide along them where that
+// makes their bad triangles better: between curves that run close together no other vertex can. At
+// a corner where two curves make a sharp angle, the next vertices on both slide together: away from
+// the corner bent curves open, and one alone would spoil the triangle between them.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
+#define CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
+
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/triangle_badness.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+class Feature_slider {
+public:
+  using Vertex = Star_mesh::Vertex;
+  using Halfedge = Star_mesh::Halfedge;
+
+  /// `patches`: the surface cut along its creases; the curves are its borders.
+  Feature_slider(Star_mesh& mesh, const Surface& patches) : m(mesh)
+  {
+    const std::vector<int>& opposite = patches.adjacency.opposite;
+    for (int h = 0; h < int(opposite.size()); ++h)
+      if (opposite[h] == Facet_adjacency::none)
+        m_curves.emplace_back(patches.points[halfedge_source(patches.triangles, h)],
+                              patches.points[halfedge_target(patches.triangles, h)]);
+  }
+
+  void run(int rounds)
+  {
+    if (m_curves.empty()) return;
+    for (int round = 0; round < rounds; ++round)
+      for (const Vertex v : m.working().mesh.vertices()) slide(v);
+    for (const auto f : m.working().mesh.faces()) slide_pair(f);
+  }
+
+private:
+  using Segment = std::pair<Vec3d, Vec3d>;
+
+  using Parameters = Improvement_parameters::Sliding;
+
+  /// The curve around a vertex.
+  struct Path {
+    Vec3d p, pa, pb; // the vertex, and its neighbors on the curve
+    double scale;    // their mean distance
+    std::vector<Segment> near;
+
+    /// The place at `s` times the scale from the vertex; s > 0: toward b.
+    Vec3d at(double s) const
+    {
+      const Vec3d q = s > 0 ? p + (pb - p) * (s * scale / length(pb - p))
+                            : p + (pa - p) * (-s * scale / length(pa - p));
+      Vec3d best = p;
+      double least = std::numeric_limits<double>::infinity();
+      for (const Segment& segment : near) {
+        const Vec3d r = nearest_point(segment, q);
+        if (squared_length(r - q) < least) {
+          least = squared_length(r - q);
+          best = r;
+        }
+      }
+      return best;
+    }
+
+    bool is_spaced(const Vec3d& q) const
+    {
+      return length(q - pa) >= Parameters::min_spacing * scale &&
+             length(q - pb) >= Parameters::min_spacing * scale &&
+             dot(normalized(q - pa), normalized(pb - q)) > Parameters::corner_cosine;
+    }
+  };
+
+  Path path(Vertex v, Vertex a, Vertex b) const
+  {
+    Path result{m.point(v), m.point(a), m.point(b), 0, {}};
+    result.scale = (length(result.pa - result.p) + length(result.pb - result.p)) / 2;
+    for (const Segment& s : m_curves)
+      if (squared_length(nearest_point(s, result.p) - result.p) < result.scale * result.scale)
+        result.near.push_back(s);
+    return result;
+  }
+
+  static Vec3d nearest_point(const Segment& s, const Vec3d& p)
+  {
+    const Vec3d d = s.second - s.first;
+    const double l = squared_length(d), t = l > 0 ? dot(p - s.first, d) / l : 0;
+    return s.first + d * std::min(1., std::max(0., t));
+  }
+
+  /// The neighbors of `v` on its curve; false if it is none, or a corner.
+  bool neighbors(Vertex v, Vertex& a, Vertex& b) const
+  {
+    int found = 0;
+    for (const Halfedge h : halfedges_around_target(v, m.working().mesh))
+      if (m.is_feature(m.working().mesh.edge(h))) {
+        (found == 0 ? a : b) = m.working().mesh.source(h);
+        ++found;
+      }
+    return found == 2 && dot(normalized(m.point(v) - m.point(a)),
+                             normalized(m.point(b) - m.point(v))) > Parameters::corner_cosine;
+  }
+
+  static double energy(const Star& star, const Vec3d& p)
+  {
+    double sum = 0;
+    for (const Star::Corner& c : star.corners) { // squared: the worst triangle counts most
+      const double e = triangle_badness(p, c.a, c.b).energy();
+      sum += e * e;
+    }
+    return sum;
+  }
+
+  void slide(Vertex v)
+  {
+    Vertex a, b;
+    if (!m.is_on_feature(v) || m.is_locked(v) || !neighbors(v, a, b)) return;
+    const Star star = m.star(v);
+    const Vec3d p = m.point(v);
+    double bad = 0;
+    for (const Star::Corner& c : star.corners) bad += triangle_badness(p, c.a, c.b).badness;
+    if (!(bad > 0)) return;
+
+    const Path curve = path(v, a, b);
+    const auto is_allowed = [&](const Vec3d& q) {
+      return curve.is_spaced(q) && !folds(star, p, star, q);
+    };
+    double least = energy(star, p), at = 0, step = Parameters::first_step;
+    Vec3d best = p;
+    for (int i = 0, halved = 0; i < Parameters::max_steps && halved < Parameters::max_halvings;
+         ++i) {
+      bool found = false;
+      for (const double s : {at - step, at + step}) {
+        const Vec3d q = curve.at(s);
+        const double e = energy(star, q);
+        if (!(e < clearly_less * least) || !is_allowed(q)) continue;
+        least = e;
+        best = q;
+        at = s;
+        found = true;
+        break;
+      }
+      if (found) continue;
+      step /= 2;
+      ++halved;
+    }
+    if (!(best == p)) move(v, best);
+  }
+
+  /// Whether a triangle around a vertex turns too far when the vertex goes from `p` to `q`, and its
+  /// neighbors from where `before` has them to where `after` has them.
+  static bool folds(const Star& before, const Vec3d& p, const Star& after, const Vec3d& q)
+  {
+    for (std::size_t k = 0; k < before.corners.size(); ++k) {
+      const Star::Corner &s = before.corners[k], &t = after.corners[k];
+      const Vec3d was = cross(s.a - p, s.b - p), is = cross(t.a - q, t.b - q);
+      if (!(dot(was, is) >= Parameters::max_turn_cosine * length(was) * length(is))) return true;
+    }
+    return false;
+  }
+
+  void move(Vertex v, const Vec3d& p)
+  {
+    auto place = m.projector().nearest(p);
+    place.point = p;
+    m.move(v, place);
+  }
+
+  /// The next vertices on both curves at the corner of a bad triangle.
+  void slide_pair(Working_mesh::Mesh::Face_index f)
+  {
+    const auto& mesh = m.working().mesh;
+    Halfedge h = mesh.halfedge(f);
+    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      const Halfedge to_corner = h, from_corner = mesh.next(h);
+      const std::array<Vertex, 2> ends{mesh.source(to_corner), mesh.target(from_corner)};
+      const Vertex corner = mesh.target(to_corner);
+      if (!m.is_feature(mesh.edge(to_corner)) || !m.is_feature(mesh.edge(from_corner))) continue;
+      if (!(triangle_badness(m.point(ends[0]), m.point(corner), m.point(ends[1])).badness >
+            Triangle_badness::tolerable))
+        continue;
+      std::vector<Path> paths; // a is the corner
+      for (const Vertex v : ends) {
+        Vertex a, b;
+        if (m.is_locked(v) || !neighbors(v, a, b)) break;
+        paths.push_back(a == corner ? path(v, a, b) : path(v, b, a));
+      }
+      if (paths.size() == 2) slide_pair(ends, paths);
+    }
+  }
+
+  void slide_pair(const std::array<Vertex, 2>& ends, const std::vector<Path>& paths)
+  {
+    const std::array<Surface_projector::Place, 2> before{m.place(ends[0]), m.place(ends[1])};
+    const std::array<Star, 2> stars{m.star(ends[0]), m.star(ends[1])};
+    const auto worst = [&] {
+      double most = 0;
+      for (const Vertex v : ends)
+        for (const Star::Corner& c : m.star(v).corners)
+          most = std::max(most, triangle_badness(m.point(v), c.a, c.b).energy());
+      return most;
+    };
+    const auto is_folded = [&] {
+      return folds(stars[0], before[0].point, m.star(ends[0]), m.point(ends[0])) ||
+             folds(stars[1], before[1].point, m.star(ends[1]), m.point(ends[1]));
+    };
+    std::array<Vec3d, 2> best{before[0].point, before[1].point};
+    double least = worst();
+    for (int i = -Parameters::pair_steps; i <= Parameters::pair_steps; ++i) {
+      const Vec3d p = paths[0].at(i * Parameters::pair_step);
+      if (!paths[0].is_spaced(p)) continue;
+      for (int j = -Parameters::pair_steps; j <= Parameters::pair_steps; ++j) {
+        const Vec3d q = paths[1].at(j * Parameters::pair_step);
+        if (!paths[1].is_spaced(q)) continue;
+        m.set_point(ends[0], p);
+        m.set_point(ends[1], q);
+        const double e = worst();
+        if (!(e < clearly_less * least) || is_folded()) continue;
+        least = e;
+        best = {p, q};
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (best[k] == before[k].point)
+        m.move(ends[k], before[k]);
+      else
+        move(ends[k], best[k]);
+    }
+  }
+
+  Star_mesh& m;
+  std::vector<Segment> m_curves;
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H

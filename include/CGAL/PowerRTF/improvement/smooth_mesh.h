@@ -1,0 +1,135 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Smoothing of all stars: edges are flipped and vertices moved where that lowers the sum of the
+// inverse mean ratios L^2 / (4 sqrt(3) A) of the triangles (1: equilateral). A vertex makes a
+// Newton step in its tangent plane and goes back to the surface. (Freitag and Knupp, "Tetrahedral
+// mesh improvement via optimization of the element condition number", 2002, for triangles.)
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
+#define CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
+
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace CGAL::PowerRTF::internal {
+
+class Mesh_smoother {
+public:
+  using Vertex = Star_mesh::Vertex;
+  using Edge = Star_mesh::Edge;
+
+  explicit Mesh_smoother(Star_mesh& mesh) : m(mesh) {}
+
+  /// Flips edges until that does not help any more.
+  void flip()
+  {
+    for (int pass = 0; pass < Parameters::max_flip_passes; ++pass) {
+      std::size_t flips = 0;
+      for (const Edge e : m.working().mesh.edges()) flips += flip_if_better(e);
+      if (flips == 0) return;
+    }
+  }
+
+  /// One step of every movable vertex.
+  void sweep()
+  {
+    for (const Vertex v : m.working().mesh.vertices()) {
+      Cancellation::poll();
+      if (m.is_movable(v)) step(v);
+    }
+  }
+
+private:
+  using Parameters = Improvement_parameters::Smoothing;
+
+  // The inverse mean ratio, up to the factor 1 / (2 sqrt(3)).
+  static double term(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+  {
+    const Vec3d e = b - a, f = c - a;
+    const double twice_area = length(cross(e, f));
+    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+    return (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
+  }
+
+  static double energy(const Star& star, const Vec3d& p)
+  {
+    double sum = 0;
+    for (const Star::Corner& c : star.corners) sum += term(p, c.a, c.b);
+    return sum;
+  }
+
+  bool flip_if_better(Edge e)
+  {
+    if (!m.is_free(e)) return false;
+    const auto [a, b, c, d] = m.corners(e);
+    const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
+    const double now = term(pa, pb, pc) + term(pb, pa, pd),
+                 then = term(pd, pc, pa) + term(pc, pd, pb);
+    if (!(then < clearly_less * now)) return false; // equal diagonals stay
+    const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
+    if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) <
+        std::min(Parameters::min_agreement, agreement))
+      return false;
+    if (!m.working().is_flippable(e)) return false;
+    m.flip(e);
+    return true;
+  }
+
+  void step(Vertex v)
+  {
+    const Star star = m.star(v);
+    const Vec3d p = m.point(v), n = m.normal(v);
+    const double agreement = m.agreement(star, p, n);
+    const double least = std::min(Parameters::min_agreement, agreement);
+
+    // gradient and Hessian in the plane (u, w); areas are linear there but for the curvature
+    const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
+                w = cross(n, u);
+    double gu = 0, gw = 0, huu = 0, huw = 0, hww = 0, shortest = -1;
+    for (const Star::Corner& c : star.corners) {
+      const Vec3d e = c.a - p, f = c.b - p, area = cross(e, f);
+      const double a = length(area), ee = squared_length(e), ff = squared_length(f),
+                   l = ee + ff + squared_length(f - e);
+      if (!(a > 0)) return;
+      if (shortest < 0 || ee < shortest) shortest = ee;
+      const Vec3d dl = -2 * (e + f), da = cross(e - f, area) * (1 / a);
+      const double lu = dot(dl, u), lw = dot(dl, w), au = dot(da, u), aw = dot(da, w), i = 1 / a,
+                   i2 = i * i, i3 = 2 * l * i2 * i;
+      gu += lu * i - l * au * i2;
+      gw += lw * i - l * aw * i2;
+      huu += 4 * i - 2 * lu * au * i2 + i3 * au * au;
+      huw += -(lu * aw + lw * au) * i2 + i3 * au * aw;
+      hww += 4 * i - 2 * lw * aw * i2 + i3 * aw * aw;
+    }
+    const double determinant = huu * hww - huw * huw;
+    if (!(determinant > 0) || !(huu > 0)) return;
+    double su = -(hww * gu - huw * gw) / determinant, sw = -(huu * gw - huw * gu) / determinant;
+    const double size = std::sqrt(su * su + sw * sw),
+                 limit = Parameters::max_step * std::sqrt(shortest);
+    if (!(size > 0)) return;
+    if (size > limit) su *= limit / size, sw *= limit / size;
+
+    const double now = energy(star, p);
+    for (int halving = 0; halving < 3; ++halving, su /= 2, sw /= 2) {
+      const Vec3d q = p + su * u + sw * w;
+      if (!(energy(star, q) < now)) continue;
+      const auto place = m.project(v, q);
+      if (place.facet < 0 || !(energy(star, place.point) < now)) continue;
+      if (m.agreement(star, place.point, place.normal) < least) continue;
+      m.move(v, place);
+      return;
+    }
+  }
+
+  Star_mesh& m;
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H

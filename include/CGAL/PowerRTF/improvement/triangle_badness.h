@@ -1,0 +1,76 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far a triangle is from acceptable: 0 as soon as its quality and angles are good, so that only
+// bad triangles pull.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_TRIANGLE_BADNESS_H
+#define CGAL_POWER_RTF_IMPROVEMENT_TRIANGLE_BADNESS_H
+
+#include <CGAL/PowerRTF/geometry/vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CGAL::PowerRTF::internal {
+
+struct Triangle_badness {
+  double badness = 0;            ///< 0 for a triangle that is good enough
+  double inverse_mean_ratio = 1; ///< 1: equilateral
+
+  static constexpr double tolerable = 0.0012; ///< Q .753, or 40.5 degrees, or 86.7 degrees
+
+  /// What the search lowers: badness first, then the shape of all.
+  double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }
+};
+
+/// 4 (.77 - Q)+^2 + 4 ((41.5 - theta_min) / 60)+^2 + 8 ((theta_max - 86) / 60)+^2, Q as in
+/// triangle_quality.h, angles in degrees. They come, within some percent and without trigonometric
+/// functions, from tan(41.5 - theta_min) and cot 86 - cot theta_max: atan(x)^2 is nearly
+/// x^2 / (1 + 0.64 x^2) up to tan 41.5.
+inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+  constexpr double least_quality = 0.77, quality_weight = 4;
+  constexpr double cot_smallest = 1.130294386361753, smallest_weight = 3.648; // 41.5 degrees
+  constexpr double cot_largest = 0.06992681194351034, largest_weight = 7.295; // 86 degrees
+  constexpr double surely_good = 1.09; // the least of those with an angle of 41.5 degrees: 1.0901
+  Triangle_badness result;
+  const Vec3d ab = b - a, ac = c - a;
+  const double squared_double_area = squared_length(cross(ab, ac));
+  if (!(squared_double_area > 0)) {
+    result.badness = result.inverse_mean_ratio = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  const double s0 = squared_length(ab), s1 = squared_length(ac), s2 = squared_length(c - b);
+  const double sum = s0 + s1 + s2, quadruple_area = 2 * std::sqrt(squared_double_area);
+  result.inverse_mean_ratio = sum / (1.7320508075688772 * quadruple_area);
+  if (result.inverse_mean_ratio < surely_good) return result;
+  // the cotangent of the angle opposite to the edge s: (sum - 2 s) / quadruple_area
+  const double shortest = std::min({s0, s1, s2}), longest = std::max({s0, s1, s2});
+  const double smallest_excess = sum - 2 * shortest - cot_smallest * quadruple_area;
+  if (smallest_excess > 0) {
+    const double below =
+        (1 + cot_smallest * cot_smallest) * quadruple_area + cot_smallest * smallest_excess;
+    const double x2 = smallest_excess * smallest_excess;
+    result.badness += smallest_weight * x2 / (below * below + 0.64 * x2);
+  }
+  const double largest_excess = cot_largest * quadruple_area - (sum - 2 * longest);
+  if (largest_excess > 0) {
+    const double x2 = largest_excess * largest_excess;
+    result.badness += largest_weight * x2 / (4 * squared_double_area + 0.45 * x2);
+  }
+  // the square of the perimeter is at most 3 sum: most triangles need no more
+  if (12 * squared_double_area < 3 * least_quality * least_quality * sum * longest) {
+    const double q = 1.7320508075688772 * quadruple_area /
+                     ((std::sqrt(s0) + std::sqrt(s1) + std::sqrt(s2)) * std::sqrt(longest));
+    if (q < least_quality) {
+      const double x = least_quality - q;
+      result.badness += quality_weight * x * x;
+    }
+  }
+  return result;
+}
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_TRIANGLE_BADNESS_H

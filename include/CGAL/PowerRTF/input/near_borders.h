@@ -1,0 +1,57 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Border vertices that are one vertex up to rounding: cracks between facets that a file format or a
+// transformation has torn.
+#ifndef CGAL_POWER_RTF_INPUT_NEAR_BORDERS_H
+#define CGAL_POWER_RTF_INPUT_NEAR_BORDERS_H
+
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/point_grid.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// The widest crack: of the unit box, and of the shortest border edge beside it.
+constexpr double crack_width = 1e-5;
+constexpr double crack_width_per_edge = 0.05;
+
+/// For each vertex the one that stands for it, once border vertices within the width of a crack are
+/// one. `points`: in the unit box.
+inline std::vector<int> merged_near_borders(const std::vector<Vec3d>& points,
+                                            const std::vector<Triangle>& triangles,
+                                            const Facet_adjacency& adjacency)
+{
+  std::vector<double> width(points.size(), std::numeric_limits<double>::infinity());
+  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
+    if (adjacency.opposite[h] != Facet_adjacency::none) continue;
+    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+    const double of_edge = crack_width_per_edge * length(points[b] - points[a]);
+    for (const int v : {a, b}) width[v] = (std::min)({width[v], crack_width, of_edge});
+  }
+  std::vector<int> border;
+  for (std::size_t v = 0; v < points.size(); ++v)
+    if (width[v] <= crack_width) border.push_back(static_cast<int>(v));
+
+  std::vector<int> rank(points.size(), 0), parent(points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  boost::disjoint_sets<int*, int*> merged(rank.data(), parent.data());
+  const Point_grid grid(points, border, crack_width);
+  for (const int a : border)
+    grid.for_each_near(points[a], width[a], [&](int b, double squared_distance) {
+      if (squared_distance <= width[b] * width[b]) merged.union_set(a, b);
+    });
+  for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = merged.find_set(static_cast<int>(v));
+  return parent;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_INPUT_NEAR_BORDERS_H

@@ -1,0 +1,63 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Atomic operations on plain memory, for the host's threads or the device's.
+#ifndef CGAL_POWER_RTF_INTERNAL_ATOMICS_H
+#define CGAL_POWER_RTF_INTERNAL_ATOMICS_H
+
+#include <CGAL/PowerRTF/internal/host_device.h>
+
+namespace CGAL::PowerRTF {
+
+/// Returns the value before.
+CGAL_POWER_RTF_HD inline int atomic_add(int* p, int x)
+{
+#ifdef __CUDA_ARCH__
+  return atomicAdd(p, x);
+#else
+  return __atomic_fetch_add(p, x, __ATOMIC_RELAXED);
+#endif
+}
+
+CGAL_POWER_RTF_HD inline void atomic_add(long long* p, long long x)
+{
+#ifdef __CUDA_ARCH__
+  atomicAdd(reinterpret_cast<unsigned long long*>(p), static_cast<unsigned long long>(x));
+#else
+  __atomic_fetch_add(p, x, __ATOMIC_RELAXED);
+#endif
+}
+
+/// Writes `x` where `expected` stands; returns what stood there.
+CGAL_POWER_RTF_HD inline int atomic_exchange_if(int* p, int expected, int x)
+{
+#ifdef __CUDA_ARCH__
+  return atomicCAS(p, expected, x);
+#else
+  __atomic_compare_exchange_n(p, &expected, x, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+  return expected;
+#endif
+}
+
+/// What other threads may have written meanwhile.
+CGAL_POWER_RTF_HD inline int atomic_load(const int* p)
+{
+#ifdef __CUDA_ARCH__
+  return *static_cast<const volatile int*>(p);
+#else
+  return __atomic_load_n(p, __ATOMIC_RELAXED);
+#endif
+}
+
+CGAL_POWER_RTF_HD inline void atomic_store(int* p, int x)
+{
+#ifdef __CUDA_ARCH__
+  *static_cast<volatile int*>(p) = x;
+#else
+  __atomic_store_n(p, x, __ATOMIC_RELAXED);
+#endif
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_INTERNAL_ATOMICS_H

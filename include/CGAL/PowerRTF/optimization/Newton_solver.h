@@ -1,0 +1,226 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Newton's direction for the weights that give every cell its share of the area: the semi-discrete
+// optimal transport problem (Kitagawa, Merigot, Thibert 2019) on the restricted tangent faces. The
+// direction is damped and its step judged afterwards, so the residual need only fall to a small
+// part.
+#ifndef CGAL_POWER_RTF_OPTIMIZATION_NEWTON_SOLVER_H
+#define CGAL_POWER_RTF_OPTIMIZATION_NEWTON_SOLVER_H
+
+#include <CGAL/PowerRTF/cells/Cell_arrays.h>
+#include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/optimization/Multigrid_gradients.h>
+#include <CGAL/PowerRTF/optimization/Resident_gradients.h>
+#include <CGAL/PowerRTF/optimization/component_trees.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace CGAL::PowerRTF {
+
+/// The areas of the cells that have to become equal, and their shares of them.
+template <class Real>
+struct Counted_area {
+  const Real* area;
+  const unsigned char* keeps_area;
+  CGAL_POWER_RTF_HD double operator()(int i) const { return keeps_area[i] ? 0 : double(area[i]); }
+};
+template <class Real>
+struct Counted_share {
+  const Real* density;
+  const unsigned char* keeps_area;
+  CGAL_POWER_RTF_HD double operator()(int i) const
+  {
+    return keeps_area[i] ? 0 : 1 / double(density[i]);
+  }
+};
+
+/// Residuals and limits of the system whose unknowns are the changes of the weights.
+template <class Real>
+struct Area_targets {
+  const Real *area, *density;
+  const unsigned char* keeps_area;
+  double part; ///< of its target, that an area may be off
+  double *residual, *limit;
+
+  CGAL_POWER_RTF_HD void set(int i, double ratio) const
+  {
+    const double target = keeps_area[i] ? double(area[i]) : ratio / density[i];
+    residual[i] = target - area[i];
+    limit[i] = part * target;
+  }
+};
+
+/// Targets in proportion to 1 / density on each component. `scalars`: memory for two numbers;
+/// `sums`: for two times n; both null: there is one component.
+template <class Real, class Backend>
+void set_area_targets(Backend& backend, int n, const Area_targets<Real>& targets, const int* label,
+                      double* scalars, long long* areas, long long* shares)
+{
+  const Counted_area<Real> area_of{targets.area, targets.keeps_area};
+  const Counted_share<Real> share_of{targets.density, targets.keeps_area};
+  backend.template reduce<2, 0>(
+      n,
+      [=] CGAL_POWER_RTF_HD(int i, Totals<2, 0>& t) {
+        t.add(0, area_of(i));
+        t.add(1, share_of(i));
+      },
+      [=] CGAL_POWER_RTF_HD(const Totals<2, 0>& t) {
+        scalars[0] = t.sum(0);
+        scalars[1] = t.sum(1);
+      });
+  if (!areas) {
+    backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { targets.set(i, scalars[0] / scalars[1]); });
+    return;
+  }
+  sum_over_components(backend, n, label, area_of, scalars, areas);
+  sum_over_components(backend, n, label, share_of, scalars + 1, shares);
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
+    const double ratio = double(areas[label[i]]) / double(shares[label[i]]);
+    targets.set(i, ratio * scalars[0] / scalars[1]);
+  });
+}
+
+/// Subtracts the mean of x on each component that is not anchored.
+template <class Backend>
+void subtract_component_means(Backend& backend, int n, double* x, const Component_view& components,
+                              double* scalars, long long* sums, long long* counts)
+{
+  backend.template reduce<0, 1>(
+      n, [=] CGAL_POWER_RTF_HD(int i, Totals<0, 1>& t) { t.raise(0, std::fabs(x[i])); },
+      [=] CGAL_POWER_RTF_HD(const Totals<0, 1>& t) {
+        scalars[0] = t.maximum(0) > 0 ? n * t.maximum(0) : 1;
+        scalars[1] = n;
+      });
+  const int *const label = components.label, *const is_anchored = components.is_anchored;
+  sum_over_components(
+      backend, n, label, [=] CGAL_POWER_RTF_HD(int i) { return x[i]; }, scalars, sums);
+  sum_over_components(
+      backend, n, label, [=] CGAL_POWER_RTF_HD(int) { return 1.; }, scalars + 1, counts);
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
+    if (is_anchored[label[i]]) return;
+    x[i] -= double(sums[label[i]]) / double(counts[label[i]]) * (scalars[0] / scalars[1]);
+  });
+}
+
+/// Solves L dw = target - area for the cells' weights, L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4 with
+/// e_ij the length of the edge in cell i and d_ij the tangential distance of site j: when w_i
+/// grows, the line moves by dw_i / (2 d_ij). On each connected component of the cells the target
+/// areas are c / rho_i with c such that the component's area is kept.
+template <class Real, class Backend>
+class Newton_solver {
+public:
+  static constexpr int edge_capacity = 16;
+  /// A direction is near enough when it would bring all areas within this part of the capacity
+  /// interval around their targets, or leave this part of the residual's norm. On a device: what
+  /// one step leaves, the next one takes. On the host, where the cells take far longer than the
+  /// system, only rounding is left, so that the weights do not leap when the input changes a
+  /// little.
+  static constexpr double part_of_interval = Backend::works_by_warps ? 0.5 : 0;
+  static constexpr double tolerance = Backend::works_by_warps ? 0.03 : 1e-10;
+
+  explicit Newton_solver(Backend& backend) : m_backend(backend), m_gradients(backend)
+  {
+    m_scalars.allocate(backend, 4);
+  }
+
+  /// Where `build()` shall write the edges of n cells.
+  void add_outputs(int n, Cell_outputs<Real>& out)
+  {
+    m_edge_count.allocate(m_backend, n);
+    m_edge_neighbor.allocate(m_backend, std::size_t(n) * edge_capacity);
+    m_edge_ratio.allocate(m_backend, std::size_t(n) * edge_capacity);
+    out.edge_count = m_edge_count.data();
+    out.edge_neighbor = m_edge_neighbor.data();
+    out.edge_ratio = m_edge_ratio.data();
+    out.edge_capacity = edge_capacity;
+  }
+
+  /// Solves for the direction from areas and densities, after the edges have been written; 0 when
+  /// the system cannot be solved. Cells with `keeps_area[i]` have their own area as the target.
+  /// `find_components`: the cells may hang together in another way than last time.
+  void solve(int n, const Real* area, const Real* density, const unsigned char* keeps_area,
+             double capacity_tolerance, bool find_components);
+
+  /// n weights' changes; their mean on each component is 0 if nothing fixes it.
+  const double* direction() const { return m_x.data(); }
+
+private:
+  static constexpr int max_resident = 300000; ///< threads that a GPU runs at once
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  void iterate();
+  Cell_edges<Real> edges() const
+  {
+    return {m_edge_count.data(), m_edge_neighbor.data(), m_edge_ratio.data()};
+  }
+  Component_view components() { return {m_label.data(), m_is_anchored.data()}; }
+  Laplacian_rows<Real> rows()
+  {
+    return {m_row_size.data(), m_column.data(), m_value.data(), m_diagonal.data(), m_n};
+  }
+
+  Backend& m_backend;
+  int m_n = 0;
+  bool m_is_connected = false;
+  Buffer<int> m_edge_count, m_edge_neighbor;
+  Buffer<Real> m_edge_ratio;
+  Buffer<int> m_row_size, m_column, m_label, m_is_anchored;
+  Buffer<Real> m_value;
+  Buffer<double> m_diagonal, m_x, m_r, m_exchanged[2], m_limits, m_scalars;
+  Multigrid_gradients<Real, Backend> m_gradients;
+  Buffer<long long> m_sums[2];
+};
+
+template <class Real, class Backend>
+void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* density,
+                                         const unsigned char* keeps_area, double capacity_tolerance,
+                                         bool find_components)
+{
+  constexpr std::size_t capacity = Laplacian_rows<Real>::capacity;
+  m_n = n;
+  for (Buffer<double>* b : {&m_diagonal, &m_x, &m_r, &m_limits}) b->allocate(m_backend, n);
+  for (Buffer<int>* b : {&m_row_size, &m_label, &m_is_anchored}) b->allocate(m_backend, n);
+  m_column.allocate(m_backend, n * capacity);
+  m_value.allocate(m_backend, n * capacity);
+  assemble_laplacian(m_backend, edges(), rows());
+  if (find_components)
+    m_is_connected =
+        PowerRTF::find_components(m_backend, rows(), edges(), components(), m_scalars.data()) == 1;
+  if (!m_is_connected)
+    for (auto& s : m_sums) s.allocate(m_backend, n);
+  long long* const sums[] = {m_is_connected ? nullptr : m_sums[0].data(),
+                             m_is_connected ? nullptr : m_sums[1].data()};
+  set_area_targets(m_backend, n,
+                   Area_targets<Real>{area, density, keeps_area,
+                                      part_of_interval * capacity_tolerance, m_r.data(),
+                                      m_limits.data()},
+                   m_label.data(), m_scalars.data(), sums[0], sums[1]);
+  iterate();
+  if (m_is_connected) return; // the caller subtracts the mean of all weights, unless it is anchored
+  subtract_component_means(m_backend, n, m_x.data(), components(), m_scalars.data(), sums[0],
+                           sums[1]);
+}
+
+template <class Real, class Backend>
+void Newton_solver<Real, Backend>::iterate()
+{
+  if (m_n <= max_resident) {
+    for (Buffer<double>& b : m_exchanged) b.allocate(m_backend, m_n);
+    const Resident_gradients<Real> resident{rows(),
+                                            m_x.data(),
+                                            m_r.data(),
+                                            {m_exchanged[0].data(), m_exchanged[1].data()},
+                                            m_limits.data(),
+                                            tolerance,
+                                            200 + 4 * int(std::sqrt(double(m_n)))};
+    if (m_backend.run_resident_team(m_n, resident)) return;
+  }
+  m_gradients.solve(rows(), m_x.data(), m_r.data(), m_limits.data(), tolerance);
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_OPTIMIZATION_NEWTON_SOLVER_H

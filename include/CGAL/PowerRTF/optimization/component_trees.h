@@ -1,0 +1,91 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Connected components by trees of labels, which all threads join at the same time.
+#ifndef CGAL_POWER_RTF_OPTIMIZATION_COMPONENT_TREES_H
+#define CGAL_POWER_RTF_OPTIMIZATION_COMPONENT_TREES_H
+
+#include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/optimization/assemble_laplacian.h>
+
+namespace CGAL::PowerRTF {
+
+/// The root of a tree of labels that fall from item to item; halves the way for those who follow.
+CGAL_POWER_RTF_HD inline int root_of(int* label, int i)
+{
+  for (int next = atomic_load(label + i); next < i;) {
+    const int after = atomic_load(label + next);
+    if (after < next) atomic_store(label + i, after);
+    i = next;
+    next = after;
+  }
+  return i;
+}
+
+/// Hangs the tree with the larger root under the other: in the end each root is the least item of
+/// its component, whatever the order. (Jaiganesh, Burtscher, "A high-performance connected
+/// components implementation for GPUs", 2018.)
+CGAL_POWER_RTF_HD inline void join_trees(int* label, int i, int j)
+{
+  int u = root_of(label, i), v = root_of(label, j);
+  while (u != v) {
+    const int low = u < v ? u : v, high = u < v ? v : u;
+    const int before = atomic_exchange_if(label + high, high, low);
+    if (before == high) return;
+    u = root_of(label, before);
+    v = low;
+  }
+}
+
+/// The connected components of the cells.
+struct Component_view {
+  int* label;       ///< of each cell: the least number in its component
+  int* is_anchored; ///< by label: whether a cell has an edge with a site that has none
+};
+
+/// Finds the components. \param scalar memory of the backend for one number
+/// \returns their number
+template <class Real, class Backend>
+int find_components(Backend& backend, const Laplacian_rows<Real>& a, const Cell_edges<Real>& edges,
+                    const Component_view& components, double* scalar)
+{
+  const int n = a.n;
+  int* const label = components.label;
+  int* const is_anchored = components.is_anchored;
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { label[i] = i; });
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
+    for (int k = 0; k < a.size[i]; ++k) {
+      const int j = a.column[a.place(k, i)];
+      if (j < i) join_trees(label, i, j);
+    }
+  });
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { atomic_store(label + i, root_of(label, i)); });
+  backend.template reduce<1, 0>(
+      n, [=] CGAL_POWER_RTF_HD(int i, Totals<1, 0>& t) { t.add(0, label[i] == i); },
+      [=] CGAL_POWER_RTF_HD(const Totals<1, 0>& t) { *scalar = t.sum(0); });
+  backend.fill(is_anchored, 0, n);
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
+    for (int k = 0; k < edges.count[i]; ++k)
+      if (edges.neighbor[a.place(k, i)] >= n) atomic_store(is_anchored + label[i], 1);
+  });
+  double count;
+  backend.download(&count, scalar, 1);
+  return int(count);
+}
+
+/// Adds `f(i)`, at most `*largest` in size, up over each component, exactly, hence in any order, in
+/// units of `*largest` / 2^61.
+template <class Backend, class F>
+void sum_over_components(Backend& backend, int n, const int* label, F f, const double* largest,
+                         long long* sums)
+{
+  backend.fill(sums, 0ll, n);
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
+    atomic_add(&sums[label[i]], static_cast<long long>(f(i) / *largest * 0x1p61));
+  });
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_OPTIMIZATION_COMPONENT_TREES_H

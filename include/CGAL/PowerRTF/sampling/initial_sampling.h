@@ -1,0 +1,274 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The first n samples (Section 4.3, "Initial Sampling"): the paper's random choice, or sample
+// elimination from candidates that are distributed like the density.
+#ifndef CGAL_POWER_RTF_SAMPLING_INITIAL_SAMPLING_H
+#define CGAL_POWER_RTF_SAMPLING_INITIAL_SAMPLING_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/features/topology_minimum.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/surface_geometry.h>
+#include <CGAL/PowerRTF/option_table.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
+#include <CGAL/PowerRTF/sampling/sample_elimination.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+namespace internal {
+
+/// The facets sorted by component, with running sums of what the candidates are proportional to.
+struct Facet_distribution {
+  std::vector<int> facets;        ///< #F, component by component
+  std::vector<double> sums;       ///< #F + 1
+  std::vector<std::size_t> first; ///< #components + 1: where a component begins in `facets`
+
+  double mass(std::size_t c) const { return sums[first[c + 1]] - sums[first[c]]; }
+};
+
+/// \param facet_mass function facet -> mass
+template <class Facet_mass>
+Facet_distribution facet_distribution(const std::vector<int>& component, int components,
+                                      const Facet_mass& facet_mass)
+{
+  Facet_distribution d;
+  d.first.assign(components + 1, 0);
+  for (const int c : component) ++d.first[c + 1];
+  std::partial_sum(d.first.begin(), d.first.end(), d.first.begin());
+  d.facets.resize(component.size());
+  std::vector<std::size_t> end(d.first.begin(), d.first.end() - 1);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    d.facets[end[component[f]]++] = static_cast<int>(f);
+  d.sums.assign(component.size() + 1, 0);
+  for (std::size_t k = 0; k < component.size(); ++k)
+    d.sums[k + 1] = d.sums[k] + facet_mass(d.facets[k]);
+  return d;
+}
+
+/// Shares `n` samples among components in proportion to their masses, by the method of the largest
+/// remainder; no component gets fewer than its least number if `n` allows (none without mass gets
+/// any).
+inline std::vector<std::size_t> allocate_samples(const std::vector<double>& masses,
+                                                 const std::vector<std::size_t>& least,
+                                                 std::size_t n)
+{
+  const std::size_t components = masses.size();
+  std::vector<std::size_t> samples(components, 0);
+  std::vector<char> is_fixed(components, 0);
+  for (std::size_t c = 0; c < components; ++c) is_fixed[c] = !(masses[c] > 0);
+  std::size_t free_samples = n;
+  double free_mass = std::accumulate(masses.begin(), masses.end(), 0.);
+  if (n >= std::accumulate(least.begin(), least.end(), std::size_t(0))) {
+    for (bool changed = true; changed;) { // each fixed component takes samples from the others
+      changed = false;
+      const double per_mass = static_cast<double>(free_samples) / free_mass;
+      for (std::size_t c = 0; c < components; ++c) {
+        if (is_fixed[c] || masses[c] * per_mass > static_cast<double>(least[c]) - 1e-6) continue;
+        is_fixed[c] = 1;
+        samples[c] = least[c];
+        free_samples -= least[c];
+        free_mass -= masses[c];
+        changed = true;
+      }
+    }
+  }
+
+  // Remainders are compared up to 1e-6, so that rounding does not decide between equal components.
+  std::vector<std::pair<long, std::size_t>> remainders;
+  std::size_t left = free_samples;
+  for (std::size_t c = 0; c < components; ++c) {
+    if (is_fixed[c]) continue;
+    const double quota = masses[c] / free_mass * static_cast<double>(free_samples);
+    samples[c] = (std::min)(left, static_cast<std::size_t>(quota + 1e-7));
+    left -= samples[c];
+    const double remainder = quota - static_cast<double>(samples[c]);
+    remainders.emplace_back(-std::lround(remainder * 1e6 / 3), c);
+  }
+  std::sort(remainders.begin(), remainders.end());
+  for (std::size_t k = 0; left > 0; k = (k + 1) % remainders.size(), --left)
+    ++samples[remainders[k].second];
+  return samples;
+}
+
+/// Appends the point of facet `f` with the barycentric coordinates `b`.
+inline void add_sample(const Surface& surface, int f, const std::array<double, 3>& b,
+                       Samples& samples)
+{
+  const Triangle& t = surface.triangles[f];
+  const auto& p = surface.points;
+  samples.points.push_back(b[0] * p[t[0]] + b[1] * p[t[1]] + b[2] * p[t[2]]);
+  samples.facets.push_back(f);
+  samples.normals.push_back(interpolated_normal(surface, f, b));
+  samples.density.push_back(interpolated_density(surface, f, b));
+}
+
+/// `count` independent points of component `c`, uniform by area.
+inline Samples random_candidates(const Surface& surface, const Facet_distribution& d, std::size_t c,
+                                 std::size_t count, Random_source& random)
+{
+  Samples candidates;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double sum = d.sums[d.first[c]] + random() * d.mass(c);
+    const auto above =
+        std::upper_bound(d.sums.begin() + d.first[c] + 1, d.sums.begin() + d.first[c + 1], sum);
+    add_sample(surface, d.facets[above - d.sums.begin() - 1], random.barycentric({1, 1, 1}),
+               candidates);
+  }
+  return candidates;
+}
+
+/// `count` points of component `c` distributed like the density: one in each of `count` parts of
+/// equal mass of the sequence of its facets.
+inline Samples stratified_candidates(const Surface& surface, const Facet_distribution& d,
+                                     std::size_t c, std::size_t count, Random_source& random)
+{
+  Samples candidates;
+  std::size_t k = d.first[c];
+  for (std::size_t s = 0; s < count; ++s) {
+    const double share = (static_cast<double>(s) + random()) / static_cast<double>(count);
+    const double sum = d.sums[d.first[c]] + share * d.mass(c);
+    while (k + 1 < d.first[c + 1] && d.sums[k + 1] <= sum) ++k;
+    const Triangle& t = surface.triangles[d.facets[k]];
+    const auto& rho = surface.vertex_density;
+    add_sample(surface, d.facets[k], random.barycentric({rho[t[0]], rho[t[1]], rho[t[2]]}),
+               candidates);
+  }
+  return candidates;
+}
+
+/// `n` of the candidates, without replacement, each drawn with probability proportional to its
+/// density among those left (Efraimidis and Spirakis 2006).
+inline std::vector<int> draw_by_density(const Samples& candidates, std::size_t n,
+                                        Random_source& random)
+{
+  std::vector<std::pair<double, int>> keys;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    keys.emplace_back(-std::log(1 - random()) / candidates.density[i], static_cast<int>(i));
+  std::nth_element(keys.begin(), keys.begin() + n, keys.end());
+  std::vector<int> chosen;
+  for (std::size_t k = 0; k < n; ++k) chosen.push_back(keys[k].second);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+/// `n` of the candidates of component `c`, by sample elimination among themselves and the sites of
+/// `features` on it. `cell_mass`: what each sample stands for.
+inline std::vector<int> draw_by_elimination(Samples candidates, const Feature_samples& features,
+                                            int c, double cell_mass, std::size_t n,
+                                            double normal_angle)
+{
+  const std::size_t count = candidates.size();
+  if (count <= n) { // none is to go
+    std::vector<int> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  const Samples& sites = features.sites;
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    if (sites.patches[s] != c) continue;
+    candidates.points.push_back(sites.points[s]);
+    candidates.normals.push_back(sites.normals[s]);
+    candidates.density.push_back(sites.density[s]);
+  }
+  // Discs of radius r in hexagonal arrangement take 2 sqrt(3) r^2 each.
+  const double per_sample = cell_mass / (2 * std::sqrt(3.));
+  std::vector<double> radii;
+  radii.reserve(candidates.size());
+  for (const double rho : candidates.density) radii.push_back(std::sqrt(per_sample / rho));
+  constexpr double radians = 3.14159265358979323846 / 180;
+  return eliminate_samples(candidates.points, candidates.normals, radii,
+                           std::cos(normal_angle * radians), n, candidates.size() - count);
+}
+
+} // namespace internal
+
+/// Puts exactly `options.number_of_samples` samples on the surface, by `options.sampling`:
+///
+/// - `random`: the paper's. m n points, uniform by area; n of them are kept, with probability
+///   proportional to the density.
+/// - `elimination`: m n points distributed like the density, and weighted sample elimination down
+///   to n. Points whose normals differ by more than `options.normal_angle` do not see each other.
+///
+/// Every component of the surface gets its share by mass (the integral of the density), and at
+/// least 4 samples when n allows it; components are sampled one after another.
+/// \returns the samples with their facets; normals and density are interpolated over the facet,
+///   weights are 0. The same seed gives the same samples, also for a scaled surface.
+/// \throws Invalid_input_error an option has a value that is not allowed
+///
+/// `features`: samples that are there already, on the patches' boundaries; they count among the n.
+inline Samples sample_surface(const Surface& surface, const Remeshing_options& options,
+                              const Feature_samples& features = {})
+{
+  validate(options);
+  const std::size_t n = options.number_of_samples - features.size();
+
+  const auto& rho = surface.vertex_density;
+  const auto density_mass = [&](int f) {
+    const Triangle& t = surface.triangles[f];
+    return surface.facet_areas[f] * (rho[t[0]] + rho[t[1]] + rho[t[2]]) / 3;
+  };
+  const auto [component, components] = facet_components(surface.adjacency);
+  const internal::Facet_distribution by_density =
+      internal::facet_distribution(component, components, density_mass);
+  internal::Facet_distribution by_area;
+  if (options.sampling == Sampling::random)
+    by_area = internal::facet_distribution(component, components,
+                                           [&](int f) { return surface.facet_areas[f]; });
+
+  std::vector<double> masses;
+  for (int c = 0; c < components; ++c) masses.push_back(by_density.mass(c));
+  std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
+  std::vector<std::size_t> least;
+  for (const Component_topology& c : component_topologies(surface))
+    least.push_back(c.least_samples());
+  const double cell_mass =
+      density_integral(surface) / equivalent_cells(options.number_of_samples, features);
+  for (std::size_t s = 0; s < features.sites.size(); ++s) {
+    const int c = features.sites.patches[s];
+    least[c] = 0;
+    free_masses[c] = (std::max)(0., free_masses[c] - features.shares[s] * cell_mass);
+  }
+  if (!(*std::max_element(free_masses.begin(), free_masses.end()) > 0)) free_masses = masses;
+  const std::vector<std::size_t> allocation = internal::allocate_samples(free_masses, least, n);
+
+  Random_source random(options.random_seed);
+  Samples samples;
+  for (int c = 0; c < components; ++c) {
+    if (allocation[c] == 0) continue;
+    const auto count = static_cast<std::size_t>(
+        std::ceil(static_cast<double>(allocation[c]) * options.oversampling));
+    const bool eliminate = options.sampling == Sampling::elimination;
+    const Samples candidates =
+        eliminate ? internal::stratified_candidates(surface, by_density, c, count, random)
+                  : internal::random_candidates(surface, by_area, c, count, random);
+    const std::vector<int> chosen =
+        eliminate
+            ? internal::draw_by_elimination(
+                  candidates, features, c,
+                  features.size() > 0 ? cell_mass : masses[c] / static_cast<double>(allocation[c]),
+                  allocation[c], options.normal_angle)
+            : internal::draw_by_density(candidates, allocation[c], random);
+    for (const int i : chosen) {
+      samples.points.push_back(candidates.points[i]);
+      samples.facets.push_back(candidates.facets[i]);
+      if (components > 1) samples.patches.push_back(c);
+      samples.normals.push_back(candidates.normals[i]);
+      samples.density.push_back(candidates.density[i]);
+    }
+  }
+  samples.weights.assign(samples.size(), 0);
+  return samples;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SAMPLING_INITIAL_SAMPLING_H

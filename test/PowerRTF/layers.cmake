@@ -1,0 +1,36 @@
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# The folders of include/CGAL/PowerRTF follow the way of the data: no header includes one of a
+# folder further down. (`-DINCLUDE=folder` with CGAL/PowerRTF)
+cmake_minimum_required(VERSION 3.22)
+set(layers internal geometry input fields features sampling cells optimization engines extraction
+           improvement exact quality)
+
+set(faults "")
+foreach(layer IN LISTS layers)
+  list(FIND layers ${layer} own)
+  file(GLOB headers RELATIVE ${INCLUDE} ${INCLUDE}/CGAL/PowerRTF/${layer}/*.h)
+  if(NOT headers)
+    string(APPEND faults "  there is no folder ${layer}\n")
+  endif()
+  foreach(header IN LISTS headers)
+    file(STRINGS ${INCLUDE}/${header} lines REGEX "^#include <CGAL/PowerRTF/[a-z]+/")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include <CGAL/PowerRTF/([a-z]+)/.*" "\\1" other "${line}")
+      list(FIND layers ${other} its)
+      if(its LESS 0 OR its GREATER own)
+        string(APPEND faults "  ${header}: ${line}\n")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+file(GLOB folders RELATIVE ${INCLUDE}/CGAL/PowerRTF ${INCLUDE}/CGAL/PowerRTF/*)
+foreach(folder IN LISTS folders)
+  if(IS_DIRECTORY ${INCLUDE}/CGAL/PowerRTF/${folder} AND NOT folder IN_LIST layers)
+    string(APPEND faults "  the folder ${folder} has no layer\n")
+  endif()
+endforeach()
+if(faults)
+  message(FATAL_ERROR "Includes that point upwards:\n${faults}")
+endif()

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A surface as an engine has it, on the host.
+#ifndef CGAL_POWER_RTF_TEST_PACKED_H
+#define CGAL_POWER_RTF_TEST_PACKED_H
+
+#include <CGAL/PowerRTF/engines/Surface_arrays.h>
+#include <CGAL/PowerRTF/engines/Surface_engine.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
+
+#include <CGAL/tags.h>
+
+using Packed_backend = CGAL::PowerRTF::Host_backend<CGAL::Sequential_tag>;
+
+/// With the tree of its vertices, that the preset of the paper asks for.
+template <class Real>
+struct Packed {
+  Packed_backend backend;
+  CGAL::PowerRTF::Surface_arrays<Real, Packed_backend> arrays;
+
+  explicit Packed(const CGAL::PowerRTF::Surface& s)
+      : arrays(backend, CGAL::PowerRTF::internal::Surface_packer(
+                            s, CGAL::PowerRTF::Facet_tree(s.points, s.triangles, s.facet_patches),
+                            CGAL::PowerRTF::Remeshing_options::paper_preset())
+                            .result())
+  {}
+  const CGAL::PowerRTF::Surface_view<Real>& view() const { return arrays.view(); }
+};
+
+#endif // CGAL_POWER_RTF_TEST_PACKED_H

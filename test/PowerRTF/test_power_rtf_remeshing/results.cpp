@@ -1,0 +1,156 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the result is worth: guarantees, quality, capacities, by shape and preset.
+#include "../remeshed_shape.h"
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+
+using namespace remeshed_shape;
+using doctest::Approx;
+
+TEST_CASE("the smallest numbers of samples")
+{
+  for (std::size_t n : {4, 5, 6, 12}) {
+    CAPTURE(n);
+    const Result result = remesh(shapes::icosphere(3), n, uniform());
+    CHECK(result.soup.points.size() == n);
+    CHECK(result.soup.triangles.size() == 2 * n - 4);
+  }
+}
+
+TEST_CASE("closed shapes: guarantees, quality and equal capacities")
+{
+  struct Case {
+    const char* name;
+    Soup soup;
+    double q_min, q_avg, theta_min;
+  };
+  const Case cases[] = {{"sphere", shapes::icosphere(4), 0.6, 0.91, 34},
+                        {"torus", torus(), 0.58, 0.91, 33},
+                        {"ellipsoid", ellipsoid(), 0.58, 0.9, 32},
+                        {"two spheres", shapes::two_spheres(3), 0.58, 0.9, 33},
+                        {"box", shapes::box(8), 0.4, 0.85, 22}};
+  for (const Case& c : cases)
+    for (Density density : {Density::uniform, Density::curvature})
+      for (unsigned seed : {0u, 1u}) {
+        CAPTURE(c.name);
+        CAPTURE(int(density));
+        CAPTURE(seed);
+        Remeshing_options options;
+        options.density = density;
+        options.random_seed = seed;
+        const Remeshing_report report = remesh(c.soup, 400, options).report;
+        check_guarantees(report);
+        CHECK(report.quality.q_min > c.q_min);
+        CHECK(report.quality.q_avg > c.q_avg);
+        CHECK(report.quality.theta_min > c.theta_min);
+        CHECK(report.capacity.inside_interval == 1);
+        CHECK(report.capacity.largest_deviation <= 0.04);
+        CHECK(report.cells.ok + report.cells.guarded + report.feature_samples == 400);
+        CHECK(report.distance.mean < 0.4);
+      }
+}
+
+TEST_CASE("surfaces with borders keep them")
+{
+  for (const Soup& soup : {shapes::plane_patch(10, 10), shapes::open_cylinder(40, 20, 1, 2)})
+    for (const Preset preset : {Preset::quality, Preset::paper}) {
+      Remeshing_options options;
+      if (preset == Preset::paper) options = Remeshing_options::paper_preset();
+      options.density = Density::uniform;
+      const Result result = remesh(soup, 300, options);
+      check_guarantees(result.report);
+      CHECK(result.report.topology.border_loops == result.report.input_topology.border_loops);
+      CHECK(result.report.feature_edges > 40);
+      CHECK(result.report.quality.q_avg > (preset == Preset::paper ? 0.8 : 0.9));
+      CHECK(result.report.quality.q_min > 0.5);
+      CHECK(result.report.distance.max <
+            1); // of a diagonal's hundredths; the border is where it was
+    }
+  CHECK(remesh(shapes::plane_patch(10, 10), 300).report.distance.max < 1e-10);
+}
+
+TEST_CASE("creases are found and kept: polyhedra stay the same shape")
+{
+  const Soup cubes =
+      shapes::joined(shapes::box(6), shapes::translated(shapes::box(2), {3, 0.5, 0.1}));
+  const Remeshing_report report = remesh(cubes, 600).report;
+  check_guarantees(report);
+  CHECK(report.crease_edges == 12 * 6 + 12 * 2);
+  CHECK(report.feature_edges >= 2 * 12 * 5);
+  CHECK(report.lost_feature_edges == 0);
+  CHECK(report.distance.max < 1e-10);
+  CHECK(report.quality.q_min > 0.5);
+  Remeshing_options without;
+  without.feature_angle = 180;
+  const Remeshing_report smooth = remesh(cubes, 600, without).report;
+  CHECK(smooth.crease_edges == 0);
+  CHECK(smooth.distance.max > 1);
+}
+
+TEST_CASE("the paper's preset ends with every cell inside the interval")
+{
+  for (Density density : {Density::uniform, Density::curvature})
+    for (unsigned seed : {0u, 1u, 2u}) {
+      CAPTURE(seed);
+      Remeshing_options options = Remeshing_options::paper_preset();
+      options.density = density;
+      options.random_seed = seed;
+      const Remeshing_report report = remesh(torus(), 300, options).report;
+      check_guarantees(report);
+      CHECK(report.capacity.inside_interval == 1);
+      CHECK(report.capacity.largest_deviation <= 0.04);
+      CHECK(report.constructions <= 700);
+      CHECK(report.outer_iterations < 110); // it stops when it is done
+      CHECK(report.quality.q_avg > 0.82);
+    }
+}
+
+TEST_CASE("the paper's preset: weights that diverge begin anew")
+{
+  Remeshing_options options = Remeshing_options::paper_preset();
+  options.max_iterations = 6;
+  options.weight_step = 8; // the rule diverges beyond 2
+  const Remeshing_report report = remesh(shapes::icosphere(4), 300, options).report;
+  check_guarantees(report);
+  const std::size_t without = 10 + 6 * (1 + 30) + 1; // constructions
+  CHECK(report.constructions > without);
+  for (std::size_t k = 10; k < report.iterations.size(); ++k) {
+    CHECK(report.iterations[k].cells.empty == 0);
+    CHECK(report.iterations[k].capacity.rms < 1.5 * report.iterations[9].capacity.rms);
+  }
+}
+
+TEST_CASE("modes: RTF without weights, CCCPD with exactly equal capacities")
+{
+  Remeshing_options options = Remeshing_options::paper_preset();
+  options.density = Density::uniform;
+  options.max_iterations = 20;
+  options.weight_method = Weight_method::none;
+  const Remeshing_report rtf = remesh(torus(), 300, options).report;
+  check_guarantees(rtf);
+  CHECK(rtf.outer_iterations == 30);
+  CHECK(rtf.constructions == 31);
+  CHECK(rtf.capacity.inside_interval < 0.9);
+
+  options.weight_method = Weight_method::multiplicative;
+  const Remeshing_report paper = remesh(torus(), 300, options).report;
+  options.capacity_tolerance = 0;
+  const Remeshing_report cccpd = remesh(torus(), 300, options).report;
+  check_guarantees(cccpd);
+  CHECK(cccpd.outer_iterations == 30);
+  CHECK(paper.capacity.rms < 0.04);
+  CHECK(cccpd.capacity.rms < 0.25 * paper.capacity.rms);
+  CHECK(cccpd.capacity.rms < 0.1 * rtf.capacity.rms);
+  // At the first iteration with weights nothing is equal yet.
+  CHECK(cccpd.capacity.rms < 0.1 * cccpd.iterations[9].capacity.rms);
+
+  options.weight_operator = Weight_operator::floor; // as printed: cells park below two intervals
+  options.capacity_tolerance = 0.04;
+  const Remeshing_report printed = remesh(torus(), 300, options).report;
+  check_guarantees(printed);
+  CHECK(printed.capacity.inside_interval < 1);
+}

@@ -1,0 +1,132 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Self-intersections against exact predicates and CGAL's own count.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "mesh_of_shape.h"
+
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
+
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <random>
+#include <utility>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+using doctest::Approx;
+using shapes::Soup;
+
+namespace {
+
+Soup random_triangles(int n, unsigned seed)
+{
+  std::mt19937 random(seed);
+  const auto unit = [&random] { return random() / 4294967296.; };
+  Soup s;
+  for (int f = 0; f < n; ++f) {
+    const Vec3d c{unit(), unit(), unit()};
+    for (int k = 0; k < 3; ++k) s.points.push_back(c + 0.3 * Vec3d{unit(), unit(), unit()});
+    s.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  return s;
+}
+
+std::size_t cgal_self_intersections(const Soup& s)
+{
+  using shapes::Mesh;
+  const Mesh mesh = shapes::make_mesh(s);
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
+  return pairs.size();
+}
+
+std::size_t self_intersections(const Soup& s)
+{
+  return CGAL::PowerRTF::self_intersections(s.points, s.triangles);
+}
+
+} // namespace
+
+TEST_CASE("self-intersections: pairs")
+{
+  const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
+  const auto pair = [&](std::vector<Vec3d> more, Triangle t) {
+    std::vector<Vec3d> points{a, b, c};
+    points.insert(points.end(), more.begin(), more.end());
+    return self_intersections(Soup{points, {{{0, 1, 2}}, t}});
+  };
+  // no shared vertex: through, beside, parallel, coplanar and overlapping, touching
+  CHECK(pair({{.2, .2, -1}, {.3, .2, 1}, {.2, .3, 1}}, {3, 4, 5}) == 1);
+  CHECK(pair({{.8, .8, -1}, {.9, .8, 1}, {.8, .9, 1}}, {3, 4, 5}) == 0);
+  CHECK(pair({{0, 0, .1}, {1, 0, .1}, {0, 1, .1}}, {3, 4, 5}) == 0);
+  CHECK(pair({{.1, .1, 0}, {2, .1, 0}, {.1, 2, 0}}, {3, 4, 5}) == 1);
+  CHECK(pair({{.2, .2, 0}, {.3, .2, 1}, {.2, .3, 1}}, {3, 4, 5}) == 1);
+  // a shared vertex: apart, through, overlapping
+  CHECK(pair({{-1, 0, 1}, {0, -1, 1}}, {0, 3, 4}) == 0);
+  CHECK(pair({{1, 1, 1}, {1, 1, -1}}, {0, 3, 4}) == 1);
+  CHECK(pair({{.2, .1, 0}, {.1, .2, 0}}, {0, 3, 4}) == 1);
+  // a shared edge: a fold, folded flat onto each other, flat side by side; the edge in both orders
+  for (const Triangle& t : {Triangle{1, 0, 3}, Triangle{0, 1, 3}, Triangle{3, 1, 0}}) {
+    CHECK(pair({{0, 1, .1}}, t) == 0);
+    CHECK(pair({{0, .5, 0}}, t) == 1);
+    CHECK(pair({{0, -1, 0}}, t) == 0);
+  }
+  CHECK(pair({}, {0, 2, 1}) == 1);          // the same facet, turned over
+  CHECK(pair({{2, 0, 0}}, {0, 1, 3}) == 1); // no area: a pair with itself
+}
+
+TEST_CASE("self-intersections: what floating point proves is what exact predicates say")
+{
+  using internal::Epick;
+  using Points = std::array<Epick::Point_3, 3>;
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> digit(0, 3);
+  const auto triangle = [](const Points& p) { return Epick::Triangle_3(p[0], p[1], p[2]); };
+  std::size_t parted = 0, apart = 0;
+  // On a small lattice all the special cases are frequent; drawn out, all triangles are slivers.
+  for (const double length : {1., 1e8, 0x1p-40})
+    for (int i = 0; i < 20000; ++i) {
+      const bool share = i % 2 == 0;
+      const auto point = [&] {
+        const int x = digit(random), y = digit(random), z = digit(random);
+        return Epick::Point_3(length * x + 0.1, y + 0.1 * x, z / 3.);
+      };
+      Points p{point(), point(), point()}, q{point(), point(), point()};
+      if (share) q[1] = p[2];
+      if (CGAL::collinear(p[0], p[1], p[2]) || CGAL::collinear(q[0], q[1], q[2])) continue;
+      const bool expected = share
+                                ? CGAL::do_intersect(triangle(p), Epick::Segment_3(q[2], q[0])) ||
+                                      CGAL::do_intersect(triangle(q), Epick::Segment_3(p[0], p[1]))
+                                : CGAL::do_intersect(triangle(p), triangle(q));
+      const bool is_parted = share ? internal::Parting_plane(p, q, 2, 1).exists()
+                                   : internal::Parting_plane(p, q).exists();
+      if (is_parted) CHECK_FALSE(expected);
+      parted += is_parted;
+      apart += !expected;
+      const std::array<int, 3> s{0, 1, 2}, t{3, share ? 2 : 4, 5};
+      CHECK(internal::triangles_intersect(s, p, t, q) == expected);
+    }
+  CHECK(parted > apart / 2); // it is worth its while
+}
+
+TEST_CASE("self-intersections: CGAL's own count")
+{
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const Soup s = random_triangles(60, seed);
+    const std::size_t count = self_intersections(s);
+    CHECK(count > 0);
+    CHECK(count == cgal_self_intersections(s));
+    CHECK(count == self_intersections(shapes::permuted(s, seed)));
+  }
+  CHECK(self_intersections(shapes::torus(40, 20, 3, 1)) == 0);
+  const Soup spheres = shapes::two_spheres(2, 1.3);
+  CHECK(self_intersections(spheres) > 0);
+  CHECK(self_intersections(spheres) == cgal_self_intersections(spheres));
+  CHECK(self_intersections(Soup()) == 0);
+}

@@ -1,0 +1,29 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Format.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace tools {
+
+Format format_of(const std::string& file)
+{
+  std::string end = std::filesystem::path(file).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (end == ".off") return Format::off;
+  if (end == ".obj") return Format::obj;
+  if (end == ".ply") return Format::ply;
+  if (end == ".stl") return Format::stl;
+  if (end == ".vtp") return Format::vtp;
+  return Format::unknown;
+}
+
+bool holds_floats(Format format, Encoding encoding)
+{
+  return format == Format::stl && encoding == Encoding::binary;
+}
+
+} // namespace tools

@@ -1,0 +1,23 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The formats of mesh files.
+#ifndef POWER_RTF_TOOLS_FORMAT_H
+#define POWER_RTF_TOOLS_FORMAT_H
+
+#include <string>
+
+namespace tools {
+
+enum class Format { unknown, off, obj, ply, stl, vtp };
+enum class Encoding { binary, text };
+
+/// The format that the extension of the file's name stands for, in upper or lower case.
+Format format_of(const std::string& file);
+
+/// Whether a mesh is written with coordinates of single precision: as binary STL.
+bool holds_floats(Format format, Encoding encoding);
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_FORMAT_H
