@@ -41,7 +41,7 @@ public:
   /// `sight`: by vertex.
   Intersection_guard(const Working_mesh& mesh, std::vector<Sight>&& sight)
       : m(mesh), m_triangles(mesh.mesh), m_sight(std::move(sight)),
-        m_is_inserted(mesh.mesh.number_of_faces(), false)
+        m_is_inserted(mesh.mesh.num_faces(), false)
   {
     for (const Face f : m.mesh.faces()) insert(f);
   }
@@ -52,7 +52,7 @@ public:
     for (const Halfedge h : halfedges_around_target(u, m.mesh)) m_sight[m.mesh.source(h)] = watched;
     for (const Halfedge h : halfedges_around_target(u, m.mesh))
       for (const Halfedge g : halfedges_around_target(m.mesh.source(h), m.mesh))
-        if (!m.mesh.is_border(g) && !m_is_inserted[m.mesh.face(g)]) insert(m.mesh.face(g));
+        if (!m.mesh.is_border(g)) insert(m.mesh.face(g));
   }
 
   /// Whether flipping the edge adds an intersection.
@@ -80,9 +80,23 @@ public:
     return adds_intersections(old, fresh);
   }
 
+  /// Whether a face around `v` intersects another.
+  bool intersects_around(Vertex v) const
+  {
+    Faces star;
+    Triangles triangles;
+    for (const Halfedge h : halfedges_around_target(v, m.mesh)) {
+      if (m.mesh.is_border(h)) continue;
+      star.push_back(m.mesh.face(h));
+      triangles.push_back(m_triangles.corners(star.back()));
+    }
+    return count(triangles, star, 1) > 0;
+  }
+
   /// To be called before and after a change, for the faces that it touches.
   void insert(Face f)
   {
+    if (m_is_inserted[f]) return;
     const Corners t = m_triangles.corners(f);
     if (std::all_of(t.begin(), t.end(), [this](Vertex v) { return m_sight[v] == unknown; })) return;
     m_is_inserted[f] = true;
@@ -94,18 +108,25 @@ public:
     m_is_inserted[f] = false;
     m_tree.remove(entry(f));
   }
-  void erase_around(Vertex u, Vertex v)
+  void erase_around(Vertex v)
   {
-    for (const Halfedge h : halfedges_around_target(u, m.mesh))
-      if (!m.mesh.is_border(h)) erase(m.mesh.face(h));
     for (const Halfedge h : halfedges_around_target(v, m.mesh))
-      if (!m.mesh.is_border(h) && m.mesh.source(h) != u && m.mesh.target(m.mesh.next(h)) != u)
-        erase(m.mesh.face(h));
+      if (!m.mesh.is_border(h)) erase(m.mesh.face(h));
   }
   void insert_around(Vertex v)
   {
     for (const Halfedge h : halfedges_around_target(v, m.mesh))
       if (!m.mesh.is_border(h)) insert(m.mesh.face(h));
+  }
+  template <std::size_t K>
+  void erase_around(const std::array<Vertex, K>& vertices)
+  {
+    for (const Vertex v : vertices) erase_around(v);
+  }
+  template <std::size_t K>
+  void insert_around(const std::array<Vertex, K>& vertices)
+  {
+    for (const Vertex v : vertices) insert_around(v);
   }
 
 private:

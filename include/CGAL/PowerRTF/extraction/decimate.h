@@ -185,7 +185,7 @@ private:
     const Vec3d normal = m.normals[v];
     const int sample = m.samples[v];
     const Vertex u = m.mesh.source(to_v);
-    if (m_guard) m_guard->erase_around(u, v);
+    if (m_guard) m_guard->erase_around(std::array{u, v});
     leave_facets(u);
     if (m.is_on_feature(u)) m.shorten_feature(u, v);
     const Vertex kept = Euler::collapse_edge(m.mesh.edge(to_v), m.mesh);

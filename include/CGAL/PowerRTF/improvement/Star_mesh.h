@@ -63,8 +63,7 @@ public:
       const auto place = projector.nearest(mesh.points[v]);
       m_facets.push_back(place.facet);
       m.normals[v] = place.normal;
-      const Vertex w = Vertex(Vertex::size_type(v));
-      m_movable[v] = !m_on_feature[v] && !m.mesh.is_isolated(w) && !m.mesh.is_border(w);
+      m_movable[v] = is_interior(Vertex(Vertex::size_type(v)));
     }
   }
 
@@ -74,6 +73,18 @@ public:
     m_locked = locked;
     for (std::size_t v = 0; v < size(); ++v)
       if (locked[v]) m_movable[v] = false;
+  }
+
+  /// Undoes `lock()`.
+  void unlock()
+  {
+    for (std::size_t i = 0; i < size(); ++i) {
+      const Vertex v = Vertex(Vertex::size_type(i));
+      if (!m_locked[v]) continue;
+      m_locked[v] = false;
+      m_movable[v] = is_interior(v);
+      touch(v);
+    }
   }
 
   Working_mesh& working() { return m; }
@@ -326,6 +337,12 @@ private:
     std::iota(r.samples.begin(), r.samples.end(), 0);
     r.triangles = mesh.triangles;
     return r;
+  }
+
+  // On neither feature nor border.
+  bool is_interior(Vertex v) const
+  {
+    return !m_on_feature[v] && !m.mesh.is_isolated(v) && !m.mesh.is_border(v);
   }
 
   void touch_around(Vertex v)

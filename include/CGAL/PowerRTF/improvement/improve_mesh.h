@@ -20,7 +20,8 @@
 //     else if places are still very far: once more, allowing worse triangles; optimize;
 //       undo that if bad triangles are left
 //     move vertices to far tips where that makes no triangle bad
-//     if no faces intersect and the largest distance has hardly grown: done
+//     if no faces intersect and the largest distance has hardly grown:
+//       unlock all vertices; optimize, with only what makes no faces intersect; done
 //     else lock vertices of the faces that do: the one that has moved farthest, then all corners,
 //       then more and more rings around them
 //   the extracted mesh stays as it is
@@ -65,6 +66,7 @@ public:
       improve(stars, Schedule::smoothing_passes - (attempt == 1 ? 1 : 0));
       const std::vector<Face> broken = find_broken(stars);
       if (broken.empty()) {
+        if (attempt > 1) optimize_locked(stars);
         stars.write(mesh);
         return mesh;
       }
@@ -111,10 +113,18 @@ private:
     m_tracker.update();
     relocate(stars, optimizer);
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
-    m_too_far.clear();
-    for (int i = 0; i < m_tracker.size(); ++i)
-      if (m_tracker[i].distance > m_largest_distance)
-        m_too_far.push_back(stars.working().mesh.face(m_tracker[i].face));
+  }
+
+  // The triangles between locked vertices, too, as far as no faces intersect.
+  void optimize_locked(Star_mesh& stars)
+  {
+    const Star_mesh before = stars;
+    stars.unlock();
+    Intersection_guard guard(stars.working(), std::vector<Intersection_guard::Sight>(
+                                                  stars.size(), Intersection_guard::watched));
+    Bad_triangle_optimizer(stars, &guard).run(Schedule::optimization_rounds);
+    m_tracker.update();
+    if (!find_too_far(stars).empty()) stars.restore(before);
   }
 
   // Puts vertices from flat parts into far places.
@@ -137,6 +147,16 @@ private:
     }
   }
 
+  // The faces whose part of the surface is too far away.
+  std::vector<Face> find_too_far(const Star_mesh& stars) const
+  {
+    std::vector<Face> faces;
+    for (int i = 0; i < m_tracker.size(); ++i)
+      if (m_tracker[i].distance > m_largest_distance)
+        faces.push_back(stars.working().mesh.face(m_tracker[i].face));
+    return faces;
+  }
+
   // The faces that intersect others or are too far from the surface, but for those between locked
   // vertices: they are as in the raw mesh.
   std::vector<Face> find_broken(const Star_mesh& stars) const
@@ -148,7 +168,7 @@ private:
         if (!m_locked[v]) return false;
       return true;
     };
-    for (const Face f : m_too_far)
+    for (const Face f : find_too_far(stars))
       if (!is_locked(f)) broken.push_back(f);
     for (const auto& [f, g] : Intersection_finder(mesh).all())
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
@@ -190,7 +210,6 @@ private:
   Distance_tracker m_tracker;
   Flat_patches m_flat;
   double m_spacing, m_largest_distance;
-  std::vector<Face> m_too_far;
 };
 
 } // namespace internal

@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_OPTIMIZE_BAD_TRIANGLES_H
 #define CGAL_POWER_RTF_IMPROVEMENT_OPTIMIZE_BAD_TRIANGLES_H
 
+#include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
@@ -33,8 +34,9 @@ public:
   using Face = Working_mesh::Mesh::Face_index;
   using Time = Star_mesh::Time;
 
-  explicit Bad_triangle_optimizer(Star_mesh& mesh)
-      : m(mesh), m_anchors(mesh.size()), m_failed_searches(mesh.size(), 0),
+  /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
+  explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
+      : m(mesh), m_guard(guard), m_anchors(mesh.size()), m_failed_searches(mesh.size(), 0),
         m_failed_flips(mesh.working().mesh.number_of_edges(), 0)
   {}
 
@@ -235,8 +237,23 @@ private:
     if (m.agreement(star, place.point, place.normal) <
         std::min(Parameters::min_agreement, m.agreement(star, p, n) - Parameters::agreement_loss))
       return false;
+    return move(v, place);
+  }
+
+  // False, with nothing moved, if faces would intersect.
+  bool move(Vertex v, const Surface_projector::Place& place)
+  {
+    if (!m_guard) {
+      m.move(v, place);
+      return true;
+    }
+    const Surface_projector::Place before = m.place(v);
+    m_guard->erase_around(v);
     m.move(v, place);
-    return true;
+    const bool intersects = m_guard->intersects_around(v);
+    if (intersects) m.move(v, before);
+    m_guard->insert_around(v);
+    return !intersects;
   }
 
   // Tries the edges of a bad triangle, and those opposite to its corners.
@@ -281,19 +298,23 @@ private:
       return false; // hopeless
     Time changed = 0;
     for (const Vertex v : corners) changed = std::max(changed, m.changed_around(v));
-    if (changed <= m_failed_flips[e]) return false;
+    if (changed <= m_failed_flips[e] || (m_guard && m_guard->forbids_flip(e))) return false;
     const Star_mesh::Before_flip before = m.before_flip(e);
     std::array<Time, 4> failed_searches;
     for (int k = 0; k < 4; ++k) failed_searches[k] = m_failed_searches[corners[k]];
     const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);
+    if (m_guard) m_guard->erase_around(corners);
     m.flip(e);
+    if (m_guard) m_guard->insert_around(corners);
     for (int pass = 0; pass < 2; ++pass)
       for (const Vertex v : corners) search(v);
     if (patch_energy(corners) < clearly_less * energy_before &&
         patch_agreement(corners) >=
             std::min(Parameters::min_agreement, agreement - Parameters::agreement_loss))
       return true;
+    if (m_guard) m_guard->erase_around(corners);
     m.undo_flip(before);
+    if (m_guard) m_guard->insert_around(corners);
     for (int k = 0; k < 4; ++k) m_failed_searches[corners[k]] = failed_searches[k];
     m_failed_flips[e] = m.now();
     return false;
@@ -337,6 +358,7 @@ private:
   }
 
   Star_mesh& m;
+  Intersection_guard* m_guard;         // or none
   std::vector<Vec3d> m_anchors;        // by vertex
   std::vector<Time> m_failed_searches; // by vertex
   std::vector<Time> m_failed_flips;    // by edge
