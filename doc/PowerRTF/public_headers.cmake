@@ -22,6 +22,7 @@ set(public_headers
     PowerRTF/internal/errors.h
     PowerRTF/geometry/Surface.h
     PowerRTF/fields/density.h
-    PowerRTF/features/feature_samples.h
+    PowerRTF/features/Feature_samples.h
+    PowerRTF/features/sample_features.h
     PowerRTF/input/import_surface.h
     PowerRTF/prepare_surface.h)

@@ -10,16 +10,16 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/Remeshing_visitor.h>
+#include <CGAL/PowerRTF/extraction/Opened_surface.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
-#include <CGAL/PowerRTF/extraction/one_sided.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <utility>
 

@@ -7,7 +7,7 @@
 
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
 
 #include <cstddef>
 

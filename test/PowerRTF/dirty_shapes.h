@@ -7,6 +7,8 @@
 
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/input/clean_soup.h>
+
 #include <string>
 
 namespace shapes {

@@ -10,8 +10,9 @@
 
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_TEST_PACKED_H
 
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
-#include <CGAL/PowerRTF/engines/Surface_engine.h>
+#include <CGAL/PowerRTF/engines/Surface_packer.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <CGAL/tags.h>

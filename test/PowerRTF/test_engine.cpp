@@ -6,7 +6,7 @@
 #include "engine_comparison.h"
 
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <doctest/doctest.h>
 

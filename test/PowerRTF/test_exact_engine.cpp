@@ -9,6 +9,7 @@
 
 #include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF_remesher.h>
 

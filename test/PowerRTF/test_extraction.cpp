@@ -3,11 +3,15 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/extraction/decimate.h>
+#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
+#include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <doctest/doctest.h>
 

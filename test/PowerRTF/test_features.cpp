@@ -9,12 +9,16 @@
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/cells/clip_at_features.h>
+#include <CGAL/PowerRTF/extraction/Opened_surface.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
-#include <CGAL/PowerRTF/extraction/one_sided.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/quality/assess_impl.h>
+#include <CGAL/PowerRTF/quality/topology.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,14 @@
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/extraction/extract_guarded.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
+#include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/assess.h>
+#include <CGAL/PowerRTF/quality/assess_impl.h>
 #include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <doctest/doctest.h>
 

@@ -7,6 +7,9 @@
 #include "shapes.h"
 #include "sound_surface.h"
 
+#include <CGAL/PowerRTF/geometry/degenerate_facets.h>
+#include <CGAL/PowerRTF/geometry/surface_geometry.h>
+
 #include <doctest/doctest.h>
 
 #include <cmath>

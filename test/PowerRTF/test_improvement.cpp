@@ -5,9 +5,15 @@
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/fields/smooth_normals.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/Surface_projector.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
+#include <CGAL/PowerRTF/improvement/smooth_mesh.h>
+#include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/quality/assess.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/quality/surface_distance.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <doctest/doctest.h>
 

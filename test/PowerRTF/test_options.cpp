@@ -5,6 +5,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/power_rtf_remeshing.h>

@@ -6,6 +6,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/geometry/output_grid.h>
 #include <CGAL/power_rtf_remeshing.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -7,6 +7,7 @@
 #include "mesh_of_shape.h"
 #include "remeshed_shape.h"
 
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/power_rtf_remeshing.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

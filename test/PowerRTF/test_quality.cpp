@@ -6,6 +6,9 @@
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/quality/assess.h>
+#include <CGAL/PowerRTF/quality/surface_distance.h>
+#include <CGAL/PowerRTF/quality/topology.h>
+#include <CGAL/PowerRTF/quality/triangle_quality.h>
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "dirty_shapes.h"
 
-#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF_remesher.h>
 

@@ -5,6 +5,7 @@
 
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <doctest/doctest.h>
 

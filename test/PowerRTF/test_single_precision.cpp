@@ -6,6 +6,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "engine_comparison.h"
 
+#include <CGAL/PowerRTF/engines/Host_engine_impl.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 
 #include <limits>

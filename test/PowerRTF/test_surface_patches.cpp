@@ -7,6 +7,10 @@
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
+#include <CGAL/PowerRTF/features/split_bent_facets.h>
+#include <CGAL/PowerRTF/geometry/cut_surface.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 

@@ -6,7 +6,7 @@
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/fields/smooth_normals.h>
 #include <CGAL/PowerRTF/input/import_surface.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

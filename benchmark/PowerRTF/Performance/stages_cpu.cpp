@@ -9,8 +9,10 @@
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/cells/Tree_cells.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
-#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <vector>
 

@@ -6,12 +6,22 @@
 #ifndef CGAL_POWER_RTF_EXACT_TRAITS_3_H
 #define CGAL_POWER_RTF_EXACT_TRAITS_3_H
 
-#include <CGAL/PowerRTF/engines/Host_engine.h>
+#include <CGAL/PowerRTF/engines/Host_engine_impl.h>
 #include <CGAL/PowerRTF/exact/Exact_construction.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/tags.h>
 
 namespace CGAL::PowerRTF {
+
+#ifdef CGAL_POWER_RTF_COMPILED
+extern template struct Make_host_engine<
+    double, Exact_construction<Exact_predicates_inexact_constructions_kernel>, Sequential_tag>;
+#ifdef CGAL_LINKED_WITH_TBB
+extern template struct Make_host_engine<
+    double, Exact_construction<Exact_predicates_inexact_constructions_kernel>, Parallel_tag>;
+#endif
+#endif
 
 /// \ingroup PkgPowerRTFTraits
 /// Cells by exact predicates. Which neighbors bound each cell, and which cells are empty, is exact

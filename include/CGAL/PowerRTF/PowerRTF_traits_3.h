@@ -6,11 +6,24 @@
 #define CGAL_POWER_RTF_TRAITS_3_H
 
 #include <CGAL/PowerRTF/engines/Host_engine.h>
-#include <CGAL/PowerRTF/exact/Exact_construction.h>
 
 #include <CGAL/tags.h>
 
+#ifndef CGAL_POWER_RTF_COMPILED
+#include <CGAL/PowerRTF/engines/Host_engine_impl.h>
+#include <CGAL/PowerRTF/exact/Exact_construction.h>
+#endif
+
 namespace CGAL::PowerRTF {
+
+class Filtered_construction;
+
+#ifdef CGAL_POWER_RTF_COMPILED
+extern template struct Make_host_engine<double, Filtered_construction, Sequential_tag>;
+#ifdef CGAL_LINKED_WITH_TBB
+extern template struct Make_host_engine<double, Filtered_construction, Parallel_tag>;
+#endif
+#endif
 
 /// \ingroup PkgPowerRTFTraits
 /// Cells by a search in a tree, in double precision.

@@ -9,10 +9,10 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
-#include <CGAL/PowerRTF/features/feature_samples.h>
-#include <CGAL/PowerRTF/fields/density.h>
-#include <CGAL/PowerRTF/input/import_surface.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/input/read_mesh.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
+#include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/named_parameters.h>
 
 #include <CGAL/number_utils.h>
@@ -69,17 +69,9 @@ std::optional<std::vector<double>> vertex_densities(const FaceGraph& mesh,
 /// \param densities one per point of the soup; none: those that `options` asks for
 /// \param report gets the repairs and the seconds
 /// \throws Invalid_input_error as `import_surface()` and `set_density()`
-inline Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edge>>& creases,
-                               const std::optional<std::vector<double>>& densities,
-                               const Remeshing_options& options, Remeshing_report& report)
-{
-  const internal::Stopwatch watch(report.seconds.surface);
-  Surface surface = internal::clean_surface(soup, options.repair, report.repairs);
-  soup = {}; // its memory
-  creases ? set_creases(surface, *creases) : set_creases(surface, options);
-  densities ? set_density(surface, options, *densities) : set_density(surface, options);
-  return surface;
-}
+Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edge>>& creases,
+                        const std::optional<std::vector<double>>& densities,
+                        const Remeshing_options& options, Remeshing_report& report);
 
 /// \ingroup PkgPowerRTFSurface
 /// The surface of any model of `FaceListGraph` as the remesher wants it: imported by
@@ -124,5 +116,9 @@ Surface prepare_surface(const PointRange& points, const PolygonRange& polygons,
 }
 
 } // namespace CGAL::PowerRTF
+
+#ifndef CGAL_POWER_RTF_COMPILED
+#include <CGAL/PowerRTF/prepare_surface_impl.h>
+#endif
 
 #endif // CGAL_POWER_RTF_PREPARE_SURFACE_H

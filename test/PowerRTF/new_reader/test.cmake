@@ -1,9 +1,10 @@
 # A reader who has nothing but the README: its program is that of the project in SOURCE, which is
-# configured, built and run on INPUT against BUILD, installed to a scratch prefix.
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result WORKING_DIRECTORY ${SCRATCH}/build)
+# configured, built and run on INPUT against BUILD, installed to a scratch prefix; with the headers and
+# with the compiled core, which write the same.
+function(run folder)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result WORKING_DIRECTORY ${folder})
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "failed (${result}): ${ARGV}")
+    message(FATAL_ERROR "failed (${result}): ${ARGN}")
   endif()
 endfunction()
 
@@ -16,8 +17,8 @@ if(found LESS 0)
 endif()
 
 file(REMOVE_RECURSE ${SCRATCH})
-file(MAKE_DIRECTORY ${SCRATCH}/build)
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+file(MAKE_DIRECTORY ${SCRATCH})
+run(${SCRATCH} ${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
 
 set(options)
 foreach(variable CMAKE_MAKE_PROGRAM CMAKE_BUILD_TYPE CMAKE_CXX_COMPILER CMAKE_CXX_FLAGS
@@ -26,13 +27,23 @@ foreach(variable CMAKE_MAKE_PROGRAM CMAKE_BUILD_TYPE CMAKE_CXX_COMPILER CMAKE_CX
     list(APPEND options "-D${variable}=${${variable}}")
   endif()
 endforeach()
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/build -G ${CMAKE_GENERATOR}
-    -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix ${options})
-run(${CMAKE_COMMAND} --build ${SCRATCH}/build --verbose)
-file(COPY_FILE ${INPUT} ${SCRATCH}/build/input.off)
-run(${SCRATCH}/build/user)
 
-file(STRINGS ${SCRATCH}/build/output.off lines REGEX "^3000 [0-9]+ ")
+# build_and_run(target folder): with the target's library.
+function(build_and_run target folder)
+  file(READ ${SOURCE}/CMakeLists.txt project)
+  string(REPLACE "PowerRTF::PowerRTF" ${target} project "${project}")
+  file(WRITE ${folder}/CMakeLists.txt "${project}")
+  file(COPY ${SOURCE}/user.cpp ${INPUT} DESTINATION ${folder})
+  run(${folder} ${CMAKE_COMMAND} -S . -B . -G ${CMAKE_GENERATOR}
+      -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix ${options})
+  run(${folder} ${CMAKE_COMMAND} --build . --verbose)
+  run(${folder} ${folder}/user)
+endfunction()
+build_and_run(PowerRTF::PowerRTF ${SCRATCH}/headers)
+build_and_run(PowerRTF::core ${SCRATCH}/core)
+
+file(STRINGS ${SCRATCH}/headers/output.off lines REGEX "^3000 [0-9]+ ")
 if(NOT lines)
   message(FATAL_ERROR "output.off has not 3000 vertices")
 endif()
+run(${SCRATCH} ${CMAKE_COMMAND} -E compare_files headers/output.off core/output.off)

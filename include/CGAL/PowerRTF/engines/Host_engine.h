@@ -5,25 +5,18 @@
 #ifndef CGAL_POWER_RTF_ENGINES_HOST_ENGINE_H
 #define CGAL_POWER_RTF_ENGINES_HOST_ENGINE_H
 
-#include <CGAL/PowerRTF/cells/Tree_cells.h>
-#include <CGAL/PowerRTF/engines/Engine.h>
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
-#include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <memory>
 
 namespace CGAL::PowerRTF {
 
+/// `make()` is defined in Host_engine_impl.h: only who instantiates it needs that.
 template <class Real, class Construction, class ConcurrencyTag>
 struct Make_host_engine {
   static void check(const Remeshing_options&) {}
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
-                                           const Remeshing_options& options)
-  {
-    using Backend = Host_backend<ConcurrencyTag>;
-    using Cells = Tree_cells<Real, Backend, Construction>;
-    return std::make_unique<Engine<Real, Backend, Cells>>(surface, options);
-  }
+                                           const Remeshing_options& options);
 };
 
 /// \tparam Construction of the cells; see `Tree_cells`

@@ -7,44 +7,10 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/extraction/decimate.h>
-#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
-#include <CGAL/PowerRTF/extraction/extract_guarded.h>
-#include <CGAL/PowerRTF/extraction/insert_samples.h>
-#include <CGAL/PowerRTF/extraction/remove_intersections.h>
-#include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/internal/compiled.h>
 
 namespace CGAL::PowerRTF {
-namespace internal {
-
-inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Samples& samples)
-{
-  const auto& mesh = working.mesh;
-  Extracted_mesh result;
-  result.points = samples.points;
-  std::vector<int> name(working.samples);
-  for (const auto v : mesh.vertices())
-    if (name[v] >= 0)
-      result.points[name[v]] = working.point(v); // another one if the sample was exchanged
-    else if (!mesh.is_isolated(v)) {
-      name[v] = int(result.points.size());
-      result.points.push_back(working.point(v));
-    }
-  result.triangles.reserve(mesh.number_of_faces());
-  for (const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    result.triangles.push_back(
-        {name[mesh.source(h)], name[mesh.target(h)], name[mesh.target(mesh.next(h))]});
-  }
-  result.sort_triangles();
-  for (const auto v : mesh.vertices())
-    for (const auto w : working.feature_neighbors(v))
-      if (name[v] < name[w]) result.feature_edges.push_back({name[v], name[w]});
-  std::sort(result.feature_edges.begin(), result.feature_edges.end());
-  return result;
-}
-
-} // namespace internal
 
 /// A mesh on the samples that is homeomorphic to `surface`: an oriented 2-manifold with the same
 /// components, borders and Euler characteristic, whatever the samples are. Where sampling is dense
@@ -65,46 +31,14 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
 ///
 /// \pre `surface` is an oriented 2-manifold
 /// \throw Invalid_input_error if it is not, or if a sample lies on no facet
-inline Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples,
-                                           const Feature_samples& features = {},
-                                           bool may_touch_itself = false)
-{
-  internal::Working_mesh mesh(internal::insert_samples(surface, samples, features.places));
-  // While the mesh is fine, normals that differ by more than 84 degrees are a fold; among the
-  // samples alone even 134 degrees occur on thin parts, and refusing more costs good triangles.
-  internal::Edge_flipper careful_flipper(mesh, 0.1);
-  careful_flipper.push_around_samples();
-  careful_flipper.run(20 * mesh.mesh.number_of_edges());
-  std::size_t defects = internal::Decimator(mesh, careful_flipper).run();
-  internal::Edge_flipper flipper(mesh, -0.7);
-  for (const auto e : mesh.mesh.edges()) flipper.push(e);
-  flipper.run(20 * mesh.mesh.number_of_edges());
-  if (may_touch_itself) return internal::to_extracted_mesh(mesh, samples);
-  defects += internal::Intersection_remover(mesh, flipper).run();
-  Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
-  if (defects == 0) return result;
-
-  // Where the samples are too sparse: more carefully there, and more widely if that does not help.
-  std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
-  if (sparse.empty()) return result;
-  std::size_t fewest = sparse.size();
-  std::vector<internal::Ball> guarded;
-  const bool is_input_simple = self_intersections(surface.points, surface.triangles) == 0;
-  for (const double reach : {2., 8., 1e3}) {
-    guarded.insert(guarded.end(), sparse.begin(), sparse.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach,
-                                            is_input_simple);
-    extraction.run();
-    sparse = internal::sparse_places(extraction.mesh());
-    if (sparse.size() < fewest) {
-      fewest = sparse.size();
-      result = internal::to_extracted_mesh(extraction.mesh(), samples);
-    }
-    if (sparse.empty() || extraction.is_hopeless()) break;
-  }
-  return result;
-}
+Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples,
+                                    const Feature_samples& features = {},
+                                    bool may_touch_itself = false);
 
 } // namespace CGAL::PowerRTF
+
+#ifndef CGAL_POWER_RTF_COMPILED
+#include <CGAL/PowerRTF/extraction/extract_by_insertion_impl.h>
+#endif
 
 #endif // CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H

@@ -12,7 +12,7 @@
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
-#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/point_grid.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 

@@ -12,7 +12,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 #define CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 
-#include <CGAL/PowerRTF/features/feature_samples.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 

@@ -7,14 +7,9 @@
 #define CGAL_POWER_RTF_FEATURES_SURFACE_PATCHES_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
-#include <CGAL/PowerRTF/features/feature_samples.h>
-#include <CGAL/PowerRTF/features/split_bent_facets.h>
-#include <CGAL/PowerRTF/features/topology_minimum.h>
-#include <CGAL/PowerRTF/fields/smooth_normals.h>
-#include <CGAL/PowerRTF/geometry/output_grid.h>
+#include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/internal/compiled.h>
 
-#include <cstddef>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -26,40 +21,8 @@ public:
   /// Keeps a reference to `surface`, sets the grid of the result's points and replaces the vertex
   /// normals by the smoothed ones (the means over the patches at each vertex).
   /// \throws Invalid_input_error when there are too few samples for the topology, or for the
-  /// creases
-  ///   and borders, or too many for the output's coordinates
-  Surface_patches(Surface& surface, const Remeshing_options& options) : m_whole(surface)
-  {
-    const std::size_t n = options.number_of_samples;
-    require_enough_samples(surface, n);
-    set_output_grid(surface, options);
-    const bool is_one_patch = surface.creases.empty() && surface.adjacency.border_edges == 0 &&
-                              facet_components(surface.adjacency).second == 1;
-    // Means over the nearest vertices would depend on how finely a facet is split.
-    const bool splits = options.attributes == Attributes::facet;
-    if (is_one_patch && !(splits && has_long_bent_facets(surface, n))) {
-      smooth_normals(surface, n, options.normal_smoothing);
-      return;
-    }
-    std::vector<int> originals; // of the vertices of the patches
-    if (is_one_patch) {
-      m_own = surface;
-      originals.resize(surface.points.size());
-      std::iota(originals.begin(), originals.end(), 0);
-    } else {
-      Cut_surface cut = cut_along_creases(surface);
-      m_features = sample_features(surface, cut, n);
-      m_own = std::move(cut.surface);
-      originals = std::move(cut.originals);
-    }
-    if (splits) m_parents = split_bent_facets(*m_own, n);
-    place_features();
-    smooth_normals(*m_own, n, options.normal_smoothing);
-    surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
-    for (std::size_t v = 0; v < originals.size(); ++v)
-      surface.vertex_normals[originals[v]] += m_own->vertex_normals[v];
-    internal::mend_vertex_normals(surface);
-  }
+  ///   creases and borders, or too many for the output's coordinates
+  Surface_patches(Surface& surface, const Remeshing_options& options);
 
   Surface_patches(const Surface_patches&) = delete;
   Surface_patches& operator=(const Surface_patches&) = delete;
@@ -78,13 +41,7 @@ public:
 
 private:
   /// Gives the features' sites facets that have been split: any part of theirs lies on their patch.
-  void place_features()
-  {
-    if (m_parents.empty()) return;
-    std::vector<int> parts(m_whole.triangles.size());
-    for (std::size_t f = m_parents.size(); f-- > 0;) parts[m_parents[f]] = static_cast<int>(f);
-    for (int& f : m_features.sites.facets) f = parts[f];
-  }
+  void place_features();
 
   const Surface& m_whole;
   std::optional<Surface> m_own; ///< none: the whole surface is one patch as it is
@@ -94,5 +51,9 @@ private:
 };
 
 } // namespace CGAL::PowerRTF
+
+#ifndef CGAL_POWER_RTF_COMPILED
+#include <CGAL/PowerRTF/features/Surface_patches_impl.h>
+#endif
 
 #endif // CGAL_POWER_RTF_FEATURES_SURFACE_PATCHES_H

@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_FEATURES_CURVE_SAMPLES_H
 #define CGAL_POWER_RTF_FEATURES_CURVE_SAMPLES_H
 
+#include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/features/feature_curves.h>
 
 #include <algorithm>
@@ -15,12 +16,6 @@
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// A place on an edge of the surface, or at a vertex (`from == to`).
-struct Edge_place {
-  int from, to;
-  double at; ///< 0: at `from`, 1: at `to`
-};
 
 struct Curve_samples {
   std::vector<Edge_place> places;

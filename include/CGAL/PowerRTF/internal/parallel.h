@@ -22,26 +22,33 @@
 
 namespace CGAL::PowerRTF::internal {
 
+/// Calls `f(c)` for c in [0, n). A function pointer and no template: one instance of TBB's loop,
+/// which takes long to compile, serves all.
+template <class ConcurrencyTag>
+void for_each_task(int n, void (*f)(const void* data, int c), const void* data)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if constexpr (std::is_convertible<ConcurrencyTag, Parallel_tag>::value) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, n, 1), [&](const tbb::blocked_range<int>& range) {
+      for (int c = range.begin(); c != range.end(); ++c) f(data, c);
+    });
+    return;
+  }
+#endif
+  for (int c = 0; c < n; ++c) f(data, c);
+}
+
 /// Calls `f(begin, end)` for consecutive chunks of [0, n) of at most `chunk` items.
 template <class ConcurrencyTag, class F>
 void for_each_chunk(int n, int chunk, F&& f)
 {
-#ifdef CGAL_LINKED_WITH_TBB
-  if constexpr (std::is_convertible<ConcurrencyTag, Parallel_tag>::value) {
-    tbb::parallel_for(tbb::blocked_range<int>(0, (n + chunk - 1) / chunk, 1),
-                      [&](const tbb::blocked_range<int>& range) {
-                        for (int c = range.begin(); c != range.end(); ++c) {
-                          Cancellation::poll();
-                          f(c * chunk, std::min(n, (c + 1) * chunk));
-                        }
-                      });
-    return;
-  }
-#endif
-  for (int begin = 0; begin < n; begin += chunk) {
+  const auto run = [&](int c) {
     Cancellation::poll();
-    f(begin, std::min(n, begin + chunk));
-  }
+    f(c * chunk, std::min(n, (c + 1) * chunk));
+  };
+  using Run = decltype(run);
+  for_each_task<ConcurrencyTag>((n + chunk - 1) / chunk,
+                                [](const void* r, int c) { (*static_cast<Run*>(r))(c); }, &run);
 }
 
 /// Calls `f(i)` for i in [0, n).

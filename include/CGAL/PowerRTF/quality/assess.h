@@ -5,60 +5,22 @@
 #ifndef CGAL_POWER_RTF_QUALITY_ASSESS_H
 #define CGAL_POWER_RTF_QUALITY_ASSESS_H
 
+#include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/geometry/self_intersections.h>
-#include <CGAL/PowerRTF/quality/surface_distance.h>
-#include <CGAL/PowerRTF/quality/topology.h>
-#include <CGAL/PowerRTF/quality/triangle_quality.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <vector>
+#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/compiled.h>
 
 namespace CGAL::PowerRTF {
-
-namespace internal {
-
-/// How many of the mesh's feature edges are no edges of its triangles.
-inline std::size_t lost_feature_edges(const Extracted_mesh& mesh)
-{
-  std::vector<Edge> edges;
-  if (mesh.feature_edges.empty()) return 0;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) edges.push_back(sorted_edge(t[i], t[(i + 1) % 3]));
-  std::sort(edges.begin(), edges.end());
-  std::size_t lost = 0;
-  for (const Edge& e : mesh.feature_edges)
-    lost += !std::binary_search(edges.begin(), edges.end(), sorted_edge(e[0], e[1]));
-  return lost;
-}
-
-} // namespace internal
 
 /// Fills the parts of `report` that describe the result: topology of both, self-intersections,
 /// features, triangle quality and distance.
 template <class ConcurrencyTag>
-void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report)
-{
-  report.input_topology = topology(surface.triangles);
-  report.topology = topology(mesh.triangles);
-  report.crease_edges = surface.creases.size();
-  report.feature_edges = mesh.feature_edges.size();
-  report.lost_feature_edges = internal::lost_feature_edges(mesh);
-  report.self_intersections = self_intersections(mesh.points, mesh.triangles);
-  if (report.self_intersections > 0)
-    report.input_self_intersections = self_intersections(surface.points, surface.triangles);
-  report.quality = triangle_quality(mesh.points, mesh.triangles);
-  const double unit = 1 / surface.normalization.scale; // of the points, in the input's
-  const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles);
-  report.edge_length = {unit * lengths.mean, unit * lengths.min, unit * lengths.max};
-  const Box3<double> box = internal::bounding_box(surface.points, surface.triangles);
-  report.diagonal = unit * length(box.hi - box.lo);
-  report.distance = surface_distance<ConcurrencyTag>(surface.points, surface.triangles, mesh.points,
-                                                     mesh.triangles);
-}
+void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report);
 
 } // namespace CGAL::PowerRTF
+
+#ifndef CGAL_POWER_RTF_COMPILED
+#include <CGAL/PowerRTF/quality/assess_impl.h>
+#endif
 
 #endif // CGAL_POWER_RTF_QUALITY_ASSESS_H

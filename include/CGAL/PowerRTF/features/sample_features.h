@@ -3,10 +3,11 @@
 //
 // Samples on corners, creases and borders: spaced by the density along each curve, where they stay.
 // To the cells they are sites, one copy for each patch that they bound.
-#ifndef CGAL_POWER_RTF_FEATURES_FEATURE_SAMPLES_H
-#define CGAL_POWER_RTF_FEATURES_FEATURE_SAMPLES_H
+#ifndef CGAL_POWER_RTF_FEATURES_SAMPLE_FEATURES_H
+#define CGAL_POWER_RTF_FEATURES_SAMPLE_FEATURES_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/features/curve_samples.h>
 #include <CGAL/PowerRTF/features/feature_curves.h>
 #include <CGAL/PowerRTF/features/narrow_patches.h>
@@ -26,20 +27,6 @@
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// \ingroup PkgPowerRTFSurface
-/// The samples on creases and borders.
-struct Feature_samples {
-  Samples samples;                ///< their normals are the means over the patches
-  std::vector<Edge_place> places; ///< of the samples
-  std::vector<Edge> edges;        ///< pairs of samples that the result must join
-  Samples sites;                  ///< a copy of each sample for each patch
-  /// For each site the next one along its patch's boundary, the patch to the left; -1: none.
-  std::vector<int> next;
-  std::vector<double> shares; ///< of a full turn that each site's patch takes around it
-
-  std::size_t size() const { return samples.size(); }
-};
 
 namespace internal {
 
@@ -270,4 +257,4 @@ inline void set_creases(Surface& surface, const Remeshing_options& options)
 
 } // namespace CGAL::PowerRTF
 
-#endif // CGAL_POWER_RTF_FEATURES_FEATURE_SAMPLES_H
+#endif // CGAL_POWER_RTF_FEATURES_SAMPLE_FEATURES_H

@@ -1,0 +1,99 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Definitions for Surface_engine.h.
+#ifndef CGAL_POWER_RTF_ENGINES_SURFACE_ENGINE_IMPL_H
+#define CGAL_POWER_RTF_ENGINES_SURFACE_ENGINE_IMPL_H
+
+#include <CGAL/PowerRTF/engines/Surface_engine.h>
+#include <CGAL/PowerRTF/engines/Surface_packer.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+CGAL_POWER_RTF_INLINE Surface_engine_base::Surface_engine_base(const Surface& surface,
+                                                               const Remeshing_options& options,
+                                                               Make make)
+    : m_options(options), m_surface(surface), m_make(make)
+{}
+
+CGAL_POWER_RTF_INLINE Surface_engine_base::~Surface_engine_base() = default;
+
+CGAL_POWER_RTF_INLINE Cell_counts Surface_engine_base::cell_counts() const
+{
+  const Cell_summary s = m_engine->summary();
+  const auto count = [&](Cell_status status) { return std::size_t(s.counts[int(status)]); };
+  Cell_counts counts;
+  counts.ok = count(Cell_status::ok);
+  counts.guarded = count(Cell_status::guarded);
+  counts.empty = count(Cell_status::empty);
+  counts.incomplete = count(Cell_status::incomplete);
+  return counts;
+}
+
+CGAL_POWER_RTF_INLINE double Surface_engine_base::displacement() const
+{
+  return std::sqrt(m_engine->summary().displacement / m_surface.area);
+}
+
+CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
+{
+  if (!m_tree)
+    m_tree = std::make_unique<Facet_tree>(m_surface.points, m_surface.triangles,
+                                          m_surface.facet_patches);
+  return *m_tree;
+}
+
+CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
+                                                            const Feature_samples& features)
+{
+  const Facets_view<double> facets = facet_tree().view();
+  if (!m_engine) // only now the surface's normals and density are what they will be
+    m_engine =
+        m_make(internal::Surface_packer(m_surface, facet_tree(), m_options).result(), m_options);
+  m_size = samples.size();
+  const Samples sites = joined(samples, features.sites);
+  m_sites = sites.size();
+  Engine_samples to;
+  to.points = sites.points;
+  to.normals = sites.normals;
+  to.density = sites.density;
+  for (const int f : sites.facets) to.facets.push_back(facets.places[f]);
+  if (!m_surface.facet_patches.empty())
+    for (const int f : sites.facets) to.patches.push_back(m_surface.facet_patches[f]);
+  to.cells = static_cast<int>(m_size);
+  if (features.sites.size() > 0) {
+    to.next.assign(sites.size(), -1);
+    for (std::size_t k = 0; k < features.next.size(); ++k)
+      to.next[m_size + k] = static_cast<int>(m_size) + features.next[k];
+  }
+  m_engine->set_samples(to);
+}
+
+CGAL_POWER_RTF_INLINE Samples Surface_engine_base::gather(std::size_t count) const
+{
+  const Engine_samples from = m_engine->samples();
+  const auto first = [&](const auto& items) {
+    return std::decay_t<decltype(items)>(items.begin(),
+                                         items.begin() + (items.empty() ? 0 : count));
+  };
+  Samples to;
+  to.points = first(from.points);
+  to.normals = first(from.normals);
+  to.density = first(from.density);
+  to.weights = first(from.weights);
+  to.patches = first(from.patches);
+  const Facets_view<double> facets = m_tree->view();
+  for (std::size_t i = 0; i < count; ++i) to.facets.push_back(facets.facets[from.facets[i]].id);
+  return to;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_ENGINES_SURFACE_ENGINE_IMPL_H

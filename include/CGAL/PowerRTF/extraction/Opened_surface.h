@@ -1,0 +1,48 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Surfaces with one side only (a Moebius strip, a Klein bottle) are opened along their seams for
+// the extraction, which needs an orientation, and sewn up again: a sample on a seam is two vertices
+// in between.
+#ifndef CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_H
+#define CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_H
+
+#include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/internal/compiled.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// A surface cut along its seams, with its samples.
+class Opened_surface {
+public:
+  /// `samples`: the last ones are those of `features`.
+  Opened_surface(const Surface& surface, const Samples& samples, const Feature_samples& features);
+
+  const Surface& surface() const { return m_surface; }
+  const Samples& samples() const { return m_samples; }
+  const Feature_samples& features() const { return m_features; }
+
+  /// Makes the copies of each sample one vertex again.
+  void sew_up(Extracted_mesh& mesh) const;
+
+private:
+  void add_twin(int s);
+
+  Surface m_surface;
+  Samples m_samples;
+  Feature_samples m_features;
+  std::vector<int> m_twin_of; // of the last samples
+  std::size_t m_first_feature, m_first_twin;
+};
+
+} // namespace CGAL::PowerRTF
+
+#ifndef CGAL_POWER_RTF_COMPILED
+#include <CGAL/PowerRTF/extraction/Opened_surface_impl.h>
+#endif
+
+#endif // CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_H

@@ -1,0 +1,103 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Definitions for Opened_surface.h.
+#ifndef CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_IMPL_H
+#define CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_IMPL_H
+
+#include <CGAL/PowerRTF/extraction/Opened_surface.h>
+#include <CGAL/PowerRTF/geometry/cut_surface.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+CGAL_POWER_RTF_INLINE
+Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
+                               const Feature_samples& features)
+    : m_samples(samples)
+{
+  Surface seams_only = surface;
+  seams_only.creases = surface.seams;
+  Cut_surface cut = cut_along_creases(seams_only);
+  m_surface = std::move(cut.surface);
+  m_surface.facet_patches.clear();
+  m_surface.seams.clear();
+  m_first_feature = samples.size() - features.size();
+  m_first_twin = samples.size();
+
+  std::vector<std::vector<int>> copies(surface.points.size());
+  for (std::size_t v = 0; v < cut.originals.size(); ++v)
+    copies[cut.originals[v]].push_back(static_cast<int>(v));
+  std::map<Edge, std::vector<Edge>> edge_copies;
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f)
+    for (int i = 0; i < 3; ++i) {
+      const int a = m_surface.triangles[f][i], b = m_surface.triangles[f][(i + 1) % 3];
+      const Edge original = sorted_edge(surface.triangles[f][i], surface.triangles[f][(i + 1) % 3]);
+      const Edge copy = cut.originals[a] == original[0] ? Edge{a, b} : Edge{b, a};
+      std::vector<Edge>& list = edge_copies[original];
+      if (std::find(list.begin(), list.end(), copy) == list.end()) list.push_back(copy);
+    }
+  for (const Edge& e : surface.creases) {
+    if (std::binary_search(surface.seams.begin(), surface.seams.end(), e)) continue;
+    for (const Edge& copy : edge_copies[e])
+      m_surface.creases.push_back(sorted_edge(copy[0], copy[1]));
+  }
+  std::sort(m_surface.creases.begin(), m_surface.creases.end());
+
+  std::vector<Edge_place> twins;
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    const Edge_place& p = features.places[k];
+    std::vector<Edge_place> places;
+    if (p.from == p.to)
+      for (const int v : copies[p.from]) places.push_back({v, v, 0});
+    else
+      for (const Edge& e : edge_copies[sorted_edge(p.from, p.to)])
+        places.push_back(p.from < p.to ? Edge_place{e[0], e[1], p.at}
+                                       : Edge_place{e[1], e[0], p.at});
+    m_features.places.push_back(places.front());
+    for (std::size_t c = 1; c < places.size(); ++c) {
+      twins.push_back(places[c]);
+      m_twin_of.push_back(static_cast<int>(m_first_feature + k));
+      add_twin(static_cast<int>(m_first_feature + k));
+    }
+  }
+  m_features.places.insert(m_features.places.end(), twins.begin(), twins.end());
+  m_features.samples.points.assign(m_features.places.size(), {0, 0, 0}); // for their number
+}
+
+CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh) const
+{
+  std::vector<int> name(mesh.points.size());
+  std::vector<Vec3d> points;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const bool is_twin = v >= m_first_twin && v < m_first_twin + m_twin_of.size();
+    name[v] = is_twin ? m_twin_of[v - m_first_twin] : static_cast<int>(points.size());
+    if (!is_twin) points.push_back(mesh.points[v]);
+  }
+  mesh.points.swap(points);
+  for (Triangle& t : mesh.triangles)
+    for (int& v : t) v = name[v];
+  for (Edge& e : mesh.feature_edges) e = sorted_edge(name[e[0]], name[e[1]]);
+  std::sort(mesh.feature_edges.begin(), mesh.feature_edges.end());
+  mesh.feature_edges.erase(std::unique(mesh.feature_edges.begin(), mesh.feature_edges.end()),
+                           mesh.feature_edges.end());
+  mesh.sort_triangles();
+}
+
+CGAL_POWER_RTF_INLINE void Opened_surface::add_twin(int s)
+{
+  m_samples.points.push_back(m_samples.points[s]);
+  m_samples.facets.push_back(m_samples.facets[s]);
+  m_samples.normals.push_back(m_samples.normals[s]);
+  m_samples.density.push_back(m_samples.density[s]);
+  m_samples.weights.push_back(m_samples.weights[s]);
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_IMPL_H

@@ -1,0 +1,69 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Definitions for Surface_patches.h.
+#ifndef CGAL_POWER_RTF_FEATURES_SURFACE_PATCHES_IMPL_H
+#define CGAL_POWER_RTF_FEATURES_SURFACE_PATCHES_IMPL_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
+#include <CGAL/PowerRTF/features/split_bent_facets.h>
+#include <CGAL/PowerRTF/features/topology_minimum.h>
+#include <CGAL/PowerRTF/fields/smooth_normals.h>
+#include <CGAL/PowerRTF/geometry/cut_surface.h>
+#include <CGAL/PowerRTF/geometry/output_grid.h>
+
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+CGAL_POWER_RTF_INLINE
+Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& options)
+    : m_whole(surface)
+{
+  const std::size_t n = options.number_of_samples;
+  require_enough_samples(surface, n);
+  set_output_grid(surface, options);
+  const bool is_one_patch = surface.creases.empty() && surface.adjacency.border_edges == 0 &&
+                            facet_components(surface.adjacency).second == 1;
+  // Means over the nearest vertices would depend on how finely a facet is split.
+  const bool splits = options.attributes == Attributes::facet;
+  if (is_one_patch && !(splits && has_long_bent_facets(surface, n))) {
+    smooth_normals(surface, n, options.normal_smoothing);
+    return;
+  }
+  std::vector<int> originals; // of the vertices of the patches
+  if (is_one_patch) {
+    m_own = surface;
+    originals.resize(surface.points.size());
+    std::iota(originals.begin(), originals.end(), 0);
+  } else {
+    Cut_surface cut = cut_along_creases(surface);
+    m_features = sample_features(surface, cut, n);
+    m_own = std::move(cut.surface);
+    originals = std::move(cut.originals);
+  }
+  if (splits) m_parents = split_bent_facets(*m_own, n);
+  place_features();
+  smooth_normals(*m_own, n, options.normal_smoothing);
+  surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
+  for (std::size_t v = 0; v < originals.size(); ++v)
+    surface.vertex_normals[originals[v]] += m_own->vertex_normals[v];
+  internal::mend_vertex_normals(surface);
+}
+
+CGAL_POWER_RTF_INLINE void Surface_patches::place_features()
+{
+  if (m_parents.empty()) return;
+  std::vector<int> parts(m_whole.triangles.size());
+  for (std::size_t f = m_parents.size(); f-- > 0;) parts[m_parents[f]] = static_cast<int>(f);
+  for (int& f : m_features.sites.facets) f = parts[f];
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_FEATURES_SURFACE_PATCHES_IMPL_H

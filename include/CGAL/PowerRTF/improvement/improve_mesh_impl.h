@@ -1,0 +1,239 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Improvement of an extracted mesh (an addition to the paper): rounder triangles, and a mesh nearer
+// to the surface. `optimize` stands for a targeted search for better places of the vertices around
+// the bad triangles (optimize_bad_triangles.h). "Far" is in comparison with the farthest.
+//
+//   repeat, at most 8 times:
+//     start from the extracted mesh, with some vertices locked (at first none)
+//     3 times (the second attempt: 2): flip edges, smooth vertices          smooth_mesh.h
+//     optimize
+//     if there are creases or borders, twice:
+//       slide vertices along them; optimize                                slide_features.h
+//     move vertices to far tips of the surface and pin them; optimize      cover_tips.h
+//     fit the mesh to the surface by least squares; optimize               fit_to_surface.h
+//     release the pinned vertices of bad triangles; optimize
+//     put vertices from flat parts into far places                         relocate_vertices.h
+//     if places are still very far: once more
+//     if there are bad triangles: optimize
+//     else if places are still very far: once more, allowing worse triangles; optimize;
+//       undo that if bad triangles are left
+//     move vertices to far tips where that makes no triangle bad
+//     if no faces intersect and the largest distance has hardly grown:
+//       unlock all vertices; optimize, with only what makes no faces intersect; done
+//     else lock vertices of the faces that do: the one that has moved farthest, then all corners,
+//       then more and more rings around them
+//   the extracted mesh stays as it is
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_IMPROVE_MESH_IMPL_H
+#define CGAL_POWER_RTF_IMPROVEMENT_IMPROVE_MESH_IMPL_H
+
+#include <CGAL/PowerRTF/extraction/intersecting_faces.h>
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/cover_tips.h>
+#include <CGAL/PowerRTF/improvement/fit_to_surface.h>
+#include <CGAL/PowerRTF/improvement/improve_mesh.h>
+#include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
+#include <CGAL/PowerRTF/improvement/relocate_vertices.h>
+#include <CGAL/PowerRTF/improvement/slide_features.h>
+#include <CGAL/PowerRTF/improvement/smooth_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+namespace internal {
+
+class Mesh_improver {
+public:
+  /// \throw Invalid_input_error if `raw` is not an oriented 2-manifold
+  Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw)
+      : m_surface(surface), m_projector(surface, tree), m_raw(raw),
+        m_locked(raw.points.size(), false), m_raw_stars(raw, m_projector), m_tracker(m_raw_stars),
+        m_flat(surface), m_spacing(std::sqrt(surface.area / double(raw.points.size()))),
+        m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
+  {}
+
+  /// The improved mesh. If an improvement has broken something, it is made anew: at first with less
+  /// smoothing, which may already do, then with what was broken locked, as little of it as does.
+  Extracted_mesh run()
+  {
+    Extracted_mesh mesh = m_raw;
+    for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
+      Star_mesh stars = m_raw_stars;
+      stars.lock(m_locked);
+      improve(stars, Schedule::smoothing_passes - (attempt == 1 ? 1 : 0));
+      const std::vector<Face> broken = find_broken(stars);
+      if (broken.empty()) {
+        if (attempt > 1) optimize_locked(stars);
+        stars.write(mesh);
+        return mesh;
+      }
+      if (attempt == 1)
+        lock_farthest(stars, broken);
+      else if (attempt > 1)
+        lock(stars, broken, attempt - 2);
+    }
+    return mesh;
+  }
+
+private:
+  using Mesh = Working_mesh::Mesh;
+  using Vertex = Working_mesh::Vertex;
+  using Face = Mesh::Face_index;
+
+  using Schedule = Improvement_parameters::Schedule;
+
+  // One attempt; see the head of this file.
+  void improve(Star_mesh& stars, int smoothing_passes)
+  {
+    Mesh_smoother smoother(stars);
+    for (int pass = 0; pass < smoothing_passes; ++pass) {
+      smoother.flip();
+      smoother.sweep();
+    }
+    Bad_triangle_optimizer optimizer(stars);
+    const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
+    optimize();
+    if (!m_raw.feature_edges.empty()) {
+      Feature_slider slider(stars, m_surface);
+      for (int pass = 0; pass < Schedule::sliding_passes; ++pass) {
+        slider.run(Schedule::sliding_rounds);
+        optimize();
+      }
+    }
+    m_tracker.track(stars);
+    Tip_coverer(stars, m_tracker, Schedule::healable_badness).run(Schedule::far_share);
+    optimize();
+    m_tracker.update();
+    Surface_fitter(stars, m_tracker, m_flat, Schedule::healable_badness).run();
+    optimize();
+    if (optimizer.release_pinned() > 0) optimize();
+    m_tracker.update();
+    relocate(stars, optimizer);
+    Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
+  }
+
+  // The triangles between locked vertices, too, as far as no faces intersect.
+  void optimize_locked(Star_mesh& stars)
+  {
+    const Star_mesh before = stars;
+    stars.unlock();
+    Intersection_guard guard(stars.working(), std::vector<Intersection_guard::Sight>(
+                                                  stars.size(), Intersection_guard::watched));
+    Bad_triangle_optimizer(stars, &guard).run(Schedule::optimization_rounds);
+    m_tracker.update();
+    if (!find_too_far(stars).empty()) stars.restore(before);
+  }
+
+  // Puts vertices from flat parts into far places.
+  void relocate(Star_mesh& stars, Bad_triangle_optimizer& optimizer)
+  {
+    const double very_far = Schedule::relocation_distance * m_spacing;
+    Vertex_relocator relocator(stars, optimizer, m_tracker);
+    if (relocator.run(Schedule::far_share) && relocator.farthest() > very_far)
+      relocator.run(Schedule::far_share);
+    if (optimizer.is_needed()) {
+      optimizer.run(Schedule::optimization_rounds);
+      m_tracker.update();
+    }
+    if (relocator.farthest() > very_far && !optimizer.is_needed()) {
+      const Star_mesh before = stars;
+      if (relocator.run(Schedule::far_share, Schedule::healable_relocation_badness))
+        optimizer.run(Schedule::optimization_rounds);
+      if (optimizer.is_needed()) stars.restore(before);
+      m_tracker.update();
+    }
+  }
+
+  // The faces whose part of the surface is too far away.
+  std::vector<Face> find_too_far(const Star_mesh& stars) const
+  {
+    std::vector<Face> faces;
+    for (int i = 0; i < m_tracker.size(); ++i)
+      if (m_tracker[i].distance > m_largest_distance)
+        faces.push_back(stars.working().mesh.face(m_tracker[i].face));
+    return faces;
+  }
+
+  // The faces that intersect others or are too far from the surface, but for those between locked
+  // vertices: they are as in the raw mesh.
+  std::vector<Face> find_broken(const Star_mesh& stars) const
+  {
+    const Mesh& mesh = stars.working().mesh;
+    std::vector<Face> broken;
+    const auto is_locked = [&](Face f) {
+      for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+        if (!m_locked[v]) return false;
+      return true;
+    };
+    for (const Face f : find_too_far(stars))
+      if (!is_locked(f)) broken.push_back(f);
+    for (const auto& [f, g] : Intersection_finder(mesh).all())
+      if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
+    return broken;
+  }
+
+  // Locks the vertex of each face that has moved farthest.
+  void lock_farthest(const Star_mesh& stars, const std::vector<Face>& broken)
+  {
+    const auto moved = [&](Vertex v) { return squared_length(stars.point(v) - m_raw.points[v]); };
+    const Mesh& mesh = stars.working().mesh;
+    for (const Face f : broken) {
+      const auto corners = mesh.vertices_around_face(mesh.halfedge(f));
+      const Vertex v = *std::max_element(corners.begin(), corners.end(),
+                                         [&](Vertex a, Vertex b) { return moved(a) < moved(b); });
+      m_locked[v] = true;
+    }
+  }
+
+  // Locks the vertices of the faces and those so many edges around them.
+  void lock(const Star_mesh& stars, const std::vector<Face>& broken, int rings)
+  {
+    const Mesh& mesh = stars.working().mesh;
+    std::vector<Vertex> locked;
+    for (const Face f : broken)
+      for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) locked.push_back(v);
+    for (int ring = 0; ring < rings; ++ring)
+      for (std::size_t i = 0, size = locked.size(); i < size; ++i)
+        for (const auto h : halfedges_around_target(locked[i], mesh))
+          locked.push_back(mesh.source(h));
+    for (const Vertex v : locked) m_locked[v] = true;
+  }
+
+  const Surface& m_surface;
+  Surface_projector m_projector;
+  const Extracted_mesh& m_raw;
+  std::vector<char> m_locked;
+  Star_mesh m_raw_stars;
+  Distance_tracker m_tracker;
+  Flat_patches m_flat;
+  double m_spacing, m_largest_distance;
+};
+
+} // namespace internal
+
+CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
+                                        Extracted_mesh& mesh)
+{
+  if (mesh.triangles.empty()) return true;
+  try {
+    mesh = internal::Mesh_improver(surface, tree, mesh).run();
+    mesh.sort_triangles();
+  } catch (const Invalid_input_error&) {
+    return false;
+  }
+  return true;
+}
+
+CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, Extracted_mesh& mesh)
+{
+  return improve_mesh(surface, Facet_tree(surface.points, surface.triangles, surface.facet_patches),
+                      mesh);
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_IMPROVE_MESH_IMPL_H

@@ -1,0 +1,78 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The points and facets of the user's mesh, or of arrays, as a `Polygon_soup`: all of the import
+// that depends on types of the user's.
+#ifndef CGAL_POWER_RTF_INPUT_READ_MESH_H
+#define CGAL_POWER_RTF_INPUT_READ_MESH_H
+
+#include <CGAL/PowerRTF/input/Polygon_soup.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+namespace CGAL::PowerRTF::internal {
+
+inline const Vec3d& to_vec3d(const Vec3d& p) { return p; }
+
+template <class Point>
+Vec3d to_vec3d(const Point& p)
+{
+  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+/// The place of each vertex in `vertices(mesh)`, as a property map.
+template <class FaceGraph>
+auto vertex_places(const FaceGraph& mesh)
+{
+  auto places = get(CGAL::dynamic_vertex_property_t<int>(), mesh);
+  int count = 0;
+  for (const auto v : vertices(mesh)) put(places, v, count++);
+  return places;
+}
+
+/// The points and facets of a mesh; vertices at the same place stay apart.
+template <class FaceGraph, class NamedParameters>
+Polygon_soup soup_of_mesh(const FaceGraph& mesh, const NamedParameters& np)
+{
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
+  const auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                          get_const_property_map(CGAL::vertex_point, mesh));
+  const auto places = vertex_places(mesh);
+  Polygon_soup soup;
+  soup.points.reserve(num_vertices(mesh));
+  for (const auto v : vertices(mesh)) soup.points.push_back(to_vec3d(get(point_map, v)));
+  soup.reserve_polygons(num_faces(mesh));
+  for (const auto f : faces(mesh)) {
+    for (const auto v : CGAL::vertices_around_face(halfedge(f, mesh), mesh))
+      soup.corners.push_back(get(places, v));
+    soup.end_polygon();
+  }
+  return soup;
+}
+
+/// Points and polygons as read from a file; vertices at the same place become one.
+/// \throws Invalid_input_error an index is out of range
+template <class PointRange, class PolygonRange>
+Polygon_soup soup_of_ranges(const PointRange& points, const PolygonRange& polygons)
+{
+  Polygon_soup soup;
+  soup.merges_vertices = true;
+  soup.points.reserve(points.size());
+  for (const auto& p : points) soup.points.push_back(to_vec3d(p));
+  soup.reserve_polygons(polygons.size());
+  for (const auto& polygon : polygons) {
+    for (const auto v : polygon) soup.add_corner(v);
+    soup.end_polygon();
+  }
+  return soup;
+}
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_INPUT_READ_MESH_H

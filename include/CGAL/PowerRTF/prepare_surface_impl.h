@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Definition for prepare_surface.h.
+#ifndef CGAL_POWER_RTF_PREPARE_SURFACE_IMPL_H
+#define CGAL_POWER_RTF_PREPARE_SURFACE_IMPL_H
+
+#include <CGAL/PowerRTF/features/sample_features.h>
+#include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/input/clean_surface.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
+
+#include <optional>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup,
+                                              const std::optional<std::vector<Edge>>& creases,
+                                              const std::optional<std::vector<double>>& densities,
+                                              const Remeshing_options& options,
+                                              Remeshing_report& report)
+{
+  const internal::Stopwatch watch(report.seconds.surface);
+  Surface surface = internal::clean_surface(soup, options.repair, report.repairs);
+  soup = {}; // its memory
+  creases ? set_creases(surface, *creases) : set_creases(surface, options);
+  densities ? set_density(surface, options, *densities) : set_density(surface, options);
+  return surface;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_PREPARE_SURFACE_IMPL_H

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The first n samples (Section 4.3, "Initial Sampling").
+#ifndef CGAL_POWER_RTF_SAMPLING_SAMPLE_SURFACE_H
+#define CGAL_POWER_RTF_SAMPLING_SAMPLE_SURFACE_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/internal/compiled.h>
+
+namespace CGAL::PowerRTF {
+
+/// Puts exactly `options.number_of_samples` samples on the surface, by `options.sampling`:
+///
+/// - `random`: the paper's. m n points, uniform by area; n of them are kept, with probability
+///   proportional to the density.
+/// - `elimination`: m n points distributed like the density, and weighted sample elimination down
+///   to n. Points whose normals differ by more than `options.normal_angle` do not see each other.
+///
+/// Every component of the surface gets its share by mass (the integral of the density), and at
+/// least 4 samples when n allows it; components are sampled one after another.
+/// \returns the samples with their facets; normals and density are interpolated over the facet,
+///   weights are 0. The same seed gives the same samples, also for a scaled surface.
+/// \param features samples that are there already, on the patches' boundaries; they count among the
+/// n \throws Invalid_input_error an option has a value that is not allowed
+Samples sample_surface(const Surface& surface, const Remeshing_options& options,
+                       const Feature_samples& features = {});
+
+} // namespace CGAL::PowerRTF
+
+#ifndef CGAL_POWER_RTF_COMPILED
+#include <CGAL/PowerRTF/sampling/sample_surface_impl.h>
+#endif
+
+#endif // CGAL_POWER_RTF_SAMPLING_SAMPLE_SURFACE_H

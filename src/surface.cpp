@@ -1,0 +1,9 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Part of PowerRTF::core: from a polygon soup to the surface, its patches and its samples.
+#include <CGAL/PowerRTF/engines/Surface_engine_impl.h>
+#include <CGAL/PowerRTF/features/Surface_patches_impl.h>
+#include <CGAL/PowerRTF/input/clean_surface_impl.h>
+#include <CGAL/PowerRTF/prepare_surface_impl.h>
+#include <CGAL/PowerRTF/sampling/sample_surface_impl.h>
