@@ -3,6 +3,7 @@
 //
 // Part of PowerRTF::core: the engines of the exact traits, for the usual kernel.
 #include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
+#include <CGAL/PowerRTF/exact/Power_neighbors_impl.h>
 
 namespace CGAL::PowerRTF {
 

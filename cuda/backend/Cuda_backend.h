@@ -72,7 +72,6 @@ __global__ void __launch_bounds__(reduction_threads)
   using T = Totals<Sums, Maxima>;
   constexpr int warps = reduction_threads / 32;
   __shared__ double of_warp[warps][T::size];
-  __shared__ bool is_last;
   T totals;
   totals.clear();
   for (int i = blockIdx.x * blockDim.x + threadIdx.x; i < n; i += gridDim.x * blockDim.x)
@@ -92,12 +91,7 @@ __global__ void __launch_bounds__(reduction_threads)
     for (int w = 1; w < warps; ++w) x = T::joined(k, x, of_warp[w][k]);
     partials[blockIdx.x * T::size + k] = x;
   }
-  __threadfence();
-  __syncthreads();
-  if (threadIdx.x == 0) is_last = atomicAdd(ticket, 1u) == gridDim.x - 1;
-  __syncthreads();
-  if (!is_last) return;
-  __threadfence();
+  if (!is_last_block(ticket)) return;
   const int blocks = gridDim.x;
   for (int k = warp; k < T::size; k += warps) {
     double x = k < Sums ? 0 : -1e300;

@@ -16,6 +16,21 @@ constexpr int block_team_threads = 1024, block_team_items = 8192;
 constexpr int grid_team_threads = 256, grid_team_blocks = 1056;
 constexpr int max_team_totals = 8;
 
+/// Whether all other blocks have called this, and what they wrote before it can be read. To be
+/// called by all threads of a block. `*ticket`: 0 before the kernel, and to be set to 0 by the last
+/// block.
+__device__ inline bool is_last_block(unsigned* ticket)
+{
+  __shared__ bool is_last;
+  __threadfence();
+  __syncthreads();
+  if (threadIdx.x == 0) is_last = atomicAdd(ticket, 1u) == gridDim.x - 1;
+  __syncthreads();
+  if (!is_last) return false;
+  __threadfence();
+  return true;
+}
+
 /// What the threads of a block need to add up.
 struct Team_memory {
   double of_warps[max_team_totals][32], totals[max_team_totals];

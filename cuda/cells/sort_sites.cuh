@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
 #define CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
 
+#include "../backend/teams.cuh"
 #include "Verlet_lists.h"
 #include "warp_search.cuh"
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
@@ -131,13 +132,7 @@ __global__ void __launch_bounds__(gather_threads)
   }
   if (tree.levels <= 2) return;
 
-  __shared__ bool is_last;
-  __threadfence();
-  __syncthreads();
-  if (threadIdx.x == 0) is_last = atomicAdd(ticket, 1u) == gridDim.x - 1;
-  __syncthreads();
-  if (!is_last) return;
-  __threadfence();
+  if (!is_last_block(ticket)) return;
   make_upper_nodes(nodes, tree, warp, lane);
   if (threadIdx.x == 0) *ticket = 0;
 }

@@ -30,10 +30,17 @@ namespace {
 /// Explicit perturbation, for small integers and at most `max_integer_size` samples.
 constexpr int perturbation_bits = 120, max_integer_size = 40, max_size = 300;
 
-Cells exact_cells(const Cloud& c, Exact_neighbors source = Exact_neighbors::automatic)
+Cells cells_by_search(const Cloud& c)
 {
   const Samples& s = c.samples;
-  return Cells(s.points, s.normals, s.weights, c.cos_angle, source);
+  return Cells(s.points, s.normals, s.weights, c.cos_angle);
+}
+
+Cells exact_cells(const Cloud& c)
+{
+  Cells cells = cells_by_search(c);
+  cells.triangulate();
+  return cells;
 }
 
 Cloud shuffled(Cloud c, Random& r)
@@ -80,7 +87,7 @@ struct Tally {
 void check(const Cloud& c, int bits, int samples, std::uint64_t seed, Tally& tally)
 {
   const int n = int(c.size());
-  const Cells cells = exact_cells(c), by_search = exact_cells(c, Exact_neighbors::search);
+  const Cells cells = exact_cells(c), by_search = cells_by_search(c);
   Random r(~seed); // not the stream that made the cloud
   int wrong = 0, differing = 0;
   for (int i = 0; i < n; ++i) {

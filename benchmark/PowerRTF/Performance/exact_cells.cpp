@@ -90,8 +90,8 @@ void certified(benchmark::State& state)
 void exact(benchmark::State& state)
 {
   construct<Exact_construction<Kernel>>(state, {}, [&](auto& cells) {
-    const auto oracle =
-        internal::exact_cells<Kernel>(cells.view(), cos_angle, Exact_neighbors::automatic);
+    auto oracle = internal::exact_cells<Kernel>(cells.view(), cos_angle);
+    oracle.triangulate();
     Filter_statistics statistics;
     for (int i = 0; i < int(oracle.size()); ++i) oracle.cell(i, nullptr, &statistics);
     state.counters["filtered"] = statistics.filtered_share();

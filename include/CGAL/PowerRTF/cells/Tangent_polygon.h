@@ -116,15 +116,16 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
   const FT qx = x[out] + to * (x[end] - x[out]), qy = y[out] + to * (y[end] - y[out]);
   const int exit_neighbor = neighbor[end];
 
+  const auto move = [&](int to, int from) {
+    x[to] = x[from];
+    y[to] = y[from];
+    neighbor[to] = neighbor[from];
+  };
   // New polygon: the kept vertices out .. in, then p (edge j), then q (the edge that q lies on).
   const int kept = size - removed;
   if (out <= in) { // the kept chain does not wrap around: move it to the front
     if (out > 0)
-      for (int k = 0; k < kept; ++k) {
-        x[k] = x[out + k];
-        y[k] = y[out + k];
-        neighbor[k] = neighbor[out + k];
-      }
+      for (int k = 0; k < kept; ++k) move(k, out + k);
     x[kept] = px;
     y[kept] = py;
     neighbor[kept] = j;
@@ -137,17 +138,9 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
   // The removed chain lies inside the array: close (or open) the gap to two places.
   const int tail = size - out, to_place = begin + 2;
   if (to_place < out)
-    for (int k = 0; k < tail; ++k) {
-      x[to_place + k] = x[out + k];
-      y[to_place + k] = y[out + k];
-      neighbor[to_place + k] = neighbor[out + k];
-    }
+    for (int k = 0; k < tail; ++k) move(to_place + k, out + k);
   else if (to_place > out)
-    for (int k = tail - 1; k >= 0; --k) {
-      x[to_place + k] = x[out + k];
-      y[to_place + k] = y[out + k];
-      neighbor[to_place + k] = neighbor[out + k];
-    }
+    for (int k = tail - 1; k >= 0; --k) move(to_place + k, out + k);
   x[begin] = px;
   y[begin] = py;
   neighbor[begin] = j;

@@ -7,14 +7,8 @@
 
 #include <CGAL/PowerRTF/cells/cell_moments.h>
 #include <CGAL/PowerRTF/engines/Engine.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
-#ifdef __CUDACC__ // CGAL's headers are for the host alone
-namespace CGAL::PowerRTF::internal {
-std::vector<int> spatial_order(const std::vector<Vec3d>& points);
-}
-#else
-#include <CGAL/PowerRTF/geometry/Spatial_order.h>
-#endif
 
 #include <algorithm>
 #include <cstdint>
@@ -22,10 +16,17 @@ std::vector<int> spatial_order(const std::vector<Vec3d>& points);
 
 namespace CGAL::PowerRTF {
 
+/// Places along the Hilbert curve through the cube around `box`: no size or position decides them.
 template <class Real, class Backend>
-void find_hilbert_codes(Backend& backend, int n, const Site<Real>* sites, std::uint64_t* codes)
+void find_hilbert_codes(Backend& backend, int n, const Site<Real>* sites, const Box3<double>& box,
+                        std::uint64_t* codes)
 {
-  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { codes[i] = hilbert_code(sites[i].point); });
+  const Vec3d size = box.hi - box.lo;
+  const Vec3<Real> center = to_real<Real>(0.5 * (box.lo + box.hi));
+  const Real scale = Real(2 / std::max({size.x, size.y, size.z}));
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
+    codes[i] = hilbert_code(scale * (sites[i].point - center));
+  });
 }
 
 template <class Real, class Backend>
@@ -91,17 +92,13 @@ void Engine<R, B, C>::sort(const Engine_samples& samples)
   Buffer<int> places;
   codes.allocate(m_backend, n);
   places.allocate(m_backend, n);
+  Box3<double> box{samples.points[0], samples.points[0]};
+  for (const Vec3d& p : samples.points) box.add(p);
+  find_hilbert_codes(m_backend, n, m_sites.data(), box, codes.data());
+  m_backend.sort_order(n, codes.data(), places.data());
   std::vector<int> order(m);
   std::iota(order.begin(), order.end(), 0);
-  if constexpr (B::works_by_warps) {
-    find_hilbert_codes(m_backend, n, m_sites.data(), codes.data());
-    m_backend.sort_order(n, codes.data(), places.data());
-    m_backend.download(order.data(), places.data(), n);
-  } else { // by medians: scaling the input changes no order
-    std::vector<Vec3d> points(samples.points.begin(), samples.points.begin() + n);
-    const std::vector<int> sorted = internal::spatial_order(points);
-    std::copy(sorted.begin(), sorted.end(), order.begin());
-  }
+  m_backend.download(order.data(), places.data(), n);
 
   std::vector<int> facets(m), patches;
   std::vector<Vec3<R>> normals(m);

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The oracle: for samples, normals and weights taken as exact doubles, the
-// restricted cells F_i with exact combinatorics. F_i = tangent plane of s_i, cut by the equal-power
-// half-spaces of the samples compatible with i (NVISPC). Shares no clipping code with `cells/`.
+// The oracle: for samples, normals and weights taken as exact doubles, the restricted cells F_i
+// with exact combinatorics. F_i = tangent plane of s_i, cut by the equal-power half-spaces of the
+// samples compatible with i (NVISPC). Shares no clipping code with `cells/`.
 //
 // Two ways to the neighbors, both proved in doc/PowerRTF/exact.txt:
 // - where all neighbors of i in the regular triangulation of all samples are compatible, these
@@ -55,17 +55,10 @@ struct Exact_cell_geometry {
 };
 
 /// \ingroup PkgPowerRTFExact
-/// Where candidates come from.
-enum class Exact_neighbors {
-  automatic, ///< the regular triangulation where it suffices, else the search
-  search     ///< always the search: no triangulation is built (for a few cells of many samples)
-};
-
-/// \ingroup PkgPowerRTFExact
 /// \tparam Kernel a CGAL kernel, see `Tangent_cell_traits_3`
 /// \tparam Traits a model of `TangentCellTraits_3`
 ///
-/// Immutable after construction: `cell()` may be called from several threads.
+/// `cell()` may be called from several threads.
 template <class Kernel, class Traits = Tangent_cell_traits_3<Kernel>>
 class Exact_cells {
   using Exact_nt = typename Traits::Exact_nt;
@@ -85,17 +78,18 @@ public:
   /// \throw Invalid_input_error for arrays of different sizes, zero normals, and values that are
   /// not finite.
   Exact_cells(std::vector<Vec3d> points, std::vector<Vec3d> normals, std::vector<double> weights,
-              double cos_theta, Exact_neighbors source = Exact_neighbors::automatic,
-              std::vector<int> patches = {})
+              double cos_theta, std::vector<int> patches = {})
       : m_points(std::move(points)), m_normals(std::move(normals)), m_weights(std::move(weights)),
         m_patches(std::move(patches)), m_cos_theta(cos_theta),
         m_tree(checked(m_points, m_normals, m_weights), m_weights)
   {
     if (!m_patches.empty() && m_patches.size() != m_points.size())
       throw Invalid_input_error("points and patches differ in number");
-    if (source == Exact_neighbors::automatic)
-      m_power_neighbors = internal::Power_neighbors(m_points, m_weights);
   }
+
+  /// From now on the candidates come from the samples' regular triangulation where that suffices:
+  /// the same cells, sooner if all or most are asked for.
+  void triangulate() { m_power_neighbors = internal::Power_neighbors(m_points, m_weights); }
 
   std::size_t size() const { return m_points.size(); }
 

@@ -20,8 +20,7 @@ namespace internal {
 
 /// The oracle over the samples of a view.
 template <class Kernel>
-Exact_cells<Kernel> exact_cells(const Sites_view<double>& view, double cos_angle,
-                                Exact_neighbors source)
+Exact_cells<Kernel> exact_cells(const Sites_view<double>& view, double cos_angle)
 {
   std::vector<Vec3d> points, normals(view.normals, view.normals + view.size());
   std::vector<double> weights;
@@ -33,8 +32,7 @@ Exact_cells<Kernel> exact_cells(const Sites_view<double>& view, double cos_angle
   }
   std::vector<int> patches;
   if (view.patches) patches.assign(view.patches, view.patches + view.size());
-  return {std::move(points), std::move(normals), std::move(weights), cos_angle, source,
-          std::move(patches)};
+  return {std::move(points), std::move(normals), std::move(weights), cos_angle, std::move(patches)};
 }
 
 } // namespace internal
@@ -48,8 +46,8 @@ struct Exact_construction {
   void operator()(Cells& cells, Sink&& sink) const
   {
     const auto view = cells.view();
-    const auto oracle =
-        internal::exact_cells<Kernel>(view, cells.cos_angle(), Exact_neighbors::automatic);
+    auto oracle = internal::exact_cells<Kernel>(view, cells.cos_angle());
+    oracle.triangulate();
     cells.backend().for_each(cells.size(),
                              [&](int i) { construct_exact_cell(oracle, view, i, sink); });
   }
@@ -82,8 +80,7 @@ public:
     if (doubtful.empty()) return;
     using Kernel = Exact_predicates_inexact_constructions_kernel; // the samples are doubles
     const auto view = cells.view();
-    const auto oracle =
-        internal::exact_cells<Kernel>(view, cells.cos_angle(), Exact_neighbors::search);
+    const auto oracle = internal::exact_cells<Kernel>(view, cells.cos_angle());
     cells.backend().for_each(int(doubtful.size()),
                              [&](int k) { construct_exact_cell(oracle, view, doubtful[k], sink); });
   }

@@ -7,6 +7,7 @@
 #ifndef CGAL_POWER_RTF_EXACT_CHECK_CELLS_H
 #define CGAL_POWER_RTF_EXACT_CHECK_CELLS_H
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
 #include <CGAL/PowerRTF/cells/Tree_cells.h>
 #include <CGAL/PowerRTF/exact/Exact_cells.h>
@@ -260,9 +261,9 @@ Cell_comparison check_cells(const Samples& samples, const std::vector<Cell_polyg
   double area = 0;
   for (const Cell_polygon& cell : cells) area += cell.area;
   const auto view = tree.view();
-  const Exact_cells<Exact_predicates_inexact_constructions_kernel> exact(
-      samples.points, samples.normals, samples.weights, cos_angle, Exact_neighbors::automatic,
-      samples.patches);
+  Exact_cells<Exact_predicates_inexact_constructions_kernel> exact(
+      samples.points, samples.normals, samples.weights, cos_angle, samples.patches);
+  exact.triangulate();
   const internal::Cell_checker checker(exact, view, std::sqrt(area / double(cells.size())),
                                        epsilon);
 
