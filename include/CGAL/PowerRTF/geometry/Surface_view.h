@@ -125,6 +125,7 @@ CGAL_POWER_RTF_HD inline int nearest_vertices(const Surface_view<Real>& view, co
   int count = 0;
   k = k < view.vertex_tree.items ? k : view.vertex_tree.items;
   k = k < max_near_vertices ? k : max_near_vertices;
+  if (k <= 0) return 0;
   visit_near(
       view.vertex_tree, view.vertex_nodes, p,
       [&]() { return count < k ? 3e38f : bound_of(distances[k - 1]); },
