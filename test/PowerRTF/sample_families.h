@@ -241,6 +241,17 @@ inline const std::vector<Family>& families()
          return c;
        },
        Ties::frequent},
+      {"plane, tight clusters",
+       [](int n, Random& r) {
+         Cloud c;
+         const double gap = std::pow(10., r.real(-15, -12));
+         while (int(c.size()) < n) {
+           const double x = r.real(-.5, .5), y = r.real(-.5, .5);
+           for (int k = 0; k < 24 && int(c.size()) < n; ++k)
+             c.add({x + r.real(-gap, gap), y + r.real(-gap, gap), 0.25}, {0, 0, 1});
+         }
+         return c;
+       }},
       {"cylinder",
        [](int n, Random& r) {
          Cloud c;

@@ -217,20 +217,22 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
     if (polygon.overflow) return deliver(Cell_status::incomplete, clipper, false);
     if (polygon.size > 0 && clipper.is_complete()) {
       const FT r2 = polygon.squared_radius(), f = view.guard_factor;
+      // Once more from a smaller square where the size of this one costs digits, or where there are
+      // too many candidates to be certain of.
+      const bool is_far_off = 8 * r2 < radius * radius;
+      if (again && r2 > 0 && (is_far_off || (Filtered && clipper.has_overflown()))) {
+        again = false;
+        radius = FT(1.1) * std::sqrt(r2);
+        continue;
+      }
       // The 6th neighbor is no nearer than the nearest one.
       const bool is_small = r2 <= f * f * clipper.squared_nearest();
       if (!is_small && r2 > guard_radius() * guard_radius()) break;
       bool certain = false;
-      if constexpr (Filtered) {
-        if (again && clipper.has_overflown()) { // fewer candidates
-          again = false;
-          radius = FT(1.1) * std::sqrt(r2);
-          continue;
-        }
+      if constexpr (Filtered)
         certain = clipper.is_certain() &&
                   (is_small ? r2 <= f * f * clipper.squared_nearest() * (1 - FT(1e-9))
                             : r2 <= guard_radius() * guard_radius() * (1 - FT(1e-9)));
-      }
       return deliver(Cell_status::ok, clipper, certain);
     }
     if (radius >= guard_radius()) { // R > guard radius, or nothing within it

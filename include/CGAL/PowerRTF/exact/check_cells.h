@@ -129,16 +129,23 @@ private:
     if (answer.is_equal) return;
 
     const Rounding_bound bound(m_view, i, 4 * (std::max)(guard, m_spacing), m_epsilon);
-    std::vector<double> lengths;
+    // The vertices were rounded once more when the site was added to them.
+    const Vec3d& s = m_view.sites[i].point;
+    const double unit =
+        internal::epsilon<double>() * (std::fabs(s.x) + std::fabs(s.y) + std::fabs(s.z));
+    std::vector<double> lengths; // at least
+    double perimeter = 0;        // at most
     const int n = int(cell.vertices.size());
-    for (int k = 0; k < n; ++k)
-      lengths.push_back(length(cell.vertices[(k + 1) % n] - cell.vertices[k]));
+    for (int k = 0; k < n; ++k) {
+      const double l = length(cell.vertices[(k + 1) % n] - cell.vertices[k]);
+      lengths.push_back(l - 2 * unit);
+      perimeter += l + 2 * unit;
+    }
     if (cycle.empty() || exact.is_empty()) {
       // Lines displaced by delta empty no polygon that holds a disc of radius delta; the area is
       // at most inradius times perimeter.
       const std::vector<int>& edges = cycle.empty() ? exact.neighbors : cycle;
-      double perimeter = 0;
-      for (double l : cycle.empty() ? geometry.edge_lengths : lengths) perimeter += l;
+      for (const double l : geometry.edge_lengths) perimeter += l; // the other one has none
       const double most = perimeter * bound.displacement(edges);
       answer.worst_edge = (cycle.empty() ? geometry.area : cell.area) / most;
       answer.differing_edges = int(edges.size());
