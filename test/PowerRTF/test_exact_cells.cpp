@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "exact_brute_force.h"
+#include "tangent_predicates.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
