@@ -47,8 +47,9 @@ template <class T>
 T parse_value(const std::string& option, const std::string& text, const Option_range& range)
 {
   if constexpr (std::is_enum<T>::value) {
-    for (const auto& [value, name] : value_names(T()))
-      if (text == name) return value;
+    const Value_names names = value_names(T());
+    const auto name = std::find(names.begin(), names.end(), text);
+    if (name != names.end()) return static_cast<T>(name - names.begin());
   } else {
     using Number = std::conditional_t<std::is_integral<T>::value, long long, double>;
     const Number value = parse_number<Number>(option, text);

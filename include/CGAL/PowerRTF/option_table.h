@@ -10,86 +10,33 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <type_traits>
-#include <utility>
+#include <vector>
 
 namespace CGAL::PowerRTF {
 
 /// \cond SKIP_IN_MANUAL
 
-/// The values of an enumeration and their names.
-template <class E, std::size_t N>
-using Value_names = std::array<std::pair<E, const char*>, N>;
+/// The names of the values of an enumeration, which count from 0.
+using Value_names = std::vector<const char*>;
 
 // One overload per enumeration, found by the type of its unused argument.
-inline auto value_names(Preset)
-{
-  using E = Preset;
-  return Value_names<E, 2>{{{E::quality, "quality"}, {E::paper, "paper"}}};
-}
-inline auto value_names(Density)
-{
-  using E = Density;
-  return Value_names<E, 2>{{{E::uniform, "uniform"}, {E::curvature, "curvature"}}};
-}
-inline auto value_names(Sampling)
-{
-  using E = Sampling;
-  return Value_names<E, 2>{{{E::elimination, "elimination"}, {E::random, "random"}}};
-}
-inline auto value_names(Attributes)
-{
-  using E = Attributes;
-  return Value_names<E, 2>{{{E::facet, "facet"}, {E::nearest_vertices, "nearest-vertices"}}};
-}
-inline auto value_names(Projection)
-{
-  using E = Projection;
-  return Value_names<E, 2>{
-      {{E::nearest_facet, "nearest-facet"}, {E::nearest_vertices, "nearest-vertices"}}};
-}
-inline auto value_names(Position_method)
-{
-  using E = Position_method;
-  return Value_names<E, 2>{{{E::lbfgs, "lbfgs"}, {E::lloyd, "lloyd"}}};
-}
-inline auto value_names(Weight_method)
-{
-  using E = Weight_method;
-  return Value_names<E, 3>{
-      {{E::none, "none"}, {E::multiplicative, "multiplicative"}, {E::newton, "newton"}}};
-}
-inline auto value_names(Weight_operator)
-{
-  using E = Weight_operator;
-  return Value_names<E, 2>{{{E::ceiling, "ceiling"}, {E::floor, "floor"}}};
-}
-inline auto value_names(Extraction_method)
-{
-  using E = Extraction_method;
-  return Value_names<E, 2>{
-      {{E::insertion, "insertion"}, {E::restricted_delaunay, "restricted-delaunay"}}};
-}
-inline auto value_names(Improvement)
-{
-  using E = Improvement;
-  return Value_names<E, 2>{{{E::no, "no"}, {E::yes, "yes"}}};
-}
-inline auto value_names(Repair)
-{
-  using E = Repair;
-  return Value_names<E, 2>{{{E::no, "no"}, {E::yes, "yes"}}};
-}
-inline auto value_names(Coordinates)
-{
-  using E = Coordinates;
-  return Value_names<E, 2>{{{E::double_precision, "double"}, {E::single_precision, "single"}}};
-}
+inline Value_names value_names(Preset) { return {"quality", "paper"}; }
+inline Value_names value_names(Density) { return {"uniform", "curvature"}; }
+inline Value_names value_names(Sampling) { return {"elimination", "random"}; }
+inline Value_names value_names(Attributes) { return {"facet", "nearest-vertices"}; }
+inline Value_names value_names(Projection) { return {"nearest-facet", "nearest-vertices"}; }
+inline Value_names value_names(Position_method) { return {"lbfgs", "lloyd"}; }
+inline Value_names value_names(Weight_method) { return {"none", "multiplicative", "newton"}; }
+inline Value_names value_names(Weight_operator) { return {"ceiling", "floor"}; }
+inline Value_names value_names(Extraction_method) { return {"insertion", "restricted-delaunay"}; }
+inline Value_names value_names(Improvement) { return {"no", "yes"}; }
+inline Value_names value_names(Repair) { return {"no", "yes"}; }
+inline Value_names value_names(Coordinates) { return {"double", "single"}; }
 
 /// \endcond
 
@@ -100,9 +47,9 @@ inline auto value_names(Coordinates)
 template <class E>
 std::string name_of(E value)
 {
-  for (const auto& [v, name] : value_names(value))
-    if (v == value) return name;
-  return {};
+  const Value_names names = value_names(value);
+  const auto number = static_cast<std::size_t>(value);
+  return number < names.size() ? names[number] : "";
 }
 
 /// The values allowed for a number, both ends included.
@@ -237,8 +184,7 @@ template <class E>
 std::string choices(E)
 {
   std::string text;
-  for (const auto& [value, name] : value_names(E()))
-    text += (text.empty() ? "" : "|") + std::string(name);
+  for (const std::string name : value_names(E())) text += (text.empty() ? "" : "|") + name;
   return text;
 }
 
