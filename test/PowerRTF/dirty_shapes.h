@@ -7,7 +7,7 @@
 
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/input/clean_soup.h>
+#include <CGAL/PowerRTF/input/near_borders.h>
 
 #include <string>
 
@@ -16,7 +16,7 @@ namespace shapes {
 /// Vertices at the same place become one.
 inline Soup merged(const Soup& s)
 {
-  const std::vector<int> first = CGAL::PowerRTF::internal::first_of_equal_points(s.points);
+  const std::vector<int> first = CGAL::PowerRTF::first_of_equal_points(s.points);
   Soup result;
   std::vector<int> index(s.points.size(), -1);
   for (std::size_t v = 0; v < s.points.size(); ++v)

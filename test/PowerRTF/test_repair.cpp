@@ -4,6 +4,7 @@
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/features/topology_minimum.h>
+#include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

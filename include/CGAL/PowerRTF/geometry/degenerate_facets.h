@@ -65,6 +65,17 @@ inline int longest_halfedge(const std::vector<Vec3d>& points,
   return longest;
 }
 
+/// Removes the triangles that repeat a vertex. \returns their number
+inline std::size_t drop_collapsed(std::vector<Triangle>& triangles)
+{
+  const auto kept = std::remove_if(triangles.begin(), triangles.end(), [](const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
+  const std::size_t dropped = triangles.end() - kept;
+  triangles.erase(kept, triangles.end());
+  return dropped;
+}
+
 /// Merges the ends of edges that are short within a degenerate facet; facets that lose a corner so
 /// are dropped.
 /// \returns the number of merged vertices
@@ -90,10 +101,7 @@ inline std::size_t collapse_needles(const std::vector<Vec3d>& points,
   if (count == 0) return 0;
   for (Triangle& t : triangles)
     for (int& v : t) v = merged.find_set(v);
-  const auto collapsed = [](const Triangle& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  };
-  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), collapsed), triangles.end());
+  drop_collapsed(triangles);
   return count;
 }
 

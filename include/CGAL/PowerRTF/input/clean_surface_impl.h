@@ -1,19 +1,260 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Definition for clean_surface.h.
+// Definition for clean_surface.h: from polygons with indices to an oriented 2-manifold of triangles
+// in the unit box. Every repair is preceded by a linear check, so clean input costs little.
 #ifndef CGAL_POWER_RTF_INPUT_CLEAN_SURFACE_IMPL_H
 #define CGAL_POWER_RTF_INPUT_CLEAN_SURFACE_IMPL_H
 
-#include <CGAL/PowerRTF/input/clean_soup.h>
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/geometry/degenerate_facets.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/surface_geometry.h>
+#include <CGAL/PowerRTF/input/Polygon_soup.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
+#include <CGAL/PowerRTF/input/near_borders.h>
+#include <CGAL/PowerRTF/input/polygon_triangulation.h>
+#include <CGAL/PowerRTF/input/split_sheets.h>
+#include <CGAL/PowerRTF/internal/errors.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
+
+/// The mapping of the points marked in `used` to the unit box.
+inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vector<char>& used)
+{
+  Vec3d low{0, 0, 0}, high{0, 0, 0};
+  bool is_first = true;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!used[v]) continue;
+    const Vec3d& p = points[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw Invalid_input_error("vertex " + std::to_string(v) +
+                                " has a coordinate that is not a finite number");
+    if (is_first) low = high = p;
+    is_first = false;
+    low = {(std::min)(low.x, p.x), (std::min)(low.y, p.y), (std::min)(low.z, p.z)};
+    high = {(std::max)(high.x, p.x), (std::max)(high.y, p.y), (std::max)(high.z, p.z)};
+  }
+  const Vec3d size = high - low;
+  const double side = (std::max)({size.x, size.y, size.z});
+  if (!(side < 1e300)) throw Invalid_input_error("the coordinates are too large");
+  if (!(side > 1e-300)) throw Invalid_input_error("the surface has no area");
+  int exponent;
+  if (std::frexp(side, &exponent) == 0.5) --exponent;
+  Normalization result;
+  result.scale = std::ldexp(1., -exponent);
+  // A vertex of the result may leave the input's box a little.
+  for (const double x : {low.x, low.y, low.z, high.x, high.y, high.z})
+    result.reach = (std::max)(result.reach, std::abs(x) + side);
+  // Floats hold the center, too, where they hold anything like the surface.
+  const double coarse = result.spacing<float>(), fine = result.spacing<double>();
+  result.center = Normalization::snapped(low + 0.5 * size, 1024 * coarse < side ? coarse : fine);
+  result.grid = fine * result.scale;
+  return result;
+}
+
+/// Cuts the polygons into triangles of distinct vertices; `vertex[v]` stands for corner `v`.
+inline std::vector<Triangle> triangulated(const Polygon_soup& soup,
+                                          const std::vector<Vec3d>& points,
+                                          const std::vector<int>& vertex, Repair_counts& repairs)
+{
+  std::vector<Triangle> triangles;
+  triangles.reserve(soup.first.size() - 1);
+  std::vector<int> polygon;
+  for (std::size_t k = 0; k + 1 < soup.first.size(); ++k) {
+    polygon.clear();
+    for (int i = soup.first[k]; i < soup.first[k + 1]; ++i) {
+      const int v = vertex[soup.corners[i]];
+      if (polygon.empty() || polygon.back() != v) polygon.push_back(v);
+    }
+    while (polygon.size() > 1 && polygon.back() == polygon.front()) polygon.pop_back();
+    if (polygon.size() < 3) {
+      ++repairs.degenerate_facets;
+      continue;
+    }
+    if (polygon.size() == 3)
+      triangles.push_back({polygon[0], polygon[1], polygon[2]});
+    else {
+      triangulate_polygon(points, polygon, triangles);
+      ++repairs.triangulated_polygons;
+    }
+  }
+  repairs.degenerate_facets += drop_collapsed(triangles);
+  return triangles;
+}
+
+/// Keeps the first of all triangles with the same three vertices; `keep_reversed`: the first of
+/// each orientation.
+inline void drop_repeated(std::vector<Triangle>& triangles, bool keep_reversed,
+                          Repair_counts& repairs)
+{
+  std::set<Triangle> seen;
+  const auto is_repeated = [&](Triangle t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    if (!keep_reversed && t[1] > t[2]) std::swap(t[1], t[2]);
+    return !seen.insert(t).second;
+  };
+  std::size_t kept = 0;
+  for (const Triangle& t : triangles)
+    if (!is_repeated(t)) triangles[kept++] = t;
+  repairs.duplicate_facets += triangles.size() - kept;
+  triangles.resize(kept);
+}
+
+/// What may be done to make a soup a 2-manifold, the mildest first.
+enum class Manifold_repair {
+  none,         ///< nothing
+  orient,       ///< drop repeated facets, turn facets
+  split,        ///< part sheets that touch, too
+  split_double, ///< facets on top of each other with opposite orientations are two sheets
+};
+
+/// How a repair ended.
+struct [[nodiscard]] Repair_status {
+  std::string failure; ///< why it could not be done; empty: it was
+
+  bool is_done() const { return failure.empty(); }
+};
+
+/// Makes the soup an oriented 2-manifold. A soup for which that fails may have changed.
+inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
+                                   Repair_counts& repairs)
+{
+  const std::string not_manifold = "the surface is not a 2-manifold: ";
+  if (soup.adjacency.repeated_facets) {
+    if (allowed == Manifold_repair::none)
+      return {not_manifold + "there are facets with the same vertices"};
+    drop_repeated(soup.triangles, allowed == Manifold_repair::split_double, repairs);
+    soup.update_adjacency();
+  }
+  if (soup.adjacency.non_manifold_edges > 0) {
+    const std::string count = not_manifold + std::to_string(soup.adjacency.non_manifold_edges) +
+                              " edge(s) with more than two facets";
+    if (allowed < Manifold_repair::split) return {count};
+    if (!split_sheets(soup, repairs))
+      return {count + " that do not pair up into sheets, so that the shape would have to change"};
+  }
+  if (soup.adjacency.same_direction) {
+    if (allowed == Manifold_repair::none) return {"the facets are not consistently oriented"};
+    soup.seams = orient_facets(soup.triangles, soup.adjacency, repairs.reoriented_facets);
+    soup.update_adjacency();
+    if (!soup.seams.empty()) {
+      if (has_single_fans(soup.triangles, soup.adjacency, soup.points.size())) return {};
+      return {not_manifold + "it has one side only, and parts of it touch in a point only"};
+    }
+  }
+  const auto touching =
+      count_non_manifold_vertices(soup.triangles, soup.adjacency, soup.points.size());
+  if (touching == 0) return {};
+  if (allowed < Manifold_repair::split)
+    return {not_manifold + std::to_string(touching) +
+            " vertex(es) where parts of the surface touch in a point only"};
+  repairs.non_manifold_vertices += split_fans(soup, soup.adjacency); // the adjacency stays
+  return {};
+}
+
+/// Drops the vertices that no triangle uses. The others keep their order, and with it the
+/// adjacency.
+inline Surface compacted(Triangle_soup&& soup, const Normalization& normalization)
+{
+  std::vector<int> new_index(soup.points.size(), -1);
+  for (const Triangle& t : soup.triangles)
+    for (const int v : t) new_index[v] = 0;
+  Surface surface;
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    if (new_index[v] < 0) continue;
+    new_index[v] = static_cast<int>(surface.points.size());
+    surface.points.push_back(soup.points[v]);
+    surface.input_vertices.push_back(soup.originals[v]);
+  }
+  surface.triangles = std::move(soup.triangles);
+  surface.adjacency = std::move(soup.adjacency);
+  for (Triangle& t : surface.triangles)
+    for (int& v : t) v = new_index[v];
+  for (const Edge& e : soup.seams) surface.seams.push_back({new_index[e[0]], new_index[e[1]]});
+  surface.creases = surface.seams;
+  surface.vertex_density.assign(surface.points.size(), 1);
+  surface.normalization = normalization;
+  return surface;
+}
+
+/// Closes the cracks of an oriented 2-manifold: as many as can be while it stays one.
+inline void close_cracks(Triangle_soup& soup, Repair_counts& repairs)
+{
+  if (soup.adjacency.border_edges == 0) return;
+  const std::vector<int> vertex = merged_near_borders(soup.points, soup.triangles, soup.adjacency);
+  Triangle_soup closed = soup;
+  Repair_counts counts = repairs;
+  for (std::size_t v = 0; v < vertex.size(); ++v)
+    counts.duplicate_vertices += vertex[v] != static_cast<int>(v);
+  if (counts.duplicate_vertices == repairs.duplicate_vertices) return;
+  for (Triangle& t : closed.triangles)
+    for (int& v : t) v = vertex[v];
+  counts.degenerate_facets += drop_collapsed(closed.triangles);
+  closed.update_adjacency();
+  if (!make_manifold(closed, Manifold_repair::split, counts).is_done()) return;
+  if (closed.adjacency.border_edges >= soup.adjacency.border_edges) return;
+  soup = std::move(closed);
+  repairs = counts;
+}
+
+/// Makes the surface of polygons in the unit box. `vertex[v]` is the vertex that stands for `v`.
+inline Repair_status make_surface(const Polygon_soup& polygons, const std::vector<Vec3d>& points,
+                                  const std::vector<int>& vertex,
+                                  const Normalization& normalization, Manifold_repair allowed,
+                                  Repair_counts& repairs, Surface& surface)
+{
+  Triangle_soup soup{points, triangulated(polygons, points, vertex, repairs), {}, {}, {}};
+  soup.originals.resize(points.size());
+  std::iota(soup.originals.begin(), soup.originals.end(), 0);
+  const std::size_t degenerate = degenerate_facets(soup.points, soup.triangles).size();
+  if (degenerate == soup.triangles.size()) return {"the surface has no area"};
+  if (degenerate > 0 && allowed == Manifold_repair::none)
+    return {std::to_string(degenerate) + " facet(s) have no area"};
+  soup.update_adjacency();
+  Repair_status status = make_manifold(soup, allowed, repairs);
+  if (!status.is_done()) return status;
+  if (polygons.merges_vertices && allowed != Manifold_repair::none) close_cracks(soup, repairs);
+  if (degenerate > 0 && soup.seams.empty()) {
+    const std::size_t before = degenerate_facets(soup.points, soup.triangles).size();
+    repairs.duplicate_vertices += remove_degenerate_facets(soup.points, soup.triangles);
+    repairs.degenerate_facets += before - degenerate_facets(soup.points, soup.triangles).size();
+    soup.update_adjacency();
+  }
+  surface = compacted(std::move(soup), normalization);
+  compute_geometry(surface);
+  return {};
+}
+
+/// What may be done to an input, in the order in which it is tried.
+struct Repair_attempt {
+  bool merges; ///< vertices at the same place
+  Manifold_repair allowed;
+};
+
+inline std::vector<Repair_attempt> repair_attempts(Repair repair, bool has_duplicates)
+{
+  using Allowed = Manifold_repair;
+  std::vector<Repair_attempt> attempts{
+      {true, repair == Repair::yes ? Allowed::orient : Allowed::none}};
+  // Sheets that touch are right as they were given if they are closed without merging.
+  if (has_duplicates) attempts.push_back({false, attempts[0].allowed});
+  if (repair == Repair::yes) {
+    attempts.push_back({true, Allowed::split});
+    attempts.push_back({true, Allowed::split_double});
+  }
+  return attempts;
+}
 
 CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair repair,
                                             Repair_counts& repairs)

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Border vertices that are one vertex up to rounding: cracks between facets that a file format or a
-// transformation has torn.
+// Vertices that are one vertex: at the same place, or on borders up to rounding: cracks between
+// facets that a file format or a transformation has torn.
 #ifndef CGAL_POWER_RTF_INPUT_NEAR_BORDERS_H
 #define CGAL_POWER_RTF_INPUT_NEAR_BORDERS_H
 
@@ -13,11 +13,35 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <vector>
 
 namespace CGAL::PowerRTF {
+
+/// The first vertex at the same place, for each vertex (open addressing on the coordinates' bits).
+inline std::vector<int> first_of_equal_points(const std::vector<Vec3d>& points)
+{
+  std::size_t slots = 16;
+  while (slots < 2 * points.size()) slots *= 2;
+  std::vector<int> table(slots, -1), first(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const double key[3] = {points[v].x + 0., points[v].y + 0., points[v].z + 0.}; // -0 becomes 0
+    std::uint64_t bits[3], hash = 0;
+    std::memcpy(bits, key, sizeof(key));
+    for (const std::uint64_t b : bits) {
+      hash = (hash ^ b) * 0x9E3779B97F4A7C15u;
+      hash ^= hash >> 32;
+    }
+    std::size_t slot = hash & (slots - 1);
+    while (table[slot] >= 0 && points[table[slot]] != points[v]) slot = (slot + 1) & (slots - 1);
+    if (table[slot] < 0) table[slot] = static_cast<int>(v);
+    first[v] = table[slot];
+  }
+  return first;
+}
 
 /// The widest crack: of the unit box, and of the shortest border edge beside it.
 constexpr double crack_width = 1e-5;
