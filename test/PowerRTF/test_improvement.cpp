@@ -348,8 +348,7 @@ TEST_CASE("a tree whose facets have moved finds what a new one finds")
   for (int i = 0; i < 1000; ++i) {
     const Vec3d p{coordinate(random), coordinate(random), coordinate(random)};
     const Vec3d normal = normalized(Vec3d{coordinate(random), coordinate(random), 0.1});
-    const auto a = nearest_facet(tree.view(), p, normal, 0.3, -1),
-               b = nearest_facet(fresh.view(), p, normal, 0.3, -1);
+    const auto a = tree.nearest(p, normal, 0.3, -1), b = fresh.nearest(p, normal, 0.3, -1);
     CHECK((a.facet < 0) == (b.facet < 0));
     if (a.facet < 0) continue;
     CHECK(a.squared_distance == b.squared_distance);

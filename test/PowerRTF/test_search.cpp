@@ -102,7 +102,7 @@ TEST_CASE("nearest facet against brute force")
           least = std::min(least, squared_length(q - p));
         }
         for (int hint : {-1, int(random() % facets)}) {
-          const Surface_point<double> q = nearest_facet(tree.view(), p, normal, cos_angle, hint);
+          const Surface_point<double> q = tree.nearest(p, normal, cos_angle, hint);
           if (std::isinf(least)) {
             CHECK(q.facet == -1);
             continue;

@@ -53,7 +53,6 @@ CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
 CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
                                                             const Feature_samples& features)
 {
-  const Facets_view<double> facets = facet_tree().view();
   if (!m_engine) // only now the surface's normals and density are what they will be
     m_engine =
         m_make(internal::Surface_packer(m_surface, facet_tree(), m_options).result(), m_options);
@@ -64,7 +63,7 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
   to.points = sites.points;
   to.normals = sites.normals;
   to.density = sites.density;
-  for (const int f : sites.facets) to.facets.push_back(facets.places[f]);
+  for (const int f : sites.facets) to.facets.push_back(m_tree->place(f));
   if (!m_surface.facet_patches.empty())
     for (const int f : sites.facets) to.patches.push_back(m_surface.facet_patches[f]);
   to.cells = static_cast<int>(m_size);
@@ -89,8 +88,7 @@ CGAL_POWER_RTF_INLINE Samples Surface_engine_base::gather(std::size_t count) con
   to.density = first(from.density);
   to.weights = first(from.weights);
   to.patches = first(from.patches);
-  const Facets_view<double> facets = m_tree->view();
-  for (std::size_t i = 0; i < count; ++i) to.facets.push_back(facets.facets[from.facets[i]].id);
+  for (std::size_t i = 0; i < count; ++i) to.facets.push_back(m_tree->order()[from.facets[i]]);
   return to;
 }
 

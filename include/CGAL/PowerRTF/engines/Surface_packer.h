@@ -20,69 +20,50 @@ namespace CGAL::PowerRTF::internal {
 class Surface_packer {
 public:
   Surface_packer(const Surface& surface, const Facet_tree& tree, const Remeshing_options& options)
-      : m_facets(tree.view())
   {
     const std::vector<int> vertices = spatial_order(surface.points);
     std::vector<int> vertex_places(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) vertex_places[vertices[k]] = int(k);
-
-    const std::size_t facets = surface.triangles.size();
-    m_result.facets.resize(facets);
-    m_result.has_patches = m_facets.patches != nullptr;
-    for (std::size_t k = 0; k < facets; ++k) {
-      const auto& from = m_facets.facets[k];
-      auto& to = m_result.facets[k];
-      to.corners[0] = from.a;
-      to.corners[1] = from.b;
-      to.corners[2] = from.c;
-      to.normal = m_facets.normals[k];
-      for (int c = 0; c < 3; ++c) to.vertices[c] = vertex_places[surface.triangles[from.id][c]];
-      to.patch = m_facets.patches ? m_facets.patches[k] : 0;
+    const Surface_view<double> view = tree.view();
+    m_result.has_patches = view.patches != nullptr;
+    for (int k = 0; k < view.facet_tree.items; ++k) {
+      const Facet_corners<double>& f = view.facets[k];
+      const Triangle& t = surface.triangles[tree.order()[k]];
+      m_result.facets.push_back({{f.a, f.b, f.c},
+                                 f.normal,
+                                 {vertex_places[t[0]], vertex_places[t[1]], vertex_places[t[2]]},
+                                 view.patches ? view.patches[k] : 0});
     }
-    m_result.facet_nodes.assign(m_facets.nodes, m_facets.nodes + m_facets.tree.nodes());
+    m_result.facet_nodes = tree.nodes();
     for (const int v : vertices)
       m_result.vertices.push_back(
           {surface.points[v], surface.vertex_normals[v], surface.vertex_density[v]});
     m_result.area = surface.area;
     if (options.projection == Projection::nearest_vertices ||
         options.attributes == Attributes::nearest_vertices)
-      add_vertex_tree(surface, vertices);
+      add_vertex_tree(surface, vertices, tree);
   }
 
   const Packed_surface& result() const { return m_result; }
 
 private:
-  void add_vertex_tree(const Surface& surface, const std::vector<int>& vertices)
+  void add_vertex_tree(const Surface& surface, const std::vector<int>& vertices,
+                       const Facet_tree& tree)
   {
-    const Packed_tree_layout tree(static_cast<int>(vertices.size()));
-    std::vector<Box3<double>> boxes(tree.nodes());
-    m_result.vertex_nodes.resize(tree.nodes());
-    for (int level = 0; level < tree.levels; ++level)
-      for (int k = 0; k < tree.nodes(level); ++k) {
-        const int begin = tree.children_begin(k), end = tree.children_end(level, k);
-        const int node = tree.first[level] + k;
-        for (int c = begin; c < end; ++c) {
-          const Vec3d* const p = level == 0 ? &surface.points[vertices[c]] : nullptr;
-          const Box3<double> box = p ? Box3<double>{*p, *p} : boxes[tree.first[level - 1] + c];
-          m_result.vertex_nodes[node].set(c - begin, box);
-          if (c > begin)
-            boxes[node].add(box);
-          else
-            boxes[node] = box;
-        }
-        for (int c = end - begin; c < Child_boxes::size; ++c) // unused
-          m_result.vertex_nodes[node].set(c, boxes[node]);
-      }
+    m_result.vertex_nodes =
+        child_boxes(Packed_tree_layout(static_cast<int>(vertices.size())), [&](int place) {
+          const Vec3d& p = surface.points[vertices[place]];
+          return Box3<double>{p, p};
+        });
     const Vertex_facets around = vertex_facets(surface);
     m_result.first_facet.push_back(0);
     for (const int v : vertices) {
       for (int k = around.first[v]; k < around.first[v + 1]; ++k)
-        m_result.vertex_facets.push_back(m_facets.places[around.facet[k]]);
+        m_result.vertex_facets.push_back(tree.place(around.facet[k]));
       m_result.first_facet.push_back(static_cast<int>(m_result.vertex_facets.size()));
     }
   }
 
-  Facets_view<double> m_facets;
   Packed_surface m_result;
 };
 

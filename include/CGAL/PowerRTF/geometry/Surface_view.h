@@ -1,7 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The surface as the engines see it: facets and vertices in the order of packed trees.
+// The surface in the order of packed trees, and what is asked of it: projections (Section 4.2.2,
+// with all facets as candidates instead of those at the nearest vertices; NVISPC as in Section 4.3)
+// and attributes.
 #ifndef CGAL_POWER_RTF_GEOMETRY_SURFACE_VIEW_H
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_VIEW_H
 
@@ -49,17 +51,17 @@ struct Surface_view {
 template <class Real>
 class Facet_query {
 public:
-  /// `hint`: a facet of the patch.
+  /// `hint`: a facet of the patch; -1: all patches count.
   CGAL_POWER_RTF_HD Facet_query(const Surface_view<Real>& view, const Vec3<Real>& p,
                                 const Vec3<Real>& normal, Real cos_angle, int hint)
       : m_view(view), m_point(p), m_normal(normal), m_cos_angle(cos_angle),
-        m_patch(view.patches ? view.patches[hint] : 0)
+        m_patch(view.patches && hint >= 0 ? view.patches[hint] : -1)
   {}
 
   /// Its nearest point on the facet at `place`; facet -1 where that one does not count.
   CGAL_POWER_RTF_HD Surface_point<Real> onto(int place) const
   {
-    if (m_view.patches && m_view.patches[place] != m_patch) return {};
+    if (m_patch >= 0 && m_view.patches[place] != m_patch) return {};
     const Facet_corners<Real> f = m_view.facets[place];
     if (m_cos_angle > -1 && !(dot(f.normal, m_normal) > m_cos_angle)) return {};
     const Vec3<Real> q = nearest_point_on_triangle(m_point, f.a, f.b, f.c);
@@ -86,9 +88,9 @@ CGAL_POWER_RTF_HD inline bool is_nearer(const Surface_point<Real>& x, int key,
 // The functions below that take lanes do the work in one thread, whatever the lanes; for some kinds
 // of lanes there are versions that share it.
 
-/// The nearest point on the facets of the patch of
-/// `hint`, a facet that is probably near, whose normals make less than Theta with `normal`. `facet`
-/// is -1 where none agrees.
+/// The nearest point on the facets of the patch of `hint`, a facet that is probably near (-1: on
+/// all facets), whose normals make less than Theta with `normal` (`cos_angle`: its cosine; -2: all
+/// do). `facet` is -1 where none agrees.
 template <class Real, class Lanes>
 CGAL_POWER_RTF_HD inline Surface_point<Real>
 project_to_nearest_facet(const Surface_view<Real>& view, const Vec3<Real>& p,
@@ -103,7 +105,7 @@ project_to_nearest_facet(const Surface_view<Real>& view, const Vec3<Real>& p,
     best = x;
     bound = bound_of(x.squared_distance);
   };
-  test(hint);
+  if (hint >= 0) test(hint);
   visit_near(
       view.facet_tree, view.facet_nodes, p, [&]() { return bound; },
       [&](int place) {

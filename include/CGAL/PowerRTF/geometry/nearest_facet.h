@@ -1,13 +1,14 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Projection of a point onto the surface: the nearest point of the facets whose normals agree with
-// a given one, by a packed tree of boxes (Section 4.2.2, with all facets as candidates instead of
-// those at the nearest vertices; NVISPC as in Section 4.3).
+// What the projection of a point onto a surface is made of: the nearest point of a facet, and a
+// search in a packed tree of boxes.
 #ifndef CGAL_POWER_RTF_GEOMETRY_NEAREST_FACET_H
 #define CGAL_POWER_RTF_GEOMETRY_NEAREST_FACET_H
 
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
+
+#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -82,48 +83,28 @@ struct Child_boxes {
   }
 };
 
-/// Non-owning view of a triangulated surface with its facets in spatial order. Coordinates are
-/// those of the unit box.
-template <class FT>
-struct Facets_view {
-  /// The corners of a facet side by side, and its number in the surface.
-  struct Facet {
-    Vec3<FT> a, b, c;
-    int id;
-  };
-  const Facet* facets = nullptr;      ///< #F, in the order of the tree
-  const Vec3<FT>* normals = nullptr;  ///< #F unit normals, in the order of the tree
-  const int* places = nullptr;        ///< #F, place in the tree of each facet of the surface
-  const Child_boxes* nodes = nullptr; ///< one per node of `tree`
-  Packed_tree_layout tree;
-  const int* patches = nullptr; ///< #F, in the order of the tree; null: one patch
-};
-
-/// Computes node `k` of `level` and its own box `boxes[...]`; the levels are done in ascending
-/// order.
-template <class FT>
-CGAL_POWER_RTF_HD inline void fit_facets_node(const Packed_tree_layout& tree, int level, int k,
-                                              const typename Facets_view<FT>::Facet* facets,
-                                              Box3<FT>* boxes, Child_boxes* nodes)
+/// The nodes of a tree whose item `k` lies in the box `box_of(k)`.
+template <class Box_of>
+std::vector<Child_boxes> child_boxes(const Packed_tree_layout& tree, const Box_of& box_of)
 {
-  const int begin = tree.children_begin(k), end = tree.children_end(level, k);
-  const int node = tree.first[level] + k;
-  for (int c = begin; c < end; ++c) {
-    Box3<FT> box;
-    if (level > 0) {
-      box = boxes[tree.first[level - 1] + c];
-    } else {
-      box = {facets[c].a, facets[c].a};
-      box.add(facets[c].b);
-      box.add(facets[c].c);
+  std::vector<Child_boxes> nodes(tree.nodes());
+  std::vector<Box3<double>> boxes(tree.nodes());
+  for (int level = 0; level < tree.levels; ++level)
+    for (int k = 0; k < tree.nodes(level); ++k) {
+      const int begin = tree.children_begin(k), end = tree.children_end(level, k);
+      const int node = tree.first[level] + k;
+      for (int c = begin; c < end; ++c) {
+        const Box3<double> box = level > 0 ? boxes[tree.first[level - 1] + c] : box_of(c);
+        nodes[node].set(c - begin, box);
+        if (c > begin)
+          boxes[node].add(box);
+        else
+          boxes[node] = box;
+      }
+      for (int c = end - begin; c < Child_boxes::size; ++c) // unused
+        nodes[node].set(c, boxes[node]);
     }
-    nodes[node].set(c - begin, box);
-    if (c > begin)
-      boxes[node].add(box);
-    else
-      boxes[node] = box;
-  }
-  for (int c = end - begin; c < Child_boxes::size; ++c) nodes[node].set(c, boxes[node]); // unused
+  return nodes;
 }
 
 /// Calls `visit(item)` for the items of a tree whose boxes are no farther from `query` than
@@ -168,42 +149,6 @@ template <class Real>
 CGAL_POWER_RTF_HD inline float bound_of(Real squared_distance)
 {
   return float(squared_distance) * (1 + 1e-6f) + 1e-37f;
-}
-
-/// The nearest point to `p` on the facets whose normals make less than Theta with `normal`
-/// (`cos_angle`: its cosine; -2: all facets). `hint` is a facet of the surface that is probably
-/// near, or -1; with patches, only facets of the hint's one count. When no facet agrees, `facet` is
-/// -1. Ties go to the facet first in the tree.
-template <class FT>
-CGAL_POWER_RTF_HD inline Surface_point<FT> nearest_facet(const Facets_view<FT>& view,
-                                                         const Vec3<FT>& p, const Vec3<FT>& normal,
-                                                         FT cos_angle, int hint)
-{
-  Surface_point<FT> best;
-  int best_place = -1;
-  float bound = 3e38f; // no less than the best squared distance
-  const int first = hint >= 0 ? view.places[hint] : -1;
-  const int patch = view.patches && first >= 0 ? view.patches[first] : -1;
-  const auto test = [&](int place) {
-    if (patch >= 0 && view.patches[place] != patch) return;
-    if (cos_angle > -1 && !(dot(view.normals[place], normal) > cos_angle)) return;
-    const auto& f = view.facets[place];
-    const Vec3<FT> q = nearest_point_on_triangle(p, f.a, f.b, f.c);
-    const FT d = squared_length(q - p);
-    if (best.facet >= 0 &&
-        (d > best.squared_distance || (d == best.squared_distance && place > best_place)))
-      return;
-    best = {q, f.id, d};
-    best_place = place;
-    bound = bound_of(d);
-  };
-  if (first >= 0) test(first);
-  visit_near(
-      view.tree, view.nodes, p, [&]() { return bound; },
-      [&](int place) {
-        if (place != first) test(place);
-      });
-  return best;
 }
 
 /// Barycentric coordinates (of b and c) of a point of the triangle, clamped to it.

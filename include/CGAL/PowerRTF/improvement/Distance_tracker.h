@@ -145,14 +145,12 @@ private:
   void choose_points()
   {
     const Surface& surface = m_mesh->projector().surface();
-    const auto& facets = m_mesh->projector().facets();
     const std::size_t vertices = surface.points.size();
     const std::size_t stride = 1 + vertices / (Parameters::max_points_per_vertex * m_mesh->size());
     std::vector<int> numbers(vertices, -1); // of the points
     std::vector<char> seen(vertices, false);
     std::size_t order = 0;
-    for (int place = 0; place < facets.tree.items; ++place) {
-      const int f = facets.facets[place].id;
+    for (const int f : m_mesh->projector().tree().order())
       for (const int v : surface.triangles[f]) {
         if (!std::exchange(seen[v], true) && order++ % stride == 0) {
           numbers[v] = size();
@@ -167,7 +165,6 @@ private:
         }
         if (numbers[v] >= 0) m_points[numbers[v]].weight += surface.facet_areas[f] / 3;
       }
-    }
   }
 
   // Those that seem to be far are searched for in the whole mesh.
@@ -198,7 +195,7 @@ private:
     for (Tracked_point* w : some) {
       Cancellation::poll();
       const int hint = int(topology().face(w->face));
-      int f = nearest_facet(m_tree->view(), w->point, w->normal, min_normal_cosine, hint).facet;
+      int f = m_tree->nearest(w->point, w->normal, min_normal_cosine, hint).facet;
       if (f < 0) f = m_tree->nearest(w->point, hint).facet; // none agrees: any
       try_face(*w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
     }

@@ -32,19 +32,18 @@ public:
   /// none. `hint`: a facet of the patch, probably near; or -1.
   Place project(const Vec3d& p, const Vec3d& normal, int hint) const
   {
-    return place(nearest_facet(m_tree.view(), p, normal,
-                               Improvement_parameters::Projection::min_normal_cosine, hint));
+    return place(
+        m_tree.nearest(p, normal, Improvement_parameters::Projection::min_normal_cosine, hint));
   }
 
   bool are_on_one_patch(int facet, int other) const
   {
-    return !m_facets.patches ||
-           m_facets.patches[m_facets.places[facet]] == m_facets.patches[m_facets.places[other]];
+    const std::vector<int>& patches = m_surface.facet_patches;
+    return patches.empty() || patches[facet] == patches[other];
   }
 
   const Surface& surface() const { return m_surface; }
-  /// The surface's facets in spatial order.
-  const Facets_view<double>& facets() const { return m_facets; }
+  const Facet_tree& tree() const { return m_tree; }
 
 private:
   Place place(const Surface_point<double>& nearest) const
@@ -68,7 +67,6 @@ private:
 
   const Surface& m_surface;
   const Facet_tree& m_tree;
-  Facets_view<double> m_facets = m_tree.view();
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -43,7 +43,7 @@ public:
     for (std::size_t place = 0; place < triangles.size(); ++place) {
       const auto& f = m_facets[place];
       m_areas.push_back(area += length(cross(f.b - f.a, f.c - f.a)) / 2);
-      for (const int v : triangles[f.id])
+      for (const int v : triangles[tree.order()[place]])
         if (!std::exchange(seen[v], 1)) m_vertices.push_back(points[v]);
     }
   }
@@ -65,8 +65,8 @@ public:
   }
 
 private:
-  const Facets_view<double>::Facet* m_facets; ///< the tree's
-  std::vector<double> m_areas;                ///< of the facets up to and with this one
+  const Facet_corners<double>* m_facets; ///< the tree's
+  std::vector<double> m_areas;           ///< of the facets up to and with this one
   std::vector<Vec3d> m_vertices;
 };
 
