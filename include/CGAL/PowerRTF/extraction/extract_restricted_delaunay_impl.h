@@ -138,6 +138,7 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_restricted_delaunay(const Surface& 
                                                                  const Feature_samples& features)
 {
   Extracted_mesh mesh = internal::Restricted_delaunay_extractor(surface, samples).run();
+  mesh.sort_triangles(); // the triangulation visits them by the addresses of its cells
   for (Vec3d& p : mesh.points) p = surface.normalization.snapped(p);
   const int first = static_cast<int>(samples.size() - features.size());
   for (const Edge& e : features.edges) mesh.feature_edges.push_back({first + e[0], first + e[1]});
