@@ -29,8 +29,8 @@ public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
-  using Face = Working_mesh::Mesh::Face_index;
-  using Corners = Face_triangles::Corners;
+  using Face = Working_mesh::Face;
+  using Corners = Working_mesh::Corners;
   using Faces = boost::container::small_vector<Face, 24>;
   using Triangles = boost::container::small_vector<Corners, 24>;
 
@@ -59,8 +59,7 @@ public:
   bool forbids_flip(Edge e) const
   {
     const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
-    const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = m.mesh.target(m.mesh.next(h)),
-                 d = m.mesh.target(m.mesh.next(o));
+    const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = m.apex(h), d = m.apex(o);
     return adds_intersections({m.mesh.face(h), m.mesh.face(o)},
                               {Corners{a, d, c}, Corners{d, b, c}});
   }
@@ -74,7 +73,7 @@ public:
     for (const Halfedge g : halfedges_around_source(m.mesh.source(h), m.mesh)) {
       if (m.mesh.is_border(g)) continue;
       old.push_back(m.mesh.face(g));
-      const Vertex a = m.mesh.target(g), b = m.mesh.target(m.mesh.next(g));
+      const Vertex a = m.mesh.target(g), b = m.apex(g);
       if (a != v && b != v) fresh.push_back({v, a, b});
     }
     return adds_intersections(old, fresh);

@@ -83,9 +83,7 @@ CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh) const
   for (Triangle& t : mesh.triangles)
     for (int& v : t) v = name[v];
   for (Edge& e : mesh.feature_edges) e = sorted_edge(name[e[0]], name[e[1]]);
-  std::sort(mesh.feature_edges.begin(), mesh.feature_edges.end());
-  mesh.feature_edges.erase(std::unique(mesh.feature_edges.begin(), mesh.feature_edges.end()),
-                           mesh.feature_edges.end());
+  sort_uniquely(mesh.feature_edges);
   mesh.sort_triangles();
 }
 

@@ -11,7 +11,10 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -25,6 +28,8 @@ struct Working_mesh {
   using Vertex = Mesh::Vertex_index;
   using Halfedge = Mesh::Halfedge_index;
   using Edge = Mesh::Edge_index;
+  using Face = Mesh::Face_index;
+  using Corners = std::array<Vertex, 3>;
 
   Mesh mesh;
   std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
@@ -49,6 +54,34 @@ struct Working_mesh {
   {
     const Point& p = mesh.point(v);
     return {p.x(), p.y(), p.z()};
+  }
+
+  /// The corner of the face at `h` that is not on it.
+  Vertex apex(Halfedge h) const { return mesh.target(mesh.next(h)); }
+  /// Of the face at `h`: its source, its target, the apex.
+  Corners corners(Halfedge h) const { return {mesh.source(h), mesh.target(h), apex(h)}; }
+  Corners corners(Face f) const { return corners(mesh.halfedge(f)); }
+
+  std::vector<Triangle> triangles() const
+  {
+    std::vector<Triangle> result;
+    result.reserve(mesh.number_of_faces());
+    for (const Face f : mesh.faces()) {
+      const auto [a, b, c] = corners(f);
+      result.push_back({int(a), int(b), int(c)});
+    }
+    return result;
+  }
+
+  /// The faces at `v` and at its neighbors, sorted.
+  boost::container::small_vector<Face, 48> faces_near(Vertex v) const
+  {
+    boost::container::small_vector<Face, 48> faces;
+    for (const Halfedge h : halfedges_around_target(v, mesh))
+      for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
+        if (!mesh.is_border(g)) faces.push_back(mesh.face(g));
+    sort_uniquely(faces);
+    return faces;
   }
 
   /// The neighbors of `v` along creases and borders that must stay.
@@ -123,7 +156,7 @@ struct Working_mesh {
   {
     if (mesh.is_removed(e) || mesh.is_border(e)) return false;
     const Halfedge h = mesh.halfedge(e);
-    return !are_adjacent(mesh.target(mesh.next(h)), mesh.target(mesh.next(mesh.opposite(h))));
+    return !are_adjacent(apex(h), apex(mesh.opposite(h)));
   }
 
   /// Twice the area times the normal.

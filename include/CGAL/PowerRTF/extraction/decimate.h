@@ -153,7 +153,7 @@ private:
     double worst = 1;
     for (const Halfedge h : m_ring) {
       if (m.mesh.is_border(h)) continue;
-      const Vertex a = m.mesh.target(h), b = m.mesh.target(m.mesh.next(h));
+      const Vertex a = m.mesh.target(h), b = m.apex(h);
       if (a == v || b == v) continue;
       if (m_min_agreement > -1) {
         const Vec3d n = m.area_vector(v, a, b);
@@ -227,8 +227,7 @@ private:
       Halfedge chosen;
       for (const Halfedge h : halfedges_around_source(u, m.mesh)) {
         if (!m_flipper.is_legal(m.mesh.edge(h))) continue;
-        const Vertex v = m.mesh.target(h), c = m.mesh.target(m.mesh.next(h)),
-                     d = m.mesh.target(m.mesh.next(m.mesh.opposite(h)));
+        const Vertex v = m.mesh.target(h), c = m.apex(h), d = m.apex(m.mesh.opposite(h));
         const double shape = m.agreement(d, v, c) > 0 ? m.shape(d, v, c) : 0;
         if (shape <= best) continue;
         best = shape;

@@ -101,8 +101,6 @@ private:
   static constexpr double tolerance = 1e-9;            // cocircular: no flip
   static constexpr unsigned int max_flips_for_fit = 5; // fit and angles may take turns for ever
 
-  Vertex apex(Halfedge h) const { return m.mesh.target(m.mesh.next(h)); }
-
   // How well two triangles with a common edge lie on the surface.
   double fit(Vertex a, Vertex b, Vertex c, Vertex d) const // abc and bad
   {
@@ -144,8 +142,8 @@ private:
   {
     if (m.mesh.is_removed(e) || m.mesh.is_border(e) || m.is_feature(e)) return false;
     const Halfedge h = m.mesh.halfedge(e);
-    const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = apex(h),
-                 d = apex(m.mesh.opposite(h));
+    const Vertex a = m.mesh.source(h), b = m.mesh.target(h), c = m.apex(h),
+                 d = m.apex(m.mesh.opposite(h));
     const double fit_now = fit(a, b, c, d);
     const bool not_delaunay = has_larger_angles(a, b, c, d);
     if (!not_delaunay && fit_now >= m_good_agreement) return false;

@@ -30,12 +30,9 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
       name[v] = int(result.points.size());
       result.points.push_back(working.point(v));
     }
-  result.triangles.reserve(mesh.number_of_faces());
-  for (const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    result.triangles.push_back(
-        {name[mesh.source(h)], name[mesh.target(h)], name[mesh.target(mesh.next(h))]});
-  }
+  result.triangles = working.triangles();
+  for (Triangle& t : result.triangles)
+    for (int& v : t) v = name[v];
   result.sort_triangles();
   for (const auto v : mesh.vertices())
     for (const auto w : working.feature_neighbors(v))

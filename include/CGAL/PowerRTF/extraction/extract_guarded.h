@@ -183,8 +183,7 @@ private:
         continue;
       Vec3d normal{0, 0, 0};
       for (const Halfedge h : halfedges_around_target(v, m.mesh))
-        if (!m.mesh.is_border(h))
-          normal += m.area_vector(v, m.mesh.target(m.mesh.next(h)), m.mesh.source(h));
+        if (!m.mesh.is_border(h)) normal += m.area_vector(v, m.apex(h), m.mesh.source(h));
       normal = normalized(normal);
       double height = 0;
       for (const Halfedge h : halfedges_around_target(v, m.mesh))

@@ -20,8 +20,8 @@ namespace CGAL::PowerRTF::internal {
 class Face_triangles {
 public:
   using Mesh = Working_mesh::Mesh;
-  using Face = Mesh::Face_index;
-  using Corners = std::array<Working_mesh::Vertex, 3>;
+  using Face = Working_mesh::Face;
+  using Corners = Working_mesh::Corners;
 
   explicit Face_triangles(const Mesh& mesh) : m_mesh(mesh) {}
 

@@ -38,11 +38,10 @@ public:
   }
 
 private:
-  using Mesh = Working_mesh::Mesh;
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
-  using Face = Mesh::Face_index;
+  using Face = Working_mesh::Face;
   using Faces = std::vector<Face>;
 
   static constexpr int max_rounds = 5;
@@ -128,8 +127,7 @@ private:
   {
     const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
     const Vertex a = m.mesh.source(h), b = m.mesh.target(h);
-    return std::min(m.shape(a, b, m.mesh.target(m.mesh.next(h))),
-                    m.shape(b, a, m.mesh.target(m.mesh.next(o))));
+    return std::min(m.shape(a, b, m.apex(h)), m.shape(b, a, m.apex(o)));
   }
 
   // The faces and those that share a vertex with them, `n` times.
@@ -147,13 +145,6 @@ private:
       sort_uniquely(faces);
     }
     return faces;
-  }
-
-  template <class T>
-  static void sort_uniquely(std::vector<T>& items)
-  {
-    std::sort(items.begin(), items.end());
-    items.erase(std::unique(items.begin(), items.end()), items.end());
   }
 
   std::vector<Edge> edges_of(const Faces& faces) const

@@ -39,14 +39,6 @@ inline void prune_creases(const Surface& surface, const std::vector<char>& on_bo
   const auto length_of = [&](int e) {
     return length(surface.points[creases[e][1]] - surface.points[creases[e][0]]);
   };
-  const auto remove = [&](int e) {
-    alive[e] = 0;
-    graph.remove(e, creases[e]);
-  };
-  const auto other_end = [&](int e, int v) {
-    return creases[e][0] == v ? creases[e][1] : creases[e][0];
-  };
-
   std::vector<int> ends;
   for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
     if (graph.degree(v) == 1 && !on_border[v]) ends.push_back(v);
@@ -61,12 +53,15 @@ inline void prune_creases(const Surface& surface, const std::vector<char>& on_bo
     for (;;) {
       chain.push_back(e);
       sum += length_of(e);
-      v = other_end(e, v);
+      v = graph.other_end(e, v);
       if (graph.degree(v) != 2 || on_border[v] || sum >= shortest) break;
-      e = graph.at(v)[0] == e ? graph.at(v)[1] : graph.at(v)[0];
+      e = graph.other_edge(e, v);
     }
     if (sum >= shortest) continue;
-    for (const int c : chain) remove(c);
+    for (const int c : chain) {
+      alive[c] = 0;
+      graph.remove(c);
+    }
     if (graph.degree(v) == 1 && !on_border[v]) ends.push_back(v);
   }
 
@@ -158,9 +153,7 @@ inline void set_creases(Surface& surface, std::vector<Edge> marked)
                            sorted_edge(surface.input_vertices[a], surface.input_vertices[b])))
       surface.creases.push_back(sorted_edge(a, b));
   }
-  std::sort(surface.creases.begin(), surface.creases.end());
-  surface.creases.erase(std::unique(surface.creases.begin(), surface.creases.end()),
-                        surface.creases.end());
+  sort_uniquely(surface.creases);
 }
 
 } // namespace CGAL::PowerRTF

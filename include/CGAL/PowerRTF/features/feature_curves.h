@@ -34,8 +34,7 @@ inline std::vector<Edge> feature_edges(const Surface& surface)
     if (opposite[h] == Facet_adjacency::none)
       edges.push_back(sorted_edge(halfedge_source(surface.triangles, h),
                                   halfedge_target(surface.triangles, h)));
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_uniquely(edges);
   return edges;
 }
 
@@ -43,8 +42,8 @@ class Feature_tracer {
 public:
   /// \param scale over which turns are measured
   Feature_tracer(const Surface& surface, double scale)
-      : m_surface(surface), m_scale(scale), m_edges(feature_edges(surface)),
-        m_graph(m_edges, surface.points.size()), m_is_corner(surface.points.size(), 0)
+      : m_surface(surface), m_scale(scale), m_graph(feature_edges(surface), surface.points.size()),
+        m_is_corner(surface.points.size(), 0)
   {
     for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
       m_is_corner[v] = m_graph.degree(v) != 0 && m_graph.degree(v) != 2;
@@ -54,16 +53,16 @@ public:
   std::vector<Feature_curve> curves()
   {
     std::vector<Feature_curve> curves;
-    std::vector<char> seen(m_edges.size(), 0);
+    std::vector<char> seen(m_graph.size(), 0);
     const auto trace = [&](int v, int e) {
       Feature_curve curve;
       curve.vertices.push_back(v);
       while (!seen[e]) {
         seen[e] = 1;
-        v = other_end(e, v);
+        v = m_graph.other_end(e, v);
         curve.vertices.push_back(v);
         if (m_is_corner[v]) break;
-        e = other_edge(e, v);
+        e = m_graph.other_edge(e, v);
       }
       curves.push_back(std::move(curve));
     };
@@ -71,9 +70,9 @@ public:
       if (m_is_corner[v])
         for (const int e : m_graph.at(v))
           if (!seen[e]) trace(v, e);
-    for (int e = 0; e < static_cast<int>(m_edges.size()); ++e) {
+    for (int e = 0; e < m_graph.size(); ++e) {
       if (seen[e]) continue;
-      trace(m_edges[e][0], e);
+      trace(m_graph[e][0], e);
       curves.back().has_corners = false;
     }
     count_parallels(curves);
@@ -81,25 +80,19 @@ public:
   }
 
 private:
-  int other_end(int e, int v) const { return m_edges[e][0] == v ? m_edges[e][1] : m_edges[e][0]; }
-  int other_edge(int e, int v) const
-  {
-    return m_graph.at(v)[0] == e ? m_graph.at(v)[1] : m_graph.at(v)[0];
-  }
-
   /// The point at arc distance `m_scale` from `v` along edge `e`, or the first corner before it.
   Vec3d ahead(int v, int e) const
   {
     double left = m_scale;
-    for (std::size_t steps = 0; steps < m_edges.size(); ++steps) {
-      const int u = other_end(e, v);
+    for (int steps = 0; steps < m_graph.size(); ++steps) {
+      const int u = m_graph.other_end(e, v);
       const Vec3d a = m_surface.points[v], b = m_surface.points[u];
       const double l = length(b - a);
       if (l >= left) return a + (b - a) * (left / l);
       left -= l;
       if (m_graph.degree(u) != 2) return b;
       v = u;
-      e = other_edge(e, u);
+      e = m_graph.other_edge(e, u);
     }
     return m_surface.points[v];
   }
@@ -124,12 +117,12 @@ private:
       for (int side = 0; side < 2; ++side) {
         double passed = 0;
         for (int v = corner, e = m_graph.at(v)[side];;) {
-          const int u = other_end(e, v);
+          const int u = m_graph.other_end(e, v);
           passed += length(m_surface.points[u] - m_surface.points[v]);
           if (passed > m_scale || m_graph.degree(u) != 2 || u == corner) break;
           is_near[u] = 1;
           v = u;
-          e = other_edge(e, u);
+          e = m_graph.other_edge(e, u);
         }
       }
     }
@@ -153,7 +146,6 @@ private:
 
   const Surface& m_surface;
   double m_scale;
-  std::vector<Edge> m_edges;
   Edge_graph m_graph;
   std::vector<char> m_is_corner;
 };

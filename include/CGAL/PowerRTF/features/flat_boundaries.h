@@ -26,11 +26,12 @@ public:
   /// \param features edges that stay; `candidates`: edges that may go
   Chain_pruner(const Surface& surface, const std::vector<Edge>& features,
                const std::vector<Edge>& candidates)
-      : m_surface(surface), m_edges(features), m_first(int(features.size()))
+      : m_surface(surface), m_first(int(features.size()))
   {
-    m_edges.insert(m_edges.end(), candidates.begin(), candidates.end());
-    m_graph = Edge_graph(m_edges, surface.points.size());
-    m_is_removed.assign(m_edges.size(), 0);
+    std::vector<Edge> edges = features;
+    edges.insert(edges.end(), candidates.begin(), candidates.end());
+    m_is_removed.assign(edges.size(), 0);
+    m_graph = Edge_graph(std::move(edges), surface.points.size());
   }
 
   /// Chains that make an angle of less than 45 degrees with another feature.
@@ -38,10 +39,10 @@ public:
   {
     constexpr double cos_sharp = 0.7071;
     const auto direction = [&](int e, int v) {
-      return normalized(m_surface.points[other_end(e, v)] - m_surface.points[v]);
+      return normalized(m_surface.points[m_graph.other_end(e, v)] - m_surface.points[v]);
     };
-    for (int e = m_first; e < int(m_edges.size()); ++e)
-      for (const int v : m_edges[e])
+    for (int e = m_first; e < m_graph.size(); ++e)
+      for (const int v : m_graph[e])
         for (const int other : m_graph.at(v))
           if (other != e && dot(direction(e, v), direction(other, v)) > cos_sharp) remove(e);
   }
@@ -51,8 +52,8 @@ public:
   {
     std::vector<Vec3d> points; // along all edges
     std::vector<int> edges;    // of the points
-    for (int e = 0; e < int(m_edges.size()); ++e) {
-      const Vec3d &a = m_surface.points[m_edges[e][0]], &b = m_surface.points[m_edges[e][1]];
+    for (int e = 0; e < m_graph.size(); ++e) {
+      const Vec3d &a = m_surface.points[m_graph[e][0]], &b = m_surface.points[m_graph[e][1]];
       const int pieces = 1 + int(4 * length(b - a) / distance);
       for (int k = 0; k < pieces; ++k) {
         points.push_back(a + (b - a) * ((k + 0.5) / pieces));
@@ -79,14 +80,12 @@ public:
   std::vector<Edge> rest() const
   {
     std::vector<Edge> rest;
-    for (int e = m_first; e < int(m_edges.size()); ++e)
-      if (!m_is_removed[e]) rest.push_back(m_edges[e]);
+    for (int e = m_first; e < m_graph.size(); ++e)
+      if (!m_is_removed[e]) rest.push_back(m_graph[e]);
     return rest;
   }
 
 private:
-  int other_end(int e, int v) const { return m_edges[e][m_edges[e][0] == v]; }
-
   /// The edge and all that its chain has.
   void remove(int e)
   {
@@ -98,7 +97,7 @@ private:
     };
     add(e);
     for (std::size_t k = 0; k < chain.size(); ++k)
-      for (const int v : m_edges[chain[k]])
+      for (const int v : m_graph[chain[k]])
         if (m_graph.degree(v) == 2)
           for (const int f : m_graph.at(v)) add(f);
   }
@@ -107,13 +106,13 @@ private:
   std::vector<int> edges_within(int e, double reach) const
   {
     std::vector<int> found{e};
-    std::vector<std::pair<int, double>> ends{{m_edges[e][0], 0}, {m_edges[e][1], 0}};
+    std::vector<std::pair<int, double>> ends{{m_graph[e][0], 0}, {m_graph[e][1], 0}};
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const auto [v, passed] = ends[k];
       for (const int f : m_graph.at(v)) {
         if (std::find(found.begin(), found.end(), f) != found.end()) continue;
         found.push_back(f);
-        const int u = other_end(f, v);
+        const int u = m_graph.other_end(f, v);
         const double l = passed + length(m_surface.points[u] - m_surface.points[v]);
         if (l < reach) ends.emplace_back(u, l);
       }
@@ -123,9 +122,8 @@ private:
   }
 
   const Surface& m_surface;
-  std::vector<Edge> m_edges; // the features, then the candidates
-  int m_first;               // of the candidates
-  Edge_graph m_graph;
+  int m_first;        // of the candidates
+  Edge_graph m_graph; // of the features, then the candidates
   std::vector<char> m_is_removed;
 };
 

@@ -246,9 +246,7 @@ inline void set_creases(Surface& surface, const Remeshing_options& options)
   const std::vector<Edge> found =
       find_creases(surface, options.feature_angle, options.number_of_samples);
   surface.creases.insert(surface.creases.end(), found.begin(), found.end());
-  std::sort(surface.creases.begin(), surface.creases.end());
-  surface.creases.erase(std::unique(surface.creases.begin(), surface.creases.end()),
-                        surface.creases.end());
+  sort_uniquely(surface.creases);
   const double h = std::sqrt(surface.area / static_cast<double>(options.number_of_samples));
   join_narrow_patches(surface, 0.5 * h);
   const std::size_t needed = min_feature_samples(surface), n = options.number_of_samples;

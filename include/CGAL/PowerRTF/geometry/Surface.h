@@ -26,6 +26,14 @@ using Edge = std::array<int, 2>;
 /// The edge between `a` and `b`, smaller vertex first.
 inline Edge sorted_edge(int a, int b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
+/// Sorts the items and keeps the first of equal ones.
+template <class Items>
+void sort_uniquely(Items& items)
+{
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
 /// The facets across each edge. Halfedge `3 f + i` runs from corner `i` to corner `i + 1` of facet
 /// `f`.
 struct Facet_adjacency {

@@ -212,8 +212,7 @@ inline std::vector<Edge> orient_facets(std::vector<Triangle>& triangles,
         return true;
       },
       turned);
-  std::sort(seams.begin(), seams.end());
-  seams.erase(std::unique(seams.begin(), seams.end()), seams.end());
+  sort_uniquely(seams);
   return seams;
 }
 

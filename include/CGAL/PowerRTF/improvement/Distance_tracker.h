@@ -29,7 +29,7 @@ class Distance_tracker {
 public:
   using Vertex = Star_mesh::Vertex;
   using Halfedge = Star_mesh::Halfedge;
-  using Face = Working_mesh::Mesh::Face_index;
+  using Face = Working_mesh::Face;
 
   /// A point of the surface and where the mesh is nearest to it.
   struct Tracked_point {
@@ -85,8 +85,8 @@ public:
     std::vector<char> changed(m_mesh->size()); // by vertex: its star
     for (const Vertex v : topology().vertices()) changed[v] = m_mesh->changed_around(v) > m_updated;
     for (Tracked_point& w : m_points)
-      if (changed[topology().source(w.face)] || changed[topology().target(w.face)] ||
-          changed[topology().target(topology().next(w.face))])
+      if (const auto [a, b, c] = m_mesh->working().corners(w.face);
+          changed[a] || changed[b] || changed[c])
         descend(w);
     m_updated = m_mesh->now();
     find_far();
@@ -181,13 +181,8 @@ private:
   void search_mesh(const std::vector<Tracked_point*>& some)
   {
     std::vector<Vec3d> points;
-    std::vector<Triangle> triangles;
+    const std::vector<Triangle> triangles = m_mesh->working().triangles();
     for (const Vertex v : topology().vertices()) points.push_back(m_mesh->point(v));
-    for (const Face f : topology().faces()) {
-      const Halfedge h = topology().halfedge(f);
-      triangles.push_back({int(topology().source(h)), int(topology().target(h)),
-                           int(topology().target(topology().next(h)))});
-    }
     if (!m_tree)
       m_tree.emplace(points, triangles);
     else
@@ -236,8 +231,7 @@ private:
   {
     const auto& mesh = topology();
     try_face(w, w.face, Vertex(), {}, any);
-    if (!agrees(w, m_mesh->point(mesh.source(w.face)), m_mesh->point(mesh.target(w.face)),
-                m_mesh->point(mesh.target(mesh.next(w.face)))))
+    if (const auto [a, b, c] = m_mesh->points(w.face); !agrees(w, a, b, c))
       w.distance = disagreement; // worse than all that agree
     for (int step = 0; step < Parameters::max_downhill_steps; ++step) {
       const std::array<Halfedge, 3> around{w.face, mesh.next(w.face), mesh.prev(w.face)};
@@ -264,16 +258,9 @@ private:
   // The faces around v, which is at p, and its neighbors.
   Faces patch(Vertex v, const Vec3d& p) const
   {
-    const auto& mesh = topology();
-    boost::container::small_vector<Face, 48> around;
-    for (const Halfedge h : halfedges_around_target(v, mesh))
-      for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
-        if (!mesh.is_border(g)) around.push_back(mesh.face(g));
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
     Faces faces;
-    for (const Face f : around) {
-      const Halfedge h = mesh.halfedge(f);
+    for (const Face f : m_mesh->working().faces_near(v)) {
+      const Halfedge h = topology().halfedge(f);
       const auto [a, b, c] = corners(h, v, p);
       const Vec3d center = (a + b + c) * (1 / 3.);
       const double squared_radius = std::max(
@@ -286,9 +273,9 @@ private:
   // With v at p.
   std::array<Vec3d, 3> corners(Halfedge h, Vertex v, const Vec3d& p) const
   {
-    const auto& mesh = topology();
     const auto at = [&](Vertex u) { return u == v ? p : m_mesh->point(u); };
-    return {at(mesh.source(h)), at(mesh.target(h)), at(mesh.target(mesh.next(h)))};
+    const auto [a, b, c] = m_mesh->working().corners(h);
+    return {at(a), at(b), at(c)};
   }
 
   void search_faces(Tracked_point& w, const Faces& faces, Vertex v, const Vec3d& p) const

@@ -124,6 +124,12 @@ public:
   void touch(Vertex v) { m_changed[v] = ++m_now; }
 
   Vec3d point(Vertex v) const { return m.point(v); }
+  /// The corners of the face at `h`.
+  std::array<Vec3d, 3> points(Halfedge h) const
+  {
+    const auto [a, b, c] = m.corners(h);
+    return {m.point(a), m.point(b), m.point(c)};
+  }
   const Vec3d& normal(Vertex v) const { return m.normals[v]; }
   int facet(Vertex v) const { return m_facets[v]; }
 
@@ -135,9 +141,8 @@ public:
   bool is_free(Edge e) const
   {
     if (m.mesh.is_border(e) || m_is_feature[e]) return false;
-    const Halfedge h = m.mesh.halfedge(e), o = m.mesh.opposite(h);
-    return !(m_locked[m.mesh.source(h)] || m_locked[m.mesh.target(h)] ||
-             m_locked[m.mesh.target(m.mesh.next(h))] || m_locked[m.mesh.target(m.mesh.next(o))]);
+    const auto [a, b, c, d] = corners(e);
+    return !(m_locked[a] || m_locked[b] || m_locked[c] || m_locked[d]);
   }
 
   Star star(Vertex v) const
@@ -145,7 +150,7 @@ public:
     Star s;
     for (const Halfedge h : halfedges_around_target(v, m.mesh)) {
       if (m.mesh.is_border(h)) continue;
-      const Vertex a = m.mesh.target(m.mesh.next(h)), b = m.mesh.source(h);
+      const Vertex a = m.apex(h), b = m.mesh.source(h);
       s.corners.push_back({m.point(a), m.point(b), a, b});
     }
     return s;
@@ -214,8 +219,7 @@ public:
   {
     // not halfedge(e): that is the one that e was made from, and the order must not depend on it
     const Halfedge h = m.mesh.halfedge(e, 0), o = m.mesh.halfedge(e, 1);
-    return {m.mesh.source(h), m.mesh.target(h), m.mesh.target(m.mesh.next(h)),
-            m.mesh.target(m.mesh.next(o))};
+    return {m.mesh.source(h), m.mesh.target(h), m.apex(h), m.apex(o)};
   }
 
   void flip(Edge e)
@@ -319,12 +323,7 @@ public:
   void write(Extracted_mesh& mesh) const
   {
     for (std::size_t v = 0; v < size(); ++v) mesh.points[v] = m.point(Vertex(Vertex::size_type(v)));
-    mesh.triangles.clear();
-    for (const auto f : m.mesh.faces()) {
-      const Halfedge h = m.mesh.halfedge(f);
-      mesh.triangles.push_back(
-          {int(m.mesh.source(h)), int(m.mesh.target(h)), int(m.mesh.target(m.mesh.next(h)))});
-    }
+    mesh.triangles = m.triangles();
   }
 
 private:

@@ -143,10 +143,8 @@ private:
 
   double area(Halfedge h) const
   {
-    const auto& mesh = m.working().mesh;
-    return length(
-               m.working().area_vector(mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)))) /
-           2;
+    const auto [a, b, c] = m.working().corners(h);
+    return length(m.working().area_vector(a, b, c)) / 2;
   }
 
   // A point of the mesh, where the surface is now. `edges`: of its face. Corners on features belong
@@ -198,8 +196,7 @@ private:
 
   // A facet near the point `p` of a face: that of `guide`, or of a point that is tracked there, on
   // the same patch, if it is nearer.
-  int near_facet(Working_mesh::Mesh::Face_index f, const Vec3d& p, const Vec3d& n,
-                 Vertex guide) const
+  int near_facet(Working_mesh::Face f, const Vec3d& p, const Vec3d& n, Vertex guide) const
   {
     int facet = m.facet(guide);
     double least = squared_length(m.point(guide) - p);

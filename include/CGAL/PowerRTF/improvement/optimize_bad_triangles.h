@@ -31,7 +31,7 @@ public:
   using Vertex = Star_mesh::Vertex;
   using Halfedge = Star_mesh::Halfedge;
   using Edge = Star_mesh::Edge;
-  using Face = Working_mesh::Mesh::Face_index;
+  using Face = Working_mesh::Face;
   using Time = Star_mesh::Time;
 
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
@@ -72,22 +72,12 @@ public:
   /// left there.
   double run_around(Vertex v, int rounds)
   {
-    const auto& mesh = m.working().mesh;
-    const auto faces = [&] {
-      std::vector<Face> result;
-      for (const Halfedge h : halfedges_around_target(v, mesh))
-        for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
-          if (!mesh.is_border(g)) result.push_back(mesh.face(g));
-      std::sort(result.begin(), result.end());
-      result.erase(std::unique(result.begin(), result.end()), result.end());
-      return result;
-    };
-    std::vector<Face> bad = faces();
-    const auto is_good = [&](Face f) { return !(badness(f) > 0); };
-    bad.erase(std::remove_if(bad.begin(), bad.end(), is_good), bad.end());
+    std::vector<Face> bad;
+    for (const Face f : m.working().faces_near(v))
+      if (badness(f) > 0) bad.push_back(f);
     double worst = 0;
     for (const Face f : run(rounds, std::move(bad))) worst = std::max(worst, badness(f));
-    for (const Face f : faces()) worst = std::max(worst, badness(f));
+    for (const Face f : m.working().faces_near(v)) worst = std::max(worst, badness(f));
     return worst;
   }
 
@@ -101,8 +91,7 @@ private:
       std::vector<Vertex> vertices;
       for (const Face f : bad)
         for (const Vertex v : vertices_around(f)) vertices.push_back(v);
-      std::sort(vertices.begin(), vertices.end());
-      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      sort_uniquely(vertices);
       for (const Vertex v : vertices) {
         Cancellation::poll();
         search(v);
@@ -115,8 +104,7 @@ private:
         for (const Face f : m.working().mesh.faces_around_target(m.working().mesh.halfedge(v)))
           if (f.is_valid() && f != Working_mesh::Mesh::null_face() && badness(f) > 0)
             left.push_back(f);
-      std::sort(left.begin(), left.end());
-      left.erase(std::unique(left.begin(), left.end()), left.end());
+      sort_uniquely(left);
       bad.swap(left);
       const double now = total_badness(bad);
       if (round % 2 == 1 && now > Parameters::stagnation_share * total) break;
@@ -140,14 +128,13 @@ private:
     return result;
   }
 
-  double badness(Face f) const
+  Triangle_badness judgment(Face f) const
   {
-    const auto& mesh = m.working().mesh;
-    const Halfedge h = mesh.halfedge(f);
-    return triangle_badness(m.point(mesh.source(h)), m.point(mesh.target(h)),
-                            m.point(mesh.target(mesh.next(h))))
-        .badness;
+    const auto [a, b, c] = m.points(m.working().mesh.halfedge(f));
+    return triangle_badness(a, b, c);
   }
+
+  double badness(Face f) const { return judgment(f).badness; }
 
   double total_badness(const std::vector<Face>& faces) const
   {
@@ -327,32 +314,23 @@ private:
     for (const Vertex v : corners)
       for (const Halfedge h : halfedges_around_target(v, mesh))
         if (!mesh.is_border(h)) faces.push_back(mesh.face(h));
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    sort_uniquely(faces);
     return faces;
   }
 
   double patch_energy(const std::array<Vertex, 4>& corners) const
   {
-    const auto& mesh = m.working().mesh;
     double sum = 0;
-    for (const Face f : patch(corners)) {
-      const Halfedge h = mesh.halfedge(f);
-      sum += triangle_badness(m.point(mesh.source(h)), m.point(mesh.target(h)),
-                              m.point(mesh.target(mesh.next(h))))
-                 .energy();
-    }
+    for (const Face f : patch(corners)) sum += judgment(f).energy();
     return sum;
   }
 
   double patch_agreement(const std::array<Vertex, 4>& corners)
   {
-    const auto& mesh = m.working().mesh;
     double least = 1;
     for (const Face f : patch(corners)) {
-      const Halfedge h = mesh.halfedge(f);
-      least =
-          std::min(least, m.agreement(mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))));
+      const auto [a, b, c] = m.working().corners(f);
+      least = std::min(least, m.agreement(a, b, c));
     }
     return least;
   }

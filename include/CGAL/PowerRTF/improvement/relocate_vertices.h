@@ -266,8 +266,8 @@ private:
     const auto& mesh = m.working().mesh;
     double worst = 0;
     for (const Halfedge side : {h, mesh.opposite(h)}) {
-      const Vec3d a = m.point(mesh.source(side)), b = m.point(mesh.target(side)),
-                  c = m.point(mesh.target(mesh.next(side))), normal = cross(b - a, c - a);
+      const auto [a, b, c] = m.points(side);
+      const Vec3d normal = cross(b - a, c - a);
       if (!(dot(normal, cross(p - a, c - a)) > 0 && dot(normal, cross(b - p, c - p)) > 0))
         return Parameters::max_split_badness;
       worst =
@@ -286,7 +286,7 @@ private:
   {
     const auto& mesh = m.working().mesh;
     const double radius = Parameters::intersection_radius * m_spacing;
-    std::vector<Working_mesh::Mesh::Face_index> faces;
+    std::vector<Working_mesh::Face> faces;
     for (const auto f : mesh.faces())
       if (squared_length(m.point(mesh.target(mesh.halfedge(f))) - p) < radius * radius)
         faces.push_back(f);

@@ -178,7 +178,7 @@ private:
   }
 
   /// The next vertices on both curves at the corner of a bad triangle.
-  void slide_pair(Working_mesh::Mesh::Face_index f)
+  void slide_pair(Working_mesh::Face f)
   {
     const auto& mesh = m.working().mesh;
     Halfedge h = mesh.halfedge(f);

@@ -75,8 +75,7 @@ inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
   edges.reserve(3 * triangles.size());
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) edges.push_back(sorted_edge(t[k], t[(k + 1) % 3]));
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_uniquely(edges);
   if (edges.empty()) return {};
   double sum = 0, min = std::numeric_limits<double>::max(), max = 0;
   for (const Edge& e : edges) {
