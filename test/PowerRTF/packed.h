@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_TEST_PACKED_H
 
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
-#include <CGAL/PowerRTF/engines/Surface_packer.h>
+#include <CGAL/PowerRTF/engines/packed_surface.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <CGAL/tags.h>
@@ -20,10 +20,9 @@ struct Packed {
   CGAL::PowerRTF::Surface_arrays<Real, Packed_backend> arrays;
 
   explicit Packed(const CGAL::PowerRTF::Surface& s)
-      : arrays(backend, CGAL::PowerRTF::internal::Surface_packer(
+      : arrays(backend, CGAL::PowerRTF::internal::packed_surface(
                             s, CGAL::PowerRTF::Facet_tree(s.points, s.triangles, s.facet_patches),
-                            CGAL::PowerRTF::Remeshing_options::paper_preset())
-                            .result())
+                            CGAL::PowerRTF::Remeshing_options::paper_preset()))
   {}
   const CGAL::PowerRTF::Surface_view<Real>& view() const { return arrays.view(); }
 };

@@ -4,7 +4,7 @@
 #include "packed.h"
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/geometry/vertex_facets.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
 #include <doctest/doctest.h>
@@ -80,15 +80,20 @@ TEST_CASE("the facets at each vertex")
 {
   for (const shapes::Soup& soup : {shapes::octahedron(), shapes::plane_patch(4, 3)}) {
     const Surface s = shapes::make_surface(soup);
-    const Vertex_facets at = vertex_facets(s);
-    REQUIRE(at.first.size() == s.points.size() + 1);
-    CHECK(at.facet.size() == 3 * s.triangles.size());
+    const Facet_tree tree(s.points, s.triangles);
+    const Packed_surface packed =
+        internal::packed_surface(s, tree, Remeshing_options::paper_preset());
+    const std::vector<int>& first = packed.first_facet;
+    REQUIRE(first.size() == s.points.size() + 1);
+    CHECK(packed.vertex_facets.size() == 3 * s.triangles.size());
     for (int v = 0; v < static_cast<int>(s.points.size()); ++v) {
-      std::vector<int> expected;
-      for (int f = 0; f < static_cast<int>(s.triangles.size()); ++f)
-        if (std::count(s.triangles[f].begin(), s.triangles[f].end(), v)) expected.push_back(f);
-      CHECK(std::vector<int>(at.facet.begin() + at.first[v], at.facet.begin() + at.first[v + 1]) ==
-            expected);
+      std::vector<int> expected; // by their numbers in the surface
+      for (int f = 0; f < static_cast<int>(s.triangles.size()); ++f) {
+        const auto& vertices = packed.facets[tree.place(f)].vertices;
+        if (std::count(vertices, vertices + 3, v)) expected.push_back(tree.place(f));
+      }
+      CHECK(std::vector<int>(packed.vertex_facets.begin() + first[v],
+                             packed.vertex_facets.begin() + first[v + 1]) == expected);
     }
   }
 }

@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_ENGINES_SURFACE_ENGINE_IMPL_H
 
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
-#include <CGAL/PowerRTF/engines/Surface_packer.h>
+#include <CGAL/PowerRTF/engines/packed_surface.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 
 #include <cmath>
@@ -54,8 +54,7 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
                                                             const Feature_samples& features)
 {
   if (!m_engine) // only now the surface's normals and density are what they will be
-    m_engine =
-        m_make(internal::Surface_packer(m_surface, facet_tree(), m_options).result(), m_options);
+    m_engine = m_make(internal::packed_surface(m_surface, facet_tree(), m_options), m_options);
   m_size = samples.size();
   const Samples sites = joined(samples, features.sites);
   m_sites = sites.size();
