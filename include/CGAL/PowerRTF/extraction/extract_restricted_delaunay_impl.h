@@ -108,19 +108,13 @@ private:
     return is_finite(center);
   }
 
-  Vec3d normal_of(int s) const
-  {
-    return m_samples.normals.size() == m_samples.size()
-               ? m_samples.normals[s]
-               : m_surface.facet_normals[m_samples.facets[s]];
-  }
-
   Triangle oriented(const std::array<Delaunay::Vertex_handle, 3>& v) const
   {
     Triangle t{v[0]->info(), v[1]->info(), v[2]->info()};
     const Vec3d& p = m_samples.points[t[0]];
     const Vec3d n = cross(m_samples.points[t[1]] - p, m_samples.points[t[2]] - p);
-    if (dot(n, normal_of(t[0]) + normal_of(t[1]) + normal_of(t[2])) < 0) std::swap(t[1], t[2]);
+    const auto& normals = m_samples.normals;
+    if (dot(n, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0) std::swap(t[1], t[2]);
     return t;
   }
 

@@ -122,17 +122,10 @@ private:
     m_refined.samples.assign(m_surface.points.size(), -1);
   }
 
-  Vec3d normal_of(int s) const
-  {
-    return m_samples.normals.size() == m_samples.size()
-               ? m_samples.normals[s]
-               : m_surface.facet_normals[m_samples.facets[s]];
-  }
-
   int new_vertex(int s)
   {
     m_refined.points.push_back(m_samples.points[s]);
-    m_refined.normals.push_back(normal_of(s));
+    m_refined.normals.push_back(m_samples.normals[s]);
     m_refined.samples.push_back(s);
     return int(m_refined.points.size()) - 1;
   }
@@ -159,7 +152,7 @@ private:
   void become_sample(int vertex, int s)
   {
     m_refined.points[vertex] = m_samples.points[s];
-    m_refined.normals[vertex] = normal_of(s);
+    m_refined.normals[vertex] = m_samples.normals[s];
     m_refined.samples[vertex] = s;
   }
 
