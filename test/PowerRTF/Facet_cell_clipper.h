@@ -156,8 +156,8 @@ public:
       for (int k = 0; k < 3; ++k) {
         const int axis = m_axes[k];
         const Filter_nt q = v.position[k] + Filter_nt(coordinate(m_facet[0], axis));
-        const double below = (Filter_nt(coordinate(box.lower, axis)) - q).inf();
-        const double above = (q - Filter_nt(coordinate(box.upper, axis))).inf();
+        const double below = (Filter_nt(coordinate(box.lo, axis)) - q).inf();
+        const double above = (q - Filter_nt(coordinate(box.hi, axis))).inf();
         difference += CGAL::square(Filter_nt((std::max)({0., below, above}))) -
                       CGAL::square(q - Filter_nt(coordinate(m_points[m_index], axis)));
       }

@@ -92,13 +92,9 @@ private:
           if (nearest < 0) return true;
           double least = -box.max_weight; // power of the box, with a margin for its rounding
           double size = std::fabs(box.max_weight) + std::fabs(m_weights[nearest]);
-          for (int k = 0; k < 3; ++k) {
-            const double c = coordinate(corner, k);
-            const double d =
-                (std::max)({0., coordinate(box.lower, k) - c, c - coordinate(box.upper, k)});
-            least += d * d;
-            size += d * d;
-          }
+          const double to_box = squared_distance(box, corner);
+          least += to_box;
+          size += to_box;
           const double d2 = squared_length(m_samples.points[nearest] - corner);
           return !(least - (d2 - m_weights[nearest]) > 1e-14 * (size + d2));
         },

@@ -9,6 +9,7 @@
 #define CGAL_POWER_RTF_EXACT_TANGENT_CELL_CLIPPER_H
 
 #include <CGAL/PowerRTF/exact/Tangent_cell_predicates.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 
 #include <algorithm>
 #include <optional>
@@ -28,9 +29,8 @@ struct Exact_square {
 
 namespace internal {
 
-/// An axis-aligned box of samples and the largest weight among them.
-struct Weighted_box {
-  Vec3d lower, upper;
+/// A box of samples and the largest weight among them.
+struct Weighted_box : Box3<double> {
   double max_weight;
 };
 
@@ -146,8 +146,8 @@ public:
     Filter_nt lower[3], upper[3];
     for (int k = 0; k < 3; ++k) {
       const Filter_nt s(coordinate(m_point, axes[k]));
-      lower[k] = Filter_nt(coordinate(box.lower, axes[k])) - s;
-      upper[k] = Filter_nt(coordinate(box.upper, axes[k])) - s;
+      lower[k] = Filter_nt(coordinate(box.lo, axes[k])) - s;
+      upper[k] = Filter_nt(coordinate(box.hi, axes[k])) - s;
     }
     const Filter_nt weight_gap = Filter_nt(m_weight) - Filter_nt(box.max_weight);
     for (Vertex& v : m_vertices) {

@@ -48,7 +48,9 @@ public:
   {
     using Entry = std::pair<double, int>; // squared distance: only for the order
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-    const auto push = [&](int node) { queue.push({distance2(center, m_nodes[node].box), node}); };
+    const auto push = [&](int node) {
+      queue.push({squared_distance(m_nodes[node].box, center), node});
+    };
     if (!m_nodes.empty()) push(0);
     while (!queue.empty()) {
       const Node& node = m_nodes[queue.top().second];
@@ -67,13 +69,10 @@ private:
   Weighted_box box_of(const std::vector<Vec3d>& points, const std::vector<double>& weights,
                       int first, int last) const
   {
-    Weighted_box b{points[m_order[first]], points[m_order[first]], weights[m_order[first]]};
+    const Vec3d& p = points[m_order[first]];
+    Weighted_box b{{p, p}, weights[m_order[first]]};
     for (int k = first + 1; k < last; ++k) {
-      const Vec3d& p = points[m_order[k]];
-      b.lower = {(std::min)(b.lower.x, p.x), (std::min)(b.lower.y, p.y),
-                 (std::min)(b.lower.z, p.z)};
-      b.upper = {(std::max)(b.upper.x, p.x), (std::max)(b.upper.y, p.y),
-                 (std::max)(b.upper.z, p.z)};
+      b.add(points[m_order[k]]);
       b.max_weight = (std::max)(b.max_weight, weights[m_order[k]]);
     }
     return b;
@@ -83,7 +82,7 @@ private:
   {
     const int first = m_nodes[node].first, last = m_nodes[node].last;
     if (last - first <= leaf_size) return;
-    const Vec3d extent = m_nodes[node].box.upper - m_nodes[node].box.lower;
+    const Vec3d extent = m_nodes[node].box.hi - m_nodes[node].box.lo;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
                      : extent.y >= extent.z                       ? 1
                                                                   : 2;
@@ -97,14 +96,6 @@ private:
     m_nodes.push_back({box_of(points, weights, first, middle), first, middle});
     m_nodes[node].right = int(m_nodes.size());
     m_nodes.push_back({box_of(points, weights, middle, last), middle, last});
-  }
-
-  static double distance2(const Vec3d& c, const Weighted_box& b)
-  {
-    const Vec3d d{(std::max)({0., b.lower.x - c.x, c.x - b.upper.x}),
-                  (std::max)({0., b.lower.y - c.y, c.y - b.upper.y}),
-                  (std::max)({0., b.lower.z - c.z, c.z - b.upper.z})};
-    return squared_length(d);
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/surface_geometry.h>
@@ -32,7 +33,7 @@ namespace CGAL::PowerRTF::internal {
 /// The mapping of the points marked in `used` to the unit box.
 inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vector<char>& used)
 {
-  Vec3d low{0, 0, 0}, high{0, 0, 0};
+  Box3<double> box{{0, 0, 0}, {0, 0, 0}};
   bool is_first = true;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!used[v]) continue;
@@ -40,12 +41,11 @@ inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vecto
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       throw Invalid_input_error("vertex " + std::to_string(v) +
                                 " has a coordinate that is not a finite number");
-    if (is_first) low = high = p;
+    if (is_first) box = {p, p};
     is_first = false;
-    low = {(std::min)(low.x, p.x), (std::min)(low.y, p.y), (std::min)(low.z, p.z)};
-    high = {(std::max)(high.x, p.x), (std::max)(high.y, p.y), (std::max)(high.z, p.z)};
+    box.add(p);
   }
-  const Vec3d size = high - low;
+  const Vec3d low = box.lo, high = box.hi, size = high - low;
   const double side = (std::max)({size.x, size.y, size.z});
   if (!(side < 1e300)) throw Invalid_input_error("the coordinates are too large");
   if (!(side > 1e-300)) throw Invalid_input_error("the surface has no area");
