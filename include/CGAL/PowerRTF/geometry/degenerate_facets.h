@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <unordered_set>
 #include <vector>
 
@@ -82,9 +81,7 @@ inline std::size_t drop_collapsed(std::vector<Triangle>& triangles)
 inline std::size_t collapse_needles(const std::vector<Vec3d>& points,
                                     std::vector<Triangle>& triangles)
 {
-  std::vector<int> rank(points.size(), 0), parent(points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  boost::disjoint_sets<int*, int*> merged(rank.data(), parent.data());
+  boost::disjoint_sets_with_storage<> merged(points.size());
   std::size_t count = 0;
   for (const int f : degenerate_facets(points, triangles)) {
     const double longest = edge_length(points, triangles, longest_halfedge(points, triangles, f));

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -64,16 +63,15 @@ inline std::vector<int> merged_near_borders(const std::vector<Vec3d>& points,
   for (std::size_t v = 0; v < points.size(); ++v)
     if (width[v] <= crack_width) border.push_back(static_cast<int>(v));
 
-  std::vector<int> rank(points.size(), 0), parent(points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  boost::disjoint_sets<int*, int*> merged(rank.data(), parent.data());
+  boost::disjoint_sets_with_storage<> merged(points.size());
   const Point_grid grid(points, border, crack_width);
   for (const int a : border)
     grid.for_each_near(points[a], width[a], [&](int b, double squared_distance) {
       if (squared_distance <= width[b] * width[b]) merged.union_set(a, b);
     });
-  for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = merged.find_set(static_cast<int>(v));
-  return parent;
+  std::vector<int> result(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) result[v] = merged.find_set(static_cast<int>(v));
+  return result;
 }
 
 } // namespace CGAL::PowerRTF
