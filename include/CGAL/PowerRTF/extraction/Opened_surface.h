@@ -30,8 +30,6 @@ public:
   void sew_up(Extracted_mesh& mesh) const;
 
 private:
-  void add_twin(int s);
-
   Surface m_surface;
   Samples m_samples;
   Feature_samples m_features;

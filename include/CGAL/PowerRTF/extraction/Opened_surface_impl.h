@@ -62,8 +62,13 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
     m_features.places.push_back(places.front());
     for (std::size_t c = 1; c < places.size(); ++c) {
       twins.push_back(places[c]);
-      m_twin_of.push_back(static_cast<int>(m_first_feature + k));
-      add_twin(static_cast<int>(m_first_feature + k));
+      const std::size_t s = m_first_feature + k;
+      m_twin_of.push_back(static_cast<int>(s));
+      m_samples.points.push_back(samples.points[s]);
+      m_samples.facets.push_back(samples.facets[s]);
+      m_samples.normals.push_back(samples.normals[s]);
+      m_samples.density.push_back(samples.density[s]);
+      m_samples.weights.push_back(samples.weights[s]);
     }
   }
   m_features.places.insert(m_features.places.end(), twins.begin(), twins.end());
@@ -85,15 +90,6 @@ CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh) const
   for (Edge& e : mesh.feature_edges) e = sorted_edge(name[e[0]], name[e[1]]);
   sort_uniquely(mesh.feature_edges);
   mesh.sort_triangles();
-}
-
-CGAL_POWER_RTF_INLINE void Opened_surface::add_twin(int s)
-{
-  m_samples.points.push_back(m_samples.points[s]);
-  m_samples.facets.push_back(m_samples.facets[s]);
-  m_samples.normals.push_back(m_samples.normals[s]);
-  m_samples.density.push_back(m_samples.density[s]);
-  m_samples.weights.push_back(m_samples.weights[s]);
 }
 
 } // namespace CGAL::PowerRTF
