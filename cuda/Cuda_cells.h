@@ -35,7 +35,7 @@ public:
                                  const Real* density, const Multiplicative_weight_rule& rule,
                                  int passes, const Cell_outputs<Real>& out)
   {
-    return m_builder.start_weight_passes(in, sites, density, nullptr, nullptr, rule, passes, out)
+    return m_builder.start_weight_passes({in, sites, density, rule, passes, out})
                ? &m_builder.weight_pass_state()->done
                : nullptr;
   }

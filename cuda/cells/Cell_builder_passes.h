@@ -19,14 +19,13 @@ Weight_pass_state* Cell_builder<Real>::pass_state()
 {
   if (m_pass_state.size() == 0) {
     m_pass_state.allocate(m_backend, 1);
-    m_bytes += sizeof(Weight_pass_state);
     m_backend.fill(m_pass_state.data(), Weight_pass_state(), 1);
   }
   return m_pass_state.data();
 }
 
 template <class Real>
-bool Cell_builder<Real>::start_resident_passes(const Weight_pass_input<Real>& in)
+bool Cell_builder<Real>::start_weight_passes(const Weight_pass_input<Real>& in)
 {
   using Counters = Pass_counters<Real>;
   const int processors = m_backend.multiprocessors(), warps = blocks(m_sites, processors);
@@ -43,11 +42,9 @@ bool Cell_builder<Real>::start_resident_passes(const Weight_pass_input<Real>& in
         "weight passes");
   gather_new_weights();
   Weight_pass_state* const state = pass_state();
-  const std::size_t before = m_backend.bytes();
   m_pass_records.allocate(m_backend, 2 * std::size_t(m_sites));
   m_partials.allocate(m_backend, 2 * std::size_t(processors));
   m_pass_counters.allocate(m_backend, 1);
-  m_bytes += m_backend.bytes() - before;
 
   Warp_pass_arguments<Real> a;
   a.view = view();

@@ -15,8 +15,6 @@ struct Weight_pass_input {
   Sites_arrays<Real> arrays;         ///< the sites that are set
   Site<Real>* sites = nullptr;       ///< those of `arrays`: the weights are written here
   const Real* density = nullptr;     ///< rho of each cell
-  const Real* first = nullptr;       ///< see `Cell_builder::neighbor_distances()`, compatible
-  const Real* sixth = nullptr;       ///< the same; both null: computed, in one kernel only
   Multiplicative_weight_rule rule{}; ///< its mean mass is that of the cells
   int passes = 0;                    ///< at most
   Cell_outputs<Real> out;            ///< of the cells of the last weights; with areas

@@ -23,7 +23,6 @@ Cell_builder<Real>::Cell_builder(Cuda_backend& backend, int max_sites, Real cos_
                                  Real guard_factor)
     : m_backend(backend), m_cos_angle(cos_angle), m_guard_factor(guard_factor)
 {
-  const std::size_t before = backend.bytes();
   m_order.allocate(backend, max_sites);
   m_packed.allocate(backend, max_sites);
   m_packed_normals.allocate(backend, max_sites);
@@ -52,7 +51,6 @@ Cell_builder<Real>::Cell_builder(Cuda_backend& backend, int max_sites, Real cos_
   backend.fill(m_open_counts.data(), 0, 2);
   backend.fill(m_deferred_counts.data(), 0, 2);
   backend.fill(m_ticket.data(), 0u, 1);
-  m_bytes = backend.bytes() - before;
 }
 
 template <class Real>
@@ -138,9 +136,7 @@ template <class Real>
 void Cell_builder<Real>::sort(const Sites_arrays<Real>& arrays)
 {
   if (m_sites == 0) return;
-  hilbert_keys_kernel<<<blocks(m_sites, 256), 256, 0, m_backend.stream()>>>(m_sites, arrays.sites,
-                                                                            m_keys.data());
-  check(cudaGetLastError(), "sorting the sites");
+  find_hilbert_keys(m_backend, m_sites, arrays.sites, m_keys.data());
   m_backend.sort_order(m_sites, m_keys.data(), m_order.data());
   if (m_has_features) link_features(arrays);
   ++m_stamps.order;
@@ -150,20 +146,11 @@ void Cell_builder<Real>::sort(const Sites_arrays<Real>& arrays)
 template <class Real>
 void Cell_builder<Real>::link_features(const Sites_arrays<Real>& arrays)
 {
-  const std::size_t before = m_backend.bytes();
   for (Buffer<int>* b : {&m_places, &m_next, &m_previous}) b->allocate(m_backend, m_order.size());
-  m_bytes += m_backend.bytes() - before;
-  const int grid = blocks(m_sites, 256);
-  const cudaStream_t stream = m_backend.stream();
-  invert_order_kernel<<<grid, 256, 0, stream>>>(m_sites, m_order.data(), m_places.data());
-  check(cudaGetLastError(), "sorting the sites");
-  const auto link = [&](const int* caller_links, int* links) {
-    link_places_kernel<<<grid, 256, 0, stream>>>(m_sites, m_order.data(), m_places.data(),
-                                                 caller_links, links);
-    check(cudaGetLastError(), "sorting the sites");
-  };
-  link(arrays.next, m_next.data());
-  link(arrays.previous, m_previous.data());
+  const int *const order = m_order.data(), *const places = m_places.data();
+  invert_order(m_backend, m_sites, order, m_places.data());
+  link_places(m_backend, m_sites, order, places, arrays.next, m_next.data());
+  link_places(m_backend, m_sites, order, places, arrays.previous, m_previous.data());
 }
 
 template <class Real>

@@ -45,20 +45,12 @@ public:
   /// Constructs the cells of the current sites.
   void build(const Cell_outputs<Real>& out);
 
-  /// Starts up to `passes` passes of the paper's rule over the weights, each with the cells of the
-  /// last one (Algorithm 2, lines 3 to 10), until all masses `density` * area are inside `rule`'s
+  /// Starts passes of the paper's rule over the weights, each with the cells of the last one
+  /// (Algorithm 2, lines 3 to 10), until all masses, density times area, are inside the rule's
   /// interval; then constructs the cells, as `build()`. All in one kernel, when each site finds a
-  /// warp; else returns false and does nothing. `first`, `sixth`: see `neighbor_distances()`,
-  /// compatible; both null: they are found on the way. Writes the weights to `sites`, those of
-  /// `arrays`; without features their mean is 0. `arrays` must live until the next sites or weights
-  /// are set.
-  bool start_weight_passes(const Sites_arrays<Real>& arrays, Site<Real>* sites, const Real* density,
-                           const Real* first, const Real* sixth,
-                           const Multiplicative_weight_rule& rule, int passes,
-                           const Cell_outputs<Real>& out)
-  {
-    return start_resident_passes({arrays, sites, density, first, sixth, rule, passes, out});
-  }
+  /// warp; else returns false and does nothing. Writes the weights to the input's sites; without
+  /// features their mean is 0. Its arrays must live until the next sites or weights are set.
+  bool start_weight_passes(const Weight_pass_input<Real>& in);
   /// The result of the passes started last, on the device.
   const Weight_pass_state* weight_pass_state() const { return m_pass_state.data(); }
 
@@ -70,9 +62,6 @@ public:
   /// x and y in its `Tangent_frame`; neighbors below 0 are sides of the guard square.
   void polygons(int begin, int end, int* size, Real* x, Real* y, int* neighbor,
                 unsigned char* status);
-
-  /// Device memory held.
-  std::size_t bytes() const { return m_bytes; }
 
 private:
   template <class T>
@@ -93,10 +82,8 @@ private:
   int max_by_warps() const { return 128 * m_backend.multiprocessors(); }
   void link_features(const Sites_arrays<Real>& arrays);
   Weight_pass_state* pass_state();
-  bool start_resident_passes(const Weight_pass_input<Real>& in);
 
   Cuda_backend& m_backend;
-  std::size_t m_bytes = 0;
   Real m_cos_angle, m_guard_factor;
   int m_cells = 0, m_sites = 0;
   bool m_has_features = false;

@@ -7,13 +7,6 @@
 
 #include <CGAL/PowerRTF/geometry/vector.h>
 
-/// In front of a loop whose arrays are to stay in registers.
-#ifdef __CUDA_ARCH__
-#define CGAL_POWER_RTF_UNROLL _Pragma("unroll")
-#else
-#define CGAL_POWER_RTF_UNROLL
-#endif
-
 namespace CGAL::PowerRTF::device {
 
 // On the device these are off by a few units in the last place.

@@ -5,7 +5,7 @@
 #ifndef CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
 #define CGAL_POWER_RTF_CUDA_SORT_SITES_CUH
 
-#include "../backend/teams.cuh"
+#include "../backend/Cuda_backend.h"
 #include "Verlet_lists.h"
 #include "warp_search.cuh"
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
@@ -14,27 +14,25 @@
 namespace CGAL::PowerRTF::device {
 
 template <class Real>
-__global__ void hilbert_keys_kernel(int n, const Site<Real>* sites, std::uint64_t* keys)
+void find_hilbert_keys(Cuda_backend& backend, int n, const Site<Real>* sites, std::uint64_t* keys)
 {
-  const int i = blockIdx.x * blockDim.x + threadIdx.x;
-  if (i < n) keys[i] = hilbert_code(sites[i].point);
+  backend.for_each(n, [=] __device__(int i) { keys[i] = hilbert_code(sites[i].point); });
 }
 
 /// `places[id]`: where the caller's site `id` lies.
-static __global__ void invert_order_kernel(int n, const int* order, int* places)
+inline void invert_order(Cuda_backend& backend, int n, const int* order, int* places)
 {
-  const int place = blockIdx.x * blockDim.x + threadIdx.x;
-  if (place < n) places[order[place]] = place;
+  backend.for_each(n, [=] __device__(int place) { places[order[place]] = place; });
 }
 
 /// The boundaries' links between the caller's sites as links between places.
-static __global__ void link_places_kernel(int n, const int* order, const int* places,
-                                          const int* caller_links, int* links)
+inline void link_places(Cuda_backend& backend, int n, const int* order, const int* places,
+                        const int* caller_links, int* links)
 {
-  const int place = blockIdx.x * blockDim.x + threadIdx.x;
-  if (place >= n) return;
-  const int to = caller_links[order[place]];
-  links[place] = to < 0 ? -1 : places[to];
+  backend.for_each(n, [=] __device__(int place) {
+    const int to = caller_links[order[place]];
+    links[place] = to < 0 ? -1 : places[to];
+  });
 }
 
 /// The node above the lanes with `exists`, the same on all lanes.

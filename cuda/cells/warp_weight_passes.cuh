@@ -108,7 +108,7 @@ public:
         neighbor_distances(a.view, memory.stack, place, guess_of_sixth(a.view, m_last),
                            {a.view.cos_angle, Real(-2)}, 6, lane);
     m_guard = a.view.guard_factor * found.sixth;
-    m_distance = a.in.first ? a.in.first[m_id] : found.first;
+    m_distance = found.first;
   }
 
   /// Makes the cell of the current weights and publishes its record. `max_mean`: what the growth of
@@ -198,10 +198,9 @@ private:
   __device__ Real distance_of_empty()
   {
     if (m_sixth < 0)
-      m_sixth = m.in.sixth ? m.in.sixth[m_id]
-                           : neighbor_distances(m.view, m_memory.stack, m_place, 2 * m_distance,
-                                                {m.view.cos_angle, m.view.cos_angle}, 6, m_lane)
-                                 .sixth;
+      m_sixth = neighbor_distances(m.view, m_memory.stack, m_place, 2 * m_distance,
+                                   {m.view.cos_angle, m.view.cos_angle}, 6, m_lane)
+                    .sixth;
     return m_sixth;
   }
 

@@ -29,8 +29,8 @@ int run_weight_passes(Device_case<float>& d, bool in_one_kernel,
   d.cells.neighbor_distances(true, first.data(), sixth.data());
   const auto arrays = d.arrays();
   Site<float>* const sites = d.sites.sites.data();
-  if (in_one_kernel && d.cells.start_weight_passes(arrays, sites, density.data(), first.data(),
-                                                   sixth.data(), rule, passes, d.sites.outputs())) {
+  if (in_one_kernel && d.cells.start_weight_passes(
+                           {arrays, sites, density.data(), rule, passes, d.sites.outputs()})) {
     Weight_pass_state state;
     backend->download(&state, d.cells.weight_pass_state(), 1);
     return state.done;

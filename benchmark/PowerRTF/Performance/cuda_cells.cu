@@ -84,7 +84,7 @@ template <class Real>
 struct Workload {
   Workload(Cuda_backend& b, int n, double contrast)
       : backend(b), torus(torus_of(contrast)), sites(b, random_torus_sites(torus, n, 7)),
-        cells(b, n, Real(-0.766), 3)
+        bytes_before(b.bytes()), cells(b, n, Real(-0.766), 3), bytes(b.bytes() - bytes_before)
   {
     sites.sort();
     sites.relax(cells, torus, 33);
@@ -117,8 +117,8 @@ struct Workload {
   void make_passes(int count)
   {
     const Multiplicative_weight_rule rule{1e-6, 0.01, false, 0};
-    if (!cells.start_weight_passes(sites.arrays(), sites.sites.data(), density.data(), first.data(),
-                                   sixth.data(), rule, count, sites.outputs()))
+    if (!cells.start_weight_passes(
+            {sites.arrays(), sites.sites.data(), density.data(), rule, count, sites.outputs()}))
       plain_weight_passes(backend, cells, sites, density.data(), first.data(), sixth.data(), rule,
                           count);
   }
@@ -132,7 +132,9 @@ struct Workload {
   Cuda_backend& backend;
   Torus<Real> torus;
   Device_sites<Real> sites;
+  std::size_t bytes_before;
   Cell_builder<Real> cells;
+  std::size_t bytes; ///< that the cells take
   Cuda_backend::Buffer<Real> first, sixth, density;
 };
 
@@ -174,7 +176,7 @@ void measure(Cuda_backend& backend, Timer& time, int n, double contrast)
               "%8.4f | %5.0f %6d\n",
               n, contrast, sizeof(Real) == 4 ? "float" : "double", take, search, rate(search),
               construct, rate(construct), areas, rate(areas), pass, rate(pass), distances,
-              double(w.cells.bytes()) / n, int(other));
+              double(w.bytes) / n, int(other));
   std::fflush(stdout);
 }
 
