@@ -23,12 +23,8 @@ namespace internal {
 /// How many of the mesh's feature edges are no edges of its triangles.
 inline std::size_t lost_feature_edges(const Extracted_mesh& mesh)
 {
-  std::vector<Edge> edges;
   if (mesh.feature_edges.empty()) return 0;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) edges.push_back(sorted_edge(t[i], t[(i + 1) % 3]));
-  std::sort(edges.begin(), edges.end());
+  const std::vector<Edge> edges = edges_of(mesh.triangles);
   std::size_t lost = 0;
   for (const Edge& e : mesh.feature_edges)
     lost += !std::binary_search(edges.begin(), edges.end(), sorted_edge(e[0], e[1]));

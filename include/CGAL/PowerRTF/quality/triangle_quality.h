@@ -66,16 +66,23 @@ inline Quality_statistics triangle_quality(const std::vector<Vec3d>& points,
   return result;
 }
 
-/// Lengths of the edges of the `triangles`, in the unit of the `points`. All zero when there is no
-/// triangle.
-inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
-                                           const std::vector<Triangle>& triangles)
+/// The edges of the triangles, each once, sorted.
+inline std::vector<Edge> edges_of(const std::vector<Triangle>& triangles)
 {
   std::vector<Edge> edges;
   edges.reserve(3 * triangles.size());
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) edges.push_back(sorted_edge(t[k], t[(k + 1) % 3]));
   sort_uniquely(edges);
+  return edges;
+}
+
+/// Lengths of the edges of the `triangles`, in the unit of the `points`. All zero when there is no
+/// triangle.
+inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
+                                           const std::vector<Triangle>& triangles)
+{
+  const std::vector<Edge> edges = edges_of(triangles);
   if (edges.empty()) return {};
   double sum = 0, min = std::numeric_limits<double>::max(), max = 0;
   for (const Edge& e : edges) {
