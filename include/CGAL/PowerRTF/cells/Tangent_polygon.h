@@ -7,24 +7,9 @@
 #ifndef CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
 #define CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
 
-#include <CGAL/PowerRTF/geometry/vector.h>
+#include <CGAL/PowerRTF/geometry/Tangent_frame.h>
 
 namespace CGAL::PowerRTF {
-
-/// An orthonormal frame (u, v) of the plane with unit normal `n`; u x v = n. (Duff et al.,
-/// "Building an orthonormal basis, revisited", 2017.)
-template <class FT>
-struct Tangent_frame {
-  Vec3<FT> u, v;
-
-  CGAL_POWER_RTF_HD explicit Tangent_frame(const Vec3<FT>& n)
-  {
-    const FT sign = n.z < 0 ? FT(-1) : FT(1);
-    const FT a = -1 / (sign + n.z), b = n.x * n.y * a;
-    u = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-    v = {b, sign + n.y * n.y * a, -n.y};
-  }
-};
 
 /// A convex polygon, counter-clockwise; edge k runs from vertex k to vertex k + 1 and carries the
 /// neighbor that made it, or -1 .. -4 for a side of the initial square.
