@@ -7,3 +7,16 @@
 #include <CGAL/PowerRTF/input/clean_surface_impl.h>
 #include <CGAL/PowerRTF/prepare_surface_impl.h>
 #include <CGAL/PowerRTF/sampling/sample_surface_impl.h>
+
+#include <CGAL/tags.h>
+
+namespace CGAL::PowerRTF {
+
+template Samples sample_surface<Sequential_tag>(const Surface&, const Remeshing_options&,
+                                                const Feature_samples&, const Facet_tree*);
+#ifdef CGAL_LINKED_WITH_TBB
+template Samples sample_surface<Parallel_tag>(const Surface&, const Remeshing_options&,
+                                              const Feature_samples&, const Facet_tree*);
+#endif
+
+} // namespace CGAL::PowerRTF

@@ -21,6 +21,8 @@
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace CGAL {
@@ -114,7 +116,7 @@ private:
       const bool relaxation = iteration < m_options.relaxation_iterations;
       const bool equal = !relaxation && optimize_weights(); // 11 to 14
       finish_iteration(visitor, iteration);
-      if (equal) break;
+      if (equal || (!relaxation && has_settled())) break;
       m_engine.move_samples(relaxation ? PowerRTF::Position_method::lloyd
                                        : m_options.position_method); // 15 to 19
     }
@@ -132,7 +134,8 @@ private:
     visitor.on_stage("sampling");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.sampling);
     const PowerRTF::Feature_samples& features = m_patches.features();
-    m_engine.set_samples(PowerRTF::sample_surface(m_patches.surface(), m_options, features),
+    m_engine.set_samples(PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
+                             m_patches.surface(), m_options, features, &m_engine.facet_tree()),
                          features);
     m_report.iterations.clear();
   }
@@ -157,6 +160,26 @@ private:
   }
 
   bool inside_interval() const { return m_engine.capacity().inside_interval == 1; }
+
+  /// Whether the samples are at their centroids, or no longer come nearer: another step would not
+  /// pay.
+  bool has_settled() const
+  {
+    constexpr std::size_t patience = 20;
+    constexpr double nearer = 0.9;
+    const auto& steps = m_report.iterations;
+    const double tolerance = m_options.centroid_tolerance;
+    if (tolerance == 0 || steps.back().displacement <= tolerance) return tolerance > 0;
+    const auto nearest = [](auto begin, auto end) {
+      return std::min_element(
+                 begin, end,
+                 [](const auto& a, const auto& b) { return a.displacement < b.displacement; })
+          ->displacement;
+    };
+    if (steps.size() <= patience) return false;
+    const auto recent = steps.end() - patience;
+    return nearest(recent, steps.end()) > nearer * nearest(steps.begin(), recent);
+  }
 
   /// Algorithm 2. Returns whether all capacities are inside the interval.
   bool optimize_weights()

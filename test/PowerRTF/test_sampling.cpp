@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "relative_distances.h"
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/fields/density.h>
@@ -25,7 +26,8 @@ Remeshing_options options(std::size_t n, Sampling sampling, unsigned seed = 0)
   return o;
 }
 
-constexpr Sampling both[] = {Sampling::elimination, Sampling::random};
+constexpr Sampling all[] = {Sampling::lattice, Sampling::stratified, Sampling::elimination,
+                            Sampling::random};
 
 void check_is_sound(const Surface& s, const Samples& samples, std::size_t n)
 {
@@ -50,29 +52,13 @@ void check_is_sound(const Surface& s, const Samples& samples, std::size_t n)
   }
 }
 
-/// Distance of each sample to its nearest one, over the spacing of a hexagonal arrangement.
-std::vector<double> relative_distances(const Surface& s, const Samples& samples)
-{
-  const double C = spacing_constant(s, samples.size());
-  std::vector<double> result;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    double nearest = 4;
-    for (std::size_t j = 0; j < samples.size(); ++j)
-      if (j != i)
-        nearest = std::min(nearest, squared_length(samples.points[i] - samples.points[j]));
-    result.push_back(std::sqrt(nearest * samples.density[i]) / C);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
 } // namespace
 
 TEST_CASE("exactly n samples on their facets, for any n from 4")
 {
   Surface s = shapes::make_surface(shapes::ellipsoid(3, 2, 1, 2));
   for (const Density density : {Density::uniform, Density::curvature})
-    for (const Sampling sampling : both)
+    for (const Sampling sampling : all)
       for (const std::size_t n : {4u, 5u, 17u, 320u, 1500u})
         for (unsigned seed = 0; seed < 3; ++seed) {
           Remeshing_options o = options(n, sampling, seed);
@@ -97,7 +83,7 @@ TEST_CASE("what cannot be sampled is refused")
 TEST_CASE("the same seed gives the same samples, another seed others")
 {
   const Surface s = shapes::make_surface(shapes::torus(20, 10, 2, 1));
-  for (const Sampling sampling : both) {
+  for (const Sampling sampling : all) {
     const Samples a = sample_surface(s, options(500, sampling, 7));
     const Samples b = sample_surface(s, options(500, sampling, 7));
     const Samples c = sample_surface(s, options(500, sampling, 8));
@@ -228,14 +214,18 @@ TEST_CASE("the choice does not depend on the input's size and place")
   const shapes::Soup soups[] = {shapes::ellipsoid(3, 2, 1, 3), shapes::two_spheres(2),
                                 shapes::box(4), shapes::torus(30, 12, 2, 0.5)};
   for (const shapes::Soup& soup : soups)
-    for (const Sampling sampling : both)
+    for (const Sampling sampling : all)
       for (const Density density : {Density::uniform, Density::curvature}) {
         Remeshing_options o = options(801, sampling, 3);
         o.density = density;
         Surface s = shapes::make_surface(soup);
         set_density(s, o);
         const Samples reference = sample_surface(s, o);
-        for (const double factor : {1000., 1e-3, 3.}) {
+        // The fields of a lattice are in single precision: rounded otherwise, it is another
+        // lattice.
+        const bool is_lattice = sampling == Sampling::lattice;
+        for (const double factor :
+             {is_lattice ? 1024. : 1000., is_lattice ? 0x1p-10 : 1e-3, is_lattice ? 4. : 3.}) {
           Surface other = shapes::make_surface(shapes::scaled(soup, factor));
           set_density(other, o);
           const Samples samples = sample_surface(other, o);
@@ -293,7 +283,7 @@ TEST_CASE("components share the samples by mass, at least four each")
   const shapes::Soup far_and_small =
       shapes::joined(shapes::icosphere(3), shapes::translated(small, {2, 0, 0}));
   const Surface s = shapes::make_surface(far_and_small);
-  for (const Sampling sampling : both) {
+  for (const Sampling sampling : all) {
     const Samples samples = sample_surface(s, options(500, sampling));
     check_is_sound(s, samples, 500);
     const auto on_small = std::count_if(samples.facets.begin(), samples.facets.end(),

@@ -18,7 +18,7 @@ enum class Preset { quality, paper };
 /// \f$\rho = 1\f$, or \f$\rho = \kappa^p\f$.
 enum class Density { uniform, curvature };
 /// How the first samples are chosen.
-enum class Sampling { elimination, random };
+enum class Sampling { lattice, stratified, elimination, random };
 /// Where a sample's normal and density come from.
 enum class Attributes { facet, nearest_vertices };
 /// Where a sample that has moved goes back to the surface.
@@ -60,7 +60,7 @@ struct Remeshing_options {
 
   // Initial sampling
   Sampling sampling = Sampling::elimination; ///< how the first samples are chosen
-  double oversampling = 4;                   ///< \f$m\f$: candidates per sample
+  double oversampling = 4;        ///< \f$m\f$: candidates per sample (`elimination`, `random`)
   int relaxation_iterations = 10; ///< first iterations without weights, by Lloyd's method
 
   // Samples' attributes
@@ -85,8 +85,11 @@ struct Remeshing_options {
   // Positions (Algorithm 3)
   Position_method position_method = Position_method::lbfgs; ///< how samples move
   int max_iterations = 100;                                 ///< \f$N_m\f$: position steps at most
-  int lbfgs_memory = 5;                                     ///< pairs kept by L-BFGS
-  Projection projection = Projection::nearest_facet;        ///< of moved samples
+  /// Position steps end when the samples are as near as this to their cells' centroids, or come no
+  /// nearer: RMS, in units of \f$h = \sqrt{\mathrm{area}/n}\f$; 0: they do not end before.
+  double centroid_tolerance = 0;
+  int lbfgs_memory = 5;                              ///< pairs kept by L-BFGS
+  Projection projection = Projection::nearest_facet; ///< of moved samples
   int projection_neighbors = 16;     ///< vertices whose facets are tried (`nearest_vertices`)
   double centroid_density_power = 2; ///< centroids are weighted by \f$\rho\f$ to this power
 

@@ -27,7 +27,10 @@ using Value_names = std::vector<const char*>;
 // One overload per enumeration, found by the type of its unused argument.
 inline Value_names value_names(Preset) { return {"quality", "paper"}; }
 inline Value_names value_names(Density) { return {"uniform", "curvature"}; }
-inline Value_names value_names(Sampling) { return {"elimination", "random"}; }
+inline Value_names value_names(Sampling)
+{
+  return {"lattice", "stratified", "elimination", "random"};
+}
 inline Value_names value_names(Attributes) { return {"facet", "nearest-vertices"}; }
 inline Value_names value_names(Projection) { return {"nearest-facet", "nearest-vertices"}; }
 inline Value_names value_names(Position_method) { return {"lbfgs", "lloyd"}; }
@@ -102,10 +105,12 @@ void for_each_option(Visitor&& visit)
       {0, 1000});
 
   group = "Initial sampling (Section 4.3)";
-  add("sampling", &O::sampling, "", "weighted sample elimination, or the paper's random choice",
+  add("sampling", &O::sampling, "",
+      "a hexagonal lattice, random points of parts of equal mass, weighted sample elimination, or "
+      "the paper's random choice",
       no_number);
   // The elimination's time and memory are proportional to n m^2.
-  add("oversampling", &O::oversampling, "m", "candidates per sample", {1, 32});
+  add("oversampling", &O::oversampling, "m", "candidates per sample of the last two", {1, 32});
   add("relaxation_iterations", &O::relaxation_iterations, "",
       "first steps, by Lloyd's method without weights", iterations);
 
@@ -132,6 +137,8 @@ void for_each_option(Visitor&& visit)
   add("position_method", &O::position_method, "", "how samples move to their cells' centroids",
       no_number);
   add("max_iterations", &O::max_iterations, "N_m", "position steps at most", iterations);
+  add("centroid_tolerance", &O::centroid_tolerance, "",
+      "they end when the samples are as near as this to the centroids (rms, in h)", {0, 1});
   add("lbfgs_memory", &O::lbfgs_memory, "", "pairs kept by L-BFGS", {1, max_lbfgs_memory});
   add("projection", &O::projection, "",
       "onto the nearest facet, or on those at the nearest vertices", no_number);

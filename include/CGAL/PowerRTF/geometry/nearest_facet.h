@@ -83,6 +83,26 @@ struct Child_boxes {
   }
 };
 
+/// Computes node `k` of `level` and its own box `boxes[...]`; the levels are done in ascending
+/// order. `box_of(i)`: of item i.
+template <class Box_of>
+CGAL_POWER_RTF_HD inline void fit_child_boxes(const Packed_tree_layout& tree, int level, int k,
+                                              const Box_of& box_of, Box3<double>* boxes,
+                                              Child_boxes* nodes)
+{
+  const int begin = tree.children_begin(k), end = tree.children_end(level, k);
+  const int node = tree.first[level] + k;
+  for (int c = begin; c < end; ++c) {
+    const Box3<double> box = level > 0 ? boxes[tree.first[level - 1] + c] : box_of(c);
+    nodes[node].set(c - begin, box);
+    if (c > begin)
+      boxes[node].add(box);
+    else
+      boxes[node] = box;
+  }
+  for (int c = end - begin; c < Child_boxes::size; ++c) nodes[node].set(c, boxes[node]); // unused
+}
+
 /// The nodes of a tree whose item `k` lies in the box `box_of(k)`.
 template <class Box_of>
 std::vector<Child_boxes> child_boxes(const Packed_tree_layout& tree, const Box_of& box_of)
@@ -90,20 +110,8 @@ std::vector<Child_boxes> child_boxes(const Packed_tree_layout& tree, const Box_o
   std::vector<Child_boxes> nodes(tree.nodes());
   std::vector<Box3<double>> boxes(tree.nodes());
   for (int level = 0; level < tree.levels; ++level)
-    for (int k = 0; k < tree.nodes(level); ++k) {
-      const int begin = tree.children_begin(k), end = tree.children_end(level, k);
-      const int node = tree.first[level] + k;
-      for (int c = begin; c < end; ++c) {
-        const Box3<double> box = level > 0 ? boxes[tree.first[level - 1] + c] : box_of(c);
-        nodes[node].set(c - begin, box);
-        if (c > begin)
-          boxes[node].add(box);
-        else
-          boxes[node] = box;
-      }
-      for (int c = end - begin; c < Child_boxes::size; ++c) // unused
-        nodes[node].set(c, boxes[node]);
-    }
+    for (int k = 0; k < tree.nodes(level); ++k)
+      fit_child_boxes(tree, level, k, box_of, boxes.data(), nodes.data());
   return nodes;
 }
 

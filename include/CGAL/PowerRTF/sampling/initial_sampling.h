@@ -7,11 +7,9 @@
 #define CGAL_POWER_RTF_SAMPLING_INITIAL_SAMPLING_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
-#include <CGAL/PowerRTF/features/sample_features.h>
-#include <CGAL/PowerRTF/features/topology_minimum.h>
-#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/surface_geometry.h>
-#include <CGAL/PowerRTF/option_table.h>
+#include <CGAL/PowerRTF/sampling/component_shares.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 #include <CGAL/PowerRTF/sampling/sample_elimination.h>
 
@@ -52,51 +50,6 @@ Facet_distribution facet_distribution(const std::vector<int>& component, int com
   for (std::size_t k = 0; k < component.size(); ++k)
     d.sums[k + 1] = d.sums[k] + facet_mass(d.facets[k]);
   return d;
-}
-
-/// Shares `n` samples among components in proportion to their masses, by the method of the largest
-/// remainder; no component gets fewer than its least number if `n` allows (none without mass gets
-/// any).
-inline std::vector<std::size_t> allocate_samples(const std::vector<double>& masses,
-                                                 const std::vector<std::size_t>& least,
-                                                 std::size_t n)
-{
-  const std::size_t components = masses.size();
-  std::vector<std::size_t> samples(components, 0);
-  std::vector<char> is_fixed(components, 0);
-  for (std::size_t c = 0; c < components; ++c) is_fixed[c] = !(masses[c] > 0);
-  std::size_t free_samples = n;
-  double free_mass = std::accumulate(masses.begin(), masses.end(), 0.);
-  if (n >= std::accumulate(least.begin(), least.end(), std::size_t(0))) {
-    for (bool changed = true; changed;) { // each fixed component takes samples from the others
-      changed = false;
-      const double per_mass = static_cast<double>(free_samples) / free_mass;
-      for (std::size_t c = 0; c < components; ++c) {
-        if (is_fixed[c] || masses[c] * per_mass > static_cast<double>(least[c]) - 1e-6) continue;
-        is_fixed[c] = 1;
-        samples[c] = least[c];
-        free_samples -= least[c];
-        free_mass -= masses[c];
-        changed = true;
-      }
-    }
-  }
-
-  // Remainders are compared up to 1e-6, so that rounding does not decide between equal components.
-  std::vector<std::pair<long, std::size_t>> remainders;
-  std::size_t left = free_samples;
-  for (std::size_t c = 0; c < components; ++c) {
-    if (is_fixed[c]) continue;
-    const double quota = masses[c] / free_mass * static_cast<double>(free_samples);
-    samples[c] = (std::min)(left, static_cast<std::size_t>(quota + 1e-7));
-    left -= samples[c];
-    const double remainder = quota - static_cast<double>(samples[c]);
-    remainders.emplace_back(-std::lround(remainder * 1e6 / 3), c);
-  }
-  std::sort(remainders.begin(), remainders.end());
-  for (std::size_t k = 0; left > 0; k = (k + 1) % remainders.size(), --left)
-    ++samples[remainders[k].second];
-  return samples;
 }
 
 /// Appends the point of facet `f` with the barycentric coordinates `b`.
@@ -187,6 +140,40 @@ inline std::vector<int> draw_by_elimination(Samples candidates, const Feature_sa
   constexpr double radians = 3.14159265358979323846 / 180;
   return eliminate_samples(candidates.points, candidates.normals, radii,
                            std::cos(normal_angle * radians), n, candidates.size() - count);
+}
+
+/// By `Sampling::random` or `Sampling::elimination`, one component after another.
+inline Samples draw_samples(const Surface& surface, const Remeshing_options& options,
+                            const Feature_samples& features, const std::vector<int>& component,
+                            const std::vector<Component_share>& shares)
+{
+  const bool eliminate = options.sampling == Sampling::elimination;
+  const Facet_distribution distribution =
+      facet_distribution(component, static_cast<int>(shares.size()), [&](int f) {
+        return eliminate ? density_mass(surface, f) : surface.facet_areas[f];
+      });
+  Random_source random(options.random_seed);
+  Samples samples;
+  for (std::size_t c = 0; c < shares.size(); ++c) {
+    const std::size_t n = shares[c].samples;
+    if (n == 0) continue;
+    const auto count =
+        static_cast<std::size_t>(std::ceil(static_cast<double>(n) * options.oversampling));
+    const Samples candidates = eliminate
+                                   ? stratified_candidates(surface, distribution, c, count, random)
+                                   : random_candidates(surface, distribution, c, count, random);
+    const std::vector<int> chosen =
+        eliminate ? draw_by_elimination(candidates, features, static_cast<int>(c),
+                                        shares[c].cell_mass, n, options.normal_angle)
+                  : draw_by_density(candidates, n, random);
+    for (const int i : chosen) {
+      samples.points.push_back(candidates.points[i]);
+      samples.facets.push_back(candidates.facets[i]);
+      samples.normals.push_back(candidates.normals[i]);
+      samples.density.push_back(candidates.density[i]);
+    }
+  }
+  return samples;
 }
 
 } // namespace internal

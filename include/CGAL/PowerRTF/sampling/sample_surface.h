@@ -9,10 +9,16 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 
+#include <CGAL/tags.h>
+
 namespace CGAL::PowerRTF {
+
+class Facet_tree;
 
 /// Puts exactly `options.number_of_samples` samples on the surface, by `options.sampling`:
 ///
+/// - `lattice`: a hexagonal lattice wherever the surface lets it be one, see `Lattice_sampler`.
+/// - `stratified`: a random point in each of n parts of equal mass.
 /// - `random`: the paper's. m n points, uniform by area; n of them are kept, with probability
 ///   proportional to the density.
 /// - `elimination`: m n points distributed like the density, and weighted sample elimination down
@@ -21,11 +27,15 @@ namespace CGAL::PowerRTF {
 /// Every component of the surface gets its share by mass (the integral of the density), and at
 /// least 4 samples when n allows it; components are sampled one after another.
 /// \returns the samples with their facets; normals and density are interpolated over the facet,
-///   weights are 0. The same seed gives the same samples, also for a scaled surface.
-/// \param features samples that are there already, on the patches' boundaries; they count among the
-/// n \throws Invalid_input_error an option has a value that is not allowed
+///   weights are 0. The same seed gives the same samples, also for a scaled surface (a lattice, which
+///   is found in single precision: if the factor is a power of two).
+/// \param features samples that are there already, on the patches' boundaries; they count among
+///   the n
+/// \param tree of the surface's facets; null: it is made where it is needed
+/// \throws Invalid_input_error an option has a value that is not allowed
+template <class ConcurrencyTag = Sequential_tag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
-                       const Feature_samples& features = {});
+                       const Feature_samples& features = {}, const Facet_tree* tree = nullptr);
 
 } // namespace CGAL::PowerRTF
 

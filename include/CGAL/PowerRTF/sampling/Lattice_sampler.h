@@ -1,0 +1,290 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Samples that begin as a hexagonal lattice wherever the surface lets them:
+//
+//   put nodes on the surface, `nodes_per_sample` times as many as samples
+//   find the directions of the rows on them (orientation_field.h)
+//   repeat: find the places of the lattice's points (position_field.h), count them, and scale the
+//     spacing, until there are n of them but for 2 %
+//   candidates: the lattice's points, and nodes in gaps between them; all nodes of components that
+//     are too small for a lattice
+//   eliminate those that are most crowded, until n are left
+#ifndef CGAL_POWER_RTF_SAMPLING_LATTICE_SAMPLER_H
+#define CGAL_POWER_RTF_SAMPLING_LATTICE_SAMPLER_H
+
+#include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/sampling/Lattice_field.h>
+#include <CGAL/PowerRTF/sampling/Surface_strata.h>
+#include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/lattice_points.h>
+#include <CGAL/PowerRTF/sampling/sample_elimination.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// A point that may become a sample.
+struct Sample_candidate {
+  Vec3d point;
+  int node;       ///< where the lattice is seen from
+  float distance; ///< of the two, relative to the spacing; -1: the point is the node
+};
+
+template <class Backend>
+class Lattice_sampler {
+public:
+  /// Keeps references. `tree`: of the surface's facets. `component`: of each facet.
+  Lattice_sampler(Backend& backend, const Surface& surface, const Facet_tree& tree,
+                  const Feature_samples& features, const std::vector<int>& component,
+                  const std::vector<Component_share>& shares, std::uint64_t seed)
+      : m_backend(backend), m_surface(surface), m_tree(tree), m_features(features),
+        m_component(component), m_shares(shares), m_seed(seed)
+  {
+    for (const Component_share& share : shares) m_size += share.samples;
+    Box3<double> box{surface.points[0], surface.points[0]};
+    for (const Vec3d& p : surface.points) box.add(p);
+    const Vec3d size = box.hi - box.lo;
+    m_middle = 0.5 * (box.lo + box.hi);
+    m_scale = 2 / (std::max)({size.x, size.y, size.z});
+  }
+
+  Samples run()
+  {
+    make_nodes();
+    Lattice_field<Backend> field(m_backend, m_levels, m_seed);
+    field.orient();
+    double scale = 0.98; // rows that end cost points
+    for (int step = 0;; ++step) {
+      field.place(static_cast<float>(scale));
+      choose_points(field.view());
+      const double count = static_cast<double>(distinct_points(field.view()));
+      const double wanted = static_cast<double>(m_size);
+      if (step == max_scalings || std::fabs(count - wanted) <= tolerance * wanted || count == 0)
+        break;
+      scale *= std::sqrt(count / wanted);
+    }
+    add_gaps(field.view());
+    return eliminate();
+  }
+
+private:
+  static constexpr double nodes_per_sample = 6, coarsening = 2, tolerance = 0.02;
+  static constexpr int coarsest_level = 64, max_scalings = 2;
+  static constexpr std::size_t min_lattice = 50;                 // samples of a component
+  static constexpr double cos_same_side = 0.2;                   // of normals
+  static constexpr double twin_distance = 0.6, gap_radius = 0.7; // relative to the spacing
+
+  void make_nodes()
+  {
+    const Surface_strata strata(m_surface, m_component, m_shares);
+    double count = nodes_per_sample * static_cast<double>(m_size);
+    for (int level = 0;; ++level, count /= coarsening) {
+      m_levels.emplace_back();
+      add_strata(strata, static_cast<int>(std::ceil(count)), m_levels.back());
+      add_sites(std::size_t(1) << level / 2, m_levels.back()); // as much farther apart as nodes
+      if (count <= coarsest_level) break;
+    }
+  }
+
+  void add_strata(const Surface_strata& strata, int count, Lattice_nodes& nodes)
+  {
+    std::vector<Facet_place> places(count);
+    m_backend.for_each(
+        count, [&](int i) { places[i] = strata.place(i, count, m_seed + m_levels.size()); });
+    nodes.free = count;
+    for (const Facet_place& place : places) {
+      const auto& [f, w] = place;
+      const Triangle& t = m_surface.triangles[f];
+      const auto& p = m_surface.points;
+      add_node(w[0] * p[t[0]] + w[1] * p[t[1]] + w[2] * p[t[2]],
+               interpolated_normal(m_surface, f, w), interpolated_density(m_surface, f, w),
+               m_component[f], nodes);
+      if (m_levels.size() == 1) m_facets.push_back(f);
+    }
+    nodes.directions.assign(count, Phasor{});
+    nodes.is_directed.assign(count, 0);
+  }
+
+  /// Every `stride`-th of the sites on creases and borders. The lattice's rows follow these where
+  /// they do not turn.
+  void add_sites(std::size_t stride, Lattice_nodes& nodes)
+  {
+    constexpr double straight = 0.8; // cosine
+    const Samples& sites = m_features.sites;
+    std::vector<int> before(sites.size(), -1);
+    for (std::size_t s = 0; s < sites.size(); ++s)
+      if (m_features.next[s] >= 0) before[m_features.next[s]] = static_cast<int>(s);
+    for (std::size_t s = 0; s < sites.size(); s += stride) {
+      add_node(sites.points[s], sites.normals[s], sites.density[s], m_component[sites.facets[s]],
+               nodes);
+      const auto way = [&](int from, int to) {
+        return from < 0 || to < 0 ? Vec3d{0, 0, 0}
+                                  : normalized(sites.points[to] - sites.points[from]);
+      };
+      const int at = static_cast<int>(s);
+      const Vec3d in = way(before[s], at), out = way(at, m_features.next[s]);
+      const Tangent_frame<double> frame(sites.normals[s]);
+      const Vec3d along = in + out;
+      const bool is_directed = dot(in, out) > straight;
+      nodes.is_directed.push_back(is_directed);
+      nodes.directions.push_back(
+          is_directed ? unit(sixth_power(unit({static_cast<float>(dot(along, frame.u)),
+                                               static_cast<float>(dot(along, frame.v))})))
+                      : Phasor{});
+    }
+  }
+
+  void add_node(const Vec3d& point, const Vec3d& normal, double density, int component,
+                Lattice_nodes& nodes) const
+  {
+    nodes.points.push_back((point - m_middle) * m_scale);
+    nodes.normals.push_back(
+        {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)});
+    nodes.components.push_back(component);
+    const double cell = m_shares[component].cell_mass / density; // sqrt(3) / 2 h^2
+    nodes.spacing.push_back(static_cast<float>(m_scale * std::sqrt(2 / std::sqrt(3.) * cell)));
+  }
+
+  void choose_points(const Lattice_view& view)
+  {
+    typename Backend::template Buffer<Seen_point> seen;
+    typename Backend::template Buffer<unsigned char> is_chosen;
+    typename Backend::template Buffer<Vec3d> points;
+    seen.allocate(m_backend, view.size);
+    is_chosen.allocate(m_backend, view.free);
+    points.allocate(m_backend, view.free);
+    m_backend.for_each(view.size, See_points{view, seen.data()});
+    m_backend.for_each(view.free,
+                       Choose_points{view, seen.data(), is_chosen.data(), points.data()});
+    m_candidates.clear();
+    for (int i = 0; i < view.free; ++i)
+      if (is_chosen.data()[i])
+        m_candidates.push_back({points.data()[i], i, seen.data()[i].distance});
+  }
+
+  /// Where the field does not fit, points come twice.
+  std::size_t distinct_points(const Lattice_view& view)
+  {
+    std::vector<Vec3d> points;
+    for (const Sample_candidate& c : m_candidates) points.push_back(c.point);
+    const Point_tree tree(points);
+    std::vector<char> is_distinct(points.size());
+    m_backend.for_each(static_cast<int>(points.size()), [&](int c) {
+      const Sample_candidate& own = m_candidates[c];
+      is_distinct[c] = !tree.view().any_near(
+          own.point, twin_distance * double(view.spacing[own.node]), [&](int o) {
+            const Sample_candidate& other = m_candidates[o];
+            return o != c && sees(view, own.node, other.node) &&
+                   (other.distance < own.distance || (other.distance == own.distance && o < c));
+          });
+    });
+    return std::accumulate(is_distinct.begin(), is_distinct.end(), std::size_t(0));
+  }
+
+  static bool sees(const Lattice_view& view, int i, int j)
+  {
+    return view.components[i] == view.components[j] && dot(view.normals[i], view.normals[j]) > 0;
+  }
+
+  void add_gaps(const Lattice_view& view)
+  {
+    std::vector<Vec3d> points;
+    std::vector<int> nodes;
+    for (const Sample_candidate& c : m_candidates) {
+      points.push_back(c.point);
+      nodes.push_back(c.node);
+    }
+    for (int i = view.free; i < view.size; ++i) {
+      points.push_back(view.points[i]);
+      nodes.push_back(i);
+    }
+    const Point_tree tree(points);
+    std::vector<char> is_gap(view.free);
+    m_backend.for_each(view.free, [&](int i) {
+      is_gap[i] = m_shares[view.components[i]].samples < min_lattice ||
+                  !tree.view().any_near(view.points[i], gap_radius * double(view.spacing[i]),
+                                        [&](int c) { return sees(view, i, nodes[c]); });
+    });
+    for (int i = 0; i < view.free; ++i)
+      if (is_gap[i]) m_candidates.push_back({view.points[i], i, -1});
+  }
+
+  /// The samples of each component from its candidates.
+  Samples eliminate()
+  {
+    const Lattice_nodes& nodes = m_levels.front();
+    std::vector<std::vector<int>> candidates(m_shares.size()), sites(m_shares.size());
+    for (std::size_t k = 0; k < m_candidates.size(); ++k)
+      candidates[nodes.components[m_candidates[k].node]].push_back(static_cast<int>(k));
+    for (int i = nodes.free; i < nodes.size(); ++i) sites[nodes.components[i]].push_back(i);
+    Samples samples;
+    for (std::size_t c = 0; c < m_shares.size(); ++c) {
+      if (m_shares[c].samples == 0) continue;
+      if (candidates[c].size() < m_shares[c].samples) // no lattice fits
+        for (int i = 0; i < nodes.free; ++i) {
+          if (nodes.components[i] != static_cast<int>(c)) continue;
+          candidates[c].push_back(static_cast<int>(m_candidates.size()));
+          m_candidates.push_back({nodes.points[i], i, -1});
+        }
+      std::vector<Vec3d> points, normals;
+      std::vector<double> radii;
+      const auto add = [&](const Vec3d& point, int i) {
+        const Vec3f n = nodes.normals[i];
+        points.push_back(point);
+        normals.push_back({n.x, n.y, n.z});
+        radii.push_back(0.5 * double(nodes.spacing[i]));
+      };
+      for (const int k : candidates[c]) add(m_candidates[k].point, m_candidates[k].node);
+      for (const int i : sites[c]) add(nodes.points[i], i);
+      for (const int k :
+           eliminate_samples(points, normals, radii, 0, m_shares[c].samples, sites[c].size())) {
+        const Sample_candidate& chosen = m_candidates[candidates[c][k]];
+        add_on_surface(chosen, samples);
+      }
+    }
+    return samples;
+  }
+
+  /// The candidate's nearest point of the surface, on the node's side of a sheet.
+  void add_on_surface(const Sample_candidate& candidate, Samples& samples) const
+  {
+    const Vec3d point = candidate.point * (1 / m_scale) + m_middle;
+    const Vec3f n = m_levels.front().normals[candidate.node];
+    const int near = m_facets[candidate.node];
+    const Surface_point<double> on =
+        m_tree.nearest(point, Vec3d{n.x, n.y, n.z}, cos_same_side, near);
+    const int f = on.facet < 0 ? near : on.facet;
+    const Triangle& t = m_surface.triangles[f];
+    const auto& p = m_surface.points;
+    double beta, gamma;
+    barycentric_coordinates(point, p[t[0]], p[t[1]], p[t[2]], beta, gamma);
+    internal::add_sample(m_surface, f, {1 - beta - gamma, beta, gamma}, samples);
+  }
+
+  Backend& m_backend;
+  const Surface& m_surface;
+  const Facet_tree& m_tree;
+  const Feature_samples& m_features;
+  const std::vector<int>& m_component;
+  const std::vector<Component_share>& m_shares;
+  std::uint64_t m_seed;
+  // The nodes' coordinates are those of the cube around the surface, whose size then does not
+  // decide how single precision rounds.
+  Vec3d m_middle;
+  double m_scale;
+  std::size_t m_size = 0;
+  std::vector<Lattice_nodes> m_levels; // from fine to coarse
+  std::vector<int> m_facets;           // of the free nodes of the finest level
+  std::vector<Sample_candidate> m_candidates;
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SAMPLING_LATTICE_SAMPLER_H

@@ -1,0 +1,116 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How many samples each component of the surface gets.
+#ifndef CGAL_POWER_RTF_SAMPLING_COMPONENT_SHARES_H
+#define CGAL_POWER_RTF_SAMPLING_COMPONENT_SHARES_H
+
+#include <CGAL/PowerRTF/features/sample_features.h>
+#include <CGAL/PowerRTF/features/topology_minimum.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// What a component of the surface gets.
+struct Component_share {
+  std::size_t samples = 0; ///< without those on creases and borders
+  double mass = 0;         ///< the integral of the density
+  double cell_mass = 0;    ///< what is a sample's of it
+};
+
+namespace internal {
+
+/// Shares `n` samples among components in proportion to their masses, by the method of the largest
+/// remainder; no component gets fewer than its least number if `n` allows (none without mass gets
+/// any).
+inline std::vector<std::size_t> allocate_samples(const std::vector<double>& masses,
+                                                 const std::vector<std::size_t>& least,
+                                                 std::size_t n)
+{
+  const std::size_t components = masses.size();
+  std::vector<std::size_t> samples(components, 0);
+  std::vector<char> is_fixed(components, 0);
+  for (std::size_t c = 0; c < components; ++c) is_fixed[c] = !(masses[c] > 0);
+  std::size_t free_samples = n;
+  double free_mass = std::accumulate(masses.begin(), masses.end(), 0.);
+  if (n >= std::accumulate(least.begin(), least.end(), std::size_t(0))) {
+    for (bool changed = true; changed;) { // each fixed component takes samples from the others
+      changed = false;
+      const double per_mass = static_cast<double>(free_samples) / free_mass;
+      for (std::size_t c = 0; c < components; ++c) {
+        if (is_fixed[c] || masses[c] * per_mass > static_cast<double>(least[c]) - 1e-6) continue;
+        is_fixed[c] = 1;
+        samples[c] = least[c];
+        free_samples -= least[c];
+        free_mass -= masses[c];
+        changed = true;
+      }
+    }
+  }
+
+  // Remainders are compared up to 1e-6, so that rounding does not decide between equal components.
+  std::vector<std::pair<long, std::size_t>> remainders;
+  std::size_t left = free_samples;
+  for (std::size_t c = 0; c < components; ++c) {
+    if (is_fixed[c]) continue;
+    const double quota = masses[c] / free_mass * static_cast<double>(free_samples);
+    samples[c] = (std::min)(left, static_cast<std::size_t>(quota + 1e-7));
+    left -= samples[c];
+    const double remainder = quota - static_cast<double>(samples[c]);
+    remainders.emplace_back(-std::lround(remainder * 1e6 / 3), c);
+  }
+  std::sort(remainders.begin(), remainders.end());
+  for (std::size_t k = 0; left > 0; k = (k + 1) % remainders.size(), --left)
+    ++samples[remainders[k].second];
+  return samples;
+}
+
+/// The integral of the density over facet `f`.
+inline double density_mass(const Surface& surface, int f)
+{
+  const Triangle& t = surface.triangles[f];
+  const auto& rho = surface.vertex_density;
+  return surface.facet_areas[f] * (rho[t[0]] + rho[t[1]] + rho[t[2]]) / 3;
+}
+
+} // namespace internal
+
+/// Shares `n` samples, those of `features` among them, by the components' masses; each gets as many
+/// as its topology needs if `n` allows. \param component of each facet
+inline std::vector<Component_share> component_shares(const Surface& surface, std::size_t n,
+                                                     const Feature_samples& features,
+                                                     const std::vector<int>& component)
+{
+  std::vector<std::size_t> least;
+  for (const Component_topology& c : component_topologies(surface))
+    least.push_back(c.least_samples());
+  std::vector<double> masses(least.size(), 0);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
+  std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
+  const double cell_mass = density_integral(surface) / equivalent_cells(n, features);
+  for (std::size_t s = 0; s < features.sites.size(); ++s) {
+    const int c = features.sites.patches[s];
+    least[c] = 0;
+    free_masses[c] = (std::max)(0., free_masses[c] - features.shares[s] * cell_mass);
+  }
+  if (!(*std::max_element(free_masses.begin(), free_masses.end()) > 0)) free_masses = masses;
+  const std::vector<std::size_t> samples =
+      internal::allocate_samples(free_masses, least, n - features.size());
+  std::vector<Component_share> shares;
+  for (std::size_t c = 0; c < masses.size(); ++c)
+    shares.push_back(
+        {samples[c], masses[c],
+         features.size() > 0 ? cell_mass : masses[c] / static_cast<double>(samples[c])});
+  return shares;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SAMPLING_COMPONENT_SHARES_H

@@ -1,0 +1,171 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The nodes that carry the fields of a lattice: points of the surface with their nearest compatible
+// neighbors, so that the input's tessellation does not matter.
+#ifndef CGAL_POWER_RTF_SAMPLING_LATTICE_NODES_H
+#define CGAL_POWER_RTF_SAMPLING_LATTICE_NODES_H
+
+#include <CGAL/PowerRTF/geometry/Point_tree.h>
+#include <CGAL/PowerRTF/geometry/Tangent_frame.h>
+#include <CGAL/PowerRTF/sampling/phasor.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace CGAL::PowerRTF {
+
+using Vec3f = Vec3<float>;
+
+/// What a node knows of a neighbor's lattice.
+struct Lattice_edge {
+  int node;       ///< the neighbor; -1: there is none, nor any after it
+  int sixths;     ///< of a turn, from this node's axis to the neighbor's
+  Phasor turn[2]; ///< what its phasors are multiplied by
+};
+
+/// The waves whose crests are the rows of a hexagonal lattice, in the three directions: wave k has
+/// the wave vector b_k, b_0 = (1, -1/sqrt 3) / h, b_1 = (0, 2/sqrt 3) / h, b_2 = -b_0 - b_1 in the
+/// frame of the node's axis, and its phase at the node is b_k (node - p) turns, for any point p of
+/// the lattice.
+struct Waves {
+  static constexpr int size = 3;
+  Phasor wave[size];
+};
+
+/// Nodes of one level of the hierarchy. Non-owning.
+struct Lattice_view {
+  static constexpr int degree = 8; ///< a node's neighbors, at most
+
+  int size = 0;
+  int free = 0; ///< nodes from there on are sites on creases and borders
+  const Vec3d* points = nullptr;
+  const Vec3f* normals = nullptr;  ///< unit
+  const int* components = nullptr; ///< of the surface
+  const float* spacing = nullptr;  ///< h, the distance between neighbors in the lattice
+  Lattice_edge* edges = nullptr;   ///< `degree` per node, by increasing distance
+
+  Vec3f* turning = nullptr;     ///< angle of the lattice per length; see `Set_turning`
+  Phasor* directions = nullptr; ///< of the axes in their `Tangent_frame`, six times the angle
+  Vec3f* axes = nullptr;        ///< unit tangents along a row of the lattice
+  Waves* waves = nullptr;
+
+  CGAL_POWER_RTF_HD Lattice_edge* first_edge(int i) const
+  {
+    return edges + static_cast<std::size_t>(degree) * i;
+  }
+};
+
+/// The node of the coarser level whose part of the surface has that of free node `i`.
+CGAL_POWER_RTF_HD inline int coarse_node(const Lattice_view& coarse, const Lattice_view& fine,
+                                         int i)
+{
+  return static_cast<int>(static_cast<long long>(i) * coarse.free / fine.free);
+}
+
+/// From node `j` of one level to node `i` of the same or another.
+CGAL_POWER_RTF_HD inline Vec3f step_between(const Lattice_view& from, int j, const Lattice_view& to,
+                                            int i)
+{
+  const Vec3d d = to.points[i] - from.points[j];
+  return {float(d.x), float(d.y), float(d.z)};
+}
+
+/// The angle by which the lattice turns on that way, by the trapezoidal rule.
+CGAL_POWER_RTF_HD inline float turning_between(const Lattice_view& from, int j,
+                                               const Lattice_view& to, int i)
+{
+  return 0.5f * dot(from.turning[j] + to.turning[i], step_between(from, j, to, i));
+}
+
+/// Whether two normals agree enough for a field to be carried from one to the other.
+CGAL_POWER_RTF_HD inline bool is_carried(const Vec3f& a, const Vec3f& b)
+{
+  return dot(a, b) > -0.9f;
+}
+
+/// The tangent `v` where the normal is `a`, carried to where it is `b` by the least rotation.
+CGAL_POWER_RTF_HD inline Vec3f carried(const Vec3f& v, const Vec3f& a, const Vec3f& b)
+{
+  return v - (dot(v, b) / (1 + dot(a, b))) * (a + b);
+}
+
+/// The nearest nodes of the same component whose normals agree (NVISPC).
+struct Find_lattice_neighbors {
+  Lattice_view view;
+  Point_tree_view tree;
+  float cos_angle;
+  float reach; ///< distance within which most have so many, relative to the spacing
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    constexpr int enough = 4;
+    int found[Lattice_view::degree], count = 0;
+    for (double radius = reach * view.spacing[i]; count < enough; radius = 4) { // the unit box's
+      count = tree.nearest<Lattice_view::degree>(view.points[i], radius, found, [&](int j) {
+        return j != i && view.components[j] == view.components[i] &&
+               dot(view.normals[i], view.normals[j]) > cos_angle;
+      });
+      if (radius >= 4) break;
+    }
+    Lattice_edge* const edges = view.first_edge(i);
+    for (int e = 0; e < Lattice_view::degree; ++e) edges[e].node = e < count ? found[e] : -1;
+  }
+};
+
+/// Calls `f(edge)` for the edges of node `i`.
+template <class F>
+CGAL_POWER_RTF_HD inline void for_each_edge(const Lattice_view& view, int i, F&& f)
+{
+  Lattice_edge* const edges = view.first_edge(i);
+  for (int e = 0; e < Lattice_view::degree && edges[e].node >= 0; ++e) f(edges[e]);
+}
+
+/// How fast a lattice turns whose spacing varies. Rows of a lattice that is deformed without shear
+/// are the images of straight lines under a conformal map, dz/dw = h e^(i theta), which has an
+/// analytic logarithm: by Cauchy's and Riemann's equations grad theta = n x grad log h.
+struct Set_turning {
+  Lattice_view view;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    const Tangent_frame<float> frame(view.normals[i]);
+    float xx = 0, xy = 0, yy = 0, xh = 0, yh = 0; // least squares over the neighbors
+    for_each_edge(view, i, [&](const Lattice_edge& edge) {
+      const Vec3f d = step_between(view, i, view, edge.node);
+      const float x = dot(d, frame.u), y = dot(d, frame.v);
+      const float growth = std::log(view.spacing[edge.node] / view.spacing[i]);
+      xx += x * x;
+      xy += x * y;
+      yy += y * y;
+      xh += x * growth;
+      yh += y * growth;
+    });
+    const float determinant = xx * yy - xy * xy;
+    view.turning[i] = {0, 0, 0};
+    if (!(determinant > 1e-3f * xx * yy)) return;
+    const float gx = (yy * xh - xy * yh) / determinant, gy = (xx * yh - xy * xh) / determinant;
+    view.turning[i] = gx * frame.v - gy * frame.u;
+  }
+};
+
+/// One sweep that takes the noise out of the turning.
+struct Smooth_turning {
+  Lattice_view view;
+  Vec3f* result;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    Vec3f sum = view.turning[i];
+    int count = 1;
+    for_each_edge(view, i, [&](const Lattice_edge& edge) {
+      sum += view.turning[edge.node];
+      ++count;
+    });
+    result[i] = (1.f / float(count)) * sum;
+  }
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SAMPLING_LATTICE_NODES_H

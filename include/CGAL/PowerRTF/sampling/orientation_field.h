@@ -1,0 +1,84 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The direction of the lattice's rows: a field of tangents that count up to sixths of a turn
+// (6-RoSy), as smooth as it can be. An angle theta in the node's tangent frame is kept as the
+// phasor u = e^(6 i theta), and the field minimizes sum |u_i - t_ij u_j|^2 over the neighbors, |u|
+// = 1, where t_ij carries a direction from j to i: the field of Knoeppel, Crane, Pinkall and
+// Schroeder, "Globally optimal direction fields" (2013), found from coarse to fine as in Jakob,
+// Tarini, Panozzo and Sorkine-Hornung, "Instant field-aligned meshes" (2015).
+#ifndef CGAL_POWER_RTF_SAMPLING_ORIENTATION_FIELD_H
+#define CGAL_POWER_RTF_SAMPLING_ORIENTATION_FIELD_H
+
+#include <CGAL/PowerRTF/sampling/lattice_nodes.h>
+
+namespace CGAL::PowerRTF {
+
+/// t_ij = e^(6 i a): `a` is the angle between the frames of node `j` and node `i`, carried along
+/// the surface, and what the lattice turns on the way.
+CGAL_POWER_RTF_HD inline Phasor direction_turn(const Lattice_view& from, int j,
+                                               const Lattice_view& to, int i)
+{
+  const Vec3f n = to.normals[i];
+  if (!is_carried(from.normals[j], n)) return {};
+  const Tangent_frame<float> from_frame(from.normals[j]), frame(n);
+  const Vec3f u = carried(from_frame.u, from.normals[j], n);
+  const float turns = 6 * 0.159154943f * turning_between(from, j, to, i);
+  return sixth_power({dot(u, frame.u), dot(u, frame.v)}) * phasor_at(turns);
+}
+
+struct Set_direction_edges {
+  Lattice_view view;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    for_each_edge(view, i, [&](Lattice_edge& edge) {
+      edge.turn[0] = direction_turn(view, edge.node, view, i);
+    });
+  }
+};
+
+/// The first guess of free node i: the direction of its coarse node.
+struct Refine_direction {
+  Lattice_view coarse, fine;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    const int j = coarse_node(coarse, fine, i);
+    fine.directions[i] = direction_turn(coarse, j, fine, i) * coarse.directions[j];
+  }
+};
+
+/// One sweep: u_i <- (u_i + sum t_ij u_j) / |...|.
+struct Smooth_direction {
+  Lattice_view view;
+  const unsigned char* is_fixed;
+  Phasor* result;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    Phasor sum = view.directions[i];
+    if (!is_fixed[i]) {
+      for_each_edge(view, i, [&](const Lattice_edge& edge) {
+        sum = sum + edge.turn[0] * view.directions[edge.node];
+      });
+      sum = unit(sum);
+    }
+    result[i] = sum;
+  }
+};
+
+struct Set_axis {
+  Lattice_view view;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    const Tangent_frame<float> frame(view.normals[i]);
+    const Phasor a = phasor_at(turns_of(view.directions[i]) / 6);
+    view.axes[i] = a.x * frame.u + a.y * frame.v;
+  }
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SAMPLING_ORIENTATION_FIELD_H

@@ -1,0 +1,144 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where the lattice's points lie: each node has the phases of the three waves (`Waves`) that have
+// their crests in the lattice's points. From a neighbor they come with the phase that the waves
+// pass through on the way, b_k d turns, and the field minimizes sum |w_i - t_ij w_j|^2, |w| = 1.
+// Phases that do not fit around a loop make a dislocation: a row ends there. (The position field
+// of Jakob, Tarini, Panozzo and Sorkine-Hornung, "Instant field-aligned meshes", 2015, with the
+// phases of Knoeppel, Crane, Pinkall and Schroeder, "Stripe patterns on surfaces", 2015.)
+#ifndef CGAL_POWER_RTF_SAMPLING_POSITION_FIELD_H
+#define CGAL_POWER_RTF_SAMPLING_POSITION_FIELD_H
+
+#include <CGAL/PowerRTF/sampling/lattice_nodes.h>
+
+namespace CGAL::PowerRTF {
+
+/// A vector in the frame of a node's axis, in units of the spacing.
+struct Lattice_vector {
+  float x, y;
+};
+
+/// `v`, of the given length, in the frame of node `i`: unrolled, not projected.
+CGAL_POWER_RTF_HD inline Lattice_vector unrolled(const Lattice_view& view, int i, const Vec3f& v,
+                                                 float length)
+{
+  const Vec3f axis = view.axes[i];
+  const float x = dot(v, axis), y = dot(v, cross(view.normals[i], axis));
+  const float flat = std::sqrt(x * x + y * y);
+  const float factor = length / ((flat > 0.1f * length ? flat : 0.1f * length) * view.spacing[i]);
+  return length > 0 ? Lattice_vector{factor * x, factor * y} : Lattice_vector{0, 0};
+}
+
+/// What the waves of node `j` need to become those of node `i`: the waves seen from a lattice that
+/// is turned by sixths, and the phases of the way, the mean of those that the two nodes see.
+CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
+                                                const Lattice_view& to, int i)
+{
+  const Vec3f n = to.normals[i], axis = carried(from.axes[j], from.normals[j], n);
+  const Phasor turned = // from the axis of i to that of j
+      Phasor{dot(axis, to.axes[i]), dot(axis, cross(n, to.axes[i]))} *
+      phasor_at(0.159154943f * turning_between(from, j, to, i));
+  Lattice_edge edge{};
+  edge.node = j;
+  Phasor best{1, 0};
+  for (int k = 1; k < 6; ++k) {
+    constexpr float half = 0.5f, root = 0.866025404f; // sqrt 3 / 2
+    const float cosines[6] = {1, half, -half, -1, -half, half};
+    const float sines[6] = {0, root, root, 0, -root, -root};
+    if (turned.x * cosines[k] + turned.y * sines[k] <= turned.x * best.x + turned.y * best.y)
+      continue;
+    best = {cosines[k], sines[k]};
+    edge.sixths = k;
+  }
+  const Vec3f d = step_between(from, j, to, i);
+  const float distance = length(d);
+  const Lattice_vector here = unrolled(to, i, d, distance), there = unrolled(from, j, d, distance);
+  const float x = 0.5f * (here.x + best.x * there.x - best.y * there.y);
+  const float y = 0.5f * (here.y + best.y * there.x + best.x * there.y);
+  constexpr float slope = 0.577350269f; // 1 / sqrt 3
+  edge.turn[0] = phasor_at(x - slope * y);
+  edge.turn[1] = phasor_at(2 * slope * y);
+  return edge;
+}
+
+/// The waves of the edge's node as they arrive.
+CGAL_POWER_RTF_HD inline Waves carried(const Lattice_edge& edge, const Waves& from)
+{
+  const Phasor turn[] = {edge.turn[0], edge.turn[1], conjugate(edge.turn[0] * edge.turn[1])};
+  Waves to;
+  for (int k = 0; k < Waves::size; ++k) {
+    const Phasor wave = from.wave[(k + edge.sixths) % Waves::size];
+    to.wave[k] = turn[k] * (edge.sixths % 2 ? conjugate(wave) : wave);
+  }
+  return to;
+}
+
+struct Set_wave_edges {
+  Lattice_view view;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    for_each_edge(view, i, [&](Lattice_edge& edge) { edge = wave_edge(view, edge.node, view, i); });
+  }
+};
+
+/// The first guess of free node i: the lattice of its coarse node.
+struct Refine_waves {
+  Lattice_view coarse, fine;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    const int j = coarse_node(coarse, fine, i);
+    fine.waves[i] = is_carried(coarse.normals[j], fine.normals[i])
+                        ? carried(wave_edge(coarse, j, fine, i), coarse.waves[j])
+                        : Waves{};
+  }
+};
+
+/// One sweep: w_i <- (w_i + sum t_ij w_j) / |...|.
+struct Smooth_waves {
+  Lattice_view view;
+  Waves* result;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    Waves sum = view.waves[i];
+    for_each_edge(view, i, [&](const Lattice_edge& edge) {
+      const Waves waves = carried(edge, view.waves[edge.node]);
+      for (int k = 0; k < Waves::size; ++k) sum.wave[k] = sum.wave[k] + waves.wave[k];
+    });
+    for (int k = 0; k < Waves::size; ++k) result[i].wave[k] = unit(sum.wave[k]);
+  }
+};
+
+/// The lattice's point that is nearest to node i, in the node's tangent plane; `distance`: from the
+/// node, relative to the spacing.
+CGAL_POWER_RTF_HD inline Vec3d nearest_lattice_point(const Lattice_view& view, int i,
+                                                     float& distance)
+{
+  const Waves& w = view.waves[i];
+  const float phases[] = {turns_of(w.wave[0]), turns_of(w.wave[1]), turns_of(w.wave[2])};
+  // The three have the sum 0 but for full turns; what is left is shared.
+  const float sum = phases[0] + phases[1] + phases[2];
+  const float excess = (sum - std::floor(sum + 0.5f)) / 3;
+  float x = 0, y = 0, best = 3e38f;
+  for (int m = -1; m <= 1; ++m)
+    for (int n = -1; n <= 1; ++n) { // node - p = a (1, 0) + b (1/2, sqrt 3 / 2)
+      const float a = phases[0] - excess + float(m), b = phases[1] - excess + float(n);
+      const float from_x = a + 0.5f * b, from_y = 0.866025404f * b;
+      const float squared = from_x * from_x + from_y * from_y;
+      if (squared >= best) continue;
+      best = squared;
+      x = from_x;
+      y = from_y;
+    }
+  distance = std::sqrt(best);
+  const Vec3f axis = view.axes[i];
+  const Vec3f offset = view.spacing[i] * (x * axis + y * cross(view.normals[i], axis));
+  return view.points[i] - Vec3d{offset.x, offset.y, offset.z};
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SAMPLING_POSITION_FIELD_H

@@ -1,0 +1,268 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "relative_distances.h"
+#include "shapes.h"
+
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/sampling/Lattice_field.h>
+#include <CGAL/PowerRTF/sampling/Surface_strata.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
+#include <CGAL/PowerRTF/sampling/sample_surface.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Random nodes of the square [-1/2, 1/2]^2, with arbitrary axes of a lattice with one point in
+/// `origin`, a row at `angle` and the spacing `h`: the waves are those of the perfect lattice.
+struct Flat_lattice {
+  std::vector<Vec3d> points;
+  std::vector<Vec3f> normals, turning, axes;
+  std::vector<int> components;
+  std::vector<float> spacing;
+  std::vector<Phasor> directions;
+  std::vector<Waves> waves;
+
+  Flat_lattice(int n, unsigned seed, double angle, float h, const Vec3d& origin)
+  {
+    Random_source random(seed);
+    for (int i = 0; i < n; ++i) {
+      const Vec3d p{random() - 0.5, random() - 0.5, 0};
+      const double theta = angle + pi / 3 * std::floor(6 * random());
+      points.push_back(p);
+      normals.push_back({0, 0, 1});
+      turning.push_back({0, 0, 0});
+      axes.push_back({float(std::cos(theta)), float(std::sin(theta)), 0});
+      components.push_back(0);
+      spacing.push_back(h);
+      directions.push_back(phasor_at(float(6 * theta / (2 * pi))));
+      const double x = std::cos(theta) * (p.x - origin.x) + std::sin(theta) * (p.y - origin.y);
+      const double y = std::cos(theta) * (p.y - origin.y) - std::sin(theta) * (p.x - origin.x);
+      const Phasor a = phasor_at(float((x - y / std::sqrt(3.)) / h));
+      const Phasor b = phasor_at(float(2 * y / std::sqrt(3.) / h));
+      waves.push_back({{a, b, conjugate(a * b)}});
+    }
+  }
+  Lattice_view view()
+  {
+    Lattice_view v;
+    v.size = v.free = static_cast<int>(points.size());
+    v.points = points.data();
+    v.normals = normals.data();
+    v.components = components.data();
+    v.spacing = spacing.data();
+    v.turning = turning.data();
+    v.directions = directions.data();
+    v.axes = axes.data();
+    v.waves = waves.data();
+    return v;
+  }
+};
+
+Remeshing_options options(std::size_t n, Sampling sampling, unsigned seed)
+{
+  Remeshing_options o;
+  o.number_of_samples = n;
+  o.sampling = sampling;
+  o.random_seed = seed;
+  return o;
+}
+
+double distance_of(Phasor a, Phasor b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+/// Distance of `p` to the nearest point of the lattice, relative to its spacing.
+double distance_to_lattice(const Vec3d& p, double angle, double h, const Vec3d& origin)
+{
+  const Vec3d d = (p - origin) * (1 / h);
+  const double x = std::cos(angle) * d.x + std::sin(angle) * d.y;
+  const double y = std::cos(angle) * d.y - std::sin(angle) * d.x;
+  const double row = std::round(y / std::sqrt(0.75));
+  const double at = x - 0.5 * row;
+  return std::hypot(at - std::round(at), y - std::sqrt(0.75) * row);
+}
+
+} // namespace
+
+TEST_CASE("phasors are those of the library, counted numbers are uniform")
+{
+  for (int k = -4000; k <= 4000; ++k) {
+    const float turns = float(k) / 1000.f;
+    const Phasor exact{float(std::cos(2 * pi * turns)), float(std::sin(2 * pi * turns))};
+    CHECK(distance_of(phasor_at(turns), exact) < 5e-5);
+    CHECK(std::abs(std::remainder(turns_of(exact) - turns, 1.f)) < 1e-6);
+  }
+  std::vector<int> counts(64, 0);
+  for (int i = 0; i < 64000; ++i) ++counts[int(64 * counted_random(7, i, i % 3))];
+  double chi_2 = 0;
+  for (const int c : counts) chi_2 += (c - 1000.) * (c - 1000.) / 1000;
+  CHECK(chi_2 > 25); // 63 degrees of freedom, standard deviation 11
+  CHECK(chi_2 < 110);
+}
+
+TEST_CASE("a perfect lattice is a fixed point, whatever the nodes' axes")
+{
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const double angle = 0.3 + seed;
+    const Vec3d origin{0.01 * seed, 0.02, 0};
+    Flat_lattice flat(300, seed, angle, 0.11f, origin);
+    const Lattice_view view = flat.view();
+    double worst_wave = 0, worst_direction = 0, worst_point = 0, farthest = 0;
+    for (int i = 0; i < view.size; ++i) {
+      float distance;
+      const Vec3d p = nearest_lattice_point(view, i, distance);
+      worst_point = std::max(worst_point, distance_to_lattice(p, angle, 0.11, origin));
+      farthest = std::max(farthest, double(distance));
+      const int j = (7 * i + 1) % view.size;
+      const Waves arrived = carried(wave_edge(view, j, view, i), view.waves[j]);
+      for (int k = 0; k < Waves::size; ++k)
+        worst_wave = std::max(worst_wave, distance_of(arrived.wave[k], view.waves[i].wave[k]));
+      const Phasor direction = direction_turn(view, j, view, i) * view.directions[j];
+      worst_direction = std::max(worst_direction, distance_of(direction, view.directions[i]));
+    }
+    CHECK(worst_wave < 1e-3);
+    CHECK(worst_direction < 1e-3);
+    CHECK(worst_point < 1e-3);
+    CHECK(farthest < 0.578); // of a triangle's center: 1 / sqrt 3
+  }
+}
+
+TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
+{
+  // w = log z maps such a lattice to a uniform one.
+  Flat_lattice flat(3000, 3, 0, 0.1f, {0, 0, 0});
+  std::vector<Lattice_edge> edges(flat.points.size() * Lattice_view::degree);
+  for (std::size_t i = 0; i < flat.points.size(); ++i) {
+    flat.points[i].x += 1; // away from the pole
+    flat.spacing[i] = float(0.1 * length(flat.points[i]));
+  }
+  const Point_tree tree(flat.points);
+  Lattice_view view = flat.view();
+  view.edges = edges.data();
+  for (int i = 0; i < view.size; ++i) Find_lattice_neighbors{view, tree.view(), 0, 0.85f}(i);
+  std::vector<double> errors;
+  for (int i = 0; i < view.size; ++i) {
+    Set_turning{view}(i);
+    const Vec3d p = flat.points[i];
+    const double r_2 = squared_length(p);
+    errors.push_back(std::hypot(view.turning[i].x + p.y / r_2, view.turning[i].y - p.x / r_2));
+  }
+  std::sort(errors.begin(), errors.end());
+  CHECK(errors[errors.size() / 2] < 0.02);
+  CHECK(errors[errors.size() * 99 / 100] < 0.1);
+}
+
+TEST_CASE("a flat piece gets one lattice, whatever it begins from")
+{
+  const Surface surface = shapes::make_surface(shapes::plane_patch(7, 7));
+  const Component_share share{450, surface.area, surface.area / 450};
+  const Surface_strata strata(surface, std::vector<int>(surface.triangles.size(), 0), {share});
+  std::vector<Lattice_nodes> levels;
+  for (int count = 2700; count > 32; count /= 2) {
+    Lattice_nodes nodes;
+    nodes.free = count;
+    for (int i = 0; i < count; ++i) {
+      const auto [f, w] = strata.place(i, count, 0);
+      const auto corner = [&](int k) { return surface.points[surface.triangles[f][k]]; };
+      nodes.points.push_back(w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2));
+      nodes.normals.push_back({0, 0, 1});
+    }
+    nodes.components.assign(count, 0);
+    nodes.spacing.assign(count, float(std::sqrt(2 / std::sqrt(3.) * share.cell_mass)));
+    nodes.directions.assign(count, Phasor{});
+    nodes.is_directed.assign(count, 0);
+    levels.push_back(nodes);
+  }
+  Host_backend<CGAL::Sequential_tag> backend;
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    Lattice_field<Host_backend<CGAL::Sequential_tag>> field(backend, levels, seed);
+    field.orient();
+    field.place(1);
+    const Lattice_view view = field.view();
+    double worst = 0;
+    for (int i = 1; i < view.size; ++i) {
+      worst = std::max(worst, distance_of(view.directions[i], view.directions[0]));
+      worst =
+          std::max(worst, std::abs(std::hypot(view.directions[i].x, view.directions[i].y) - 1.));
+    }
+    CHECK(worst < 0.05); // 0.5 degrees of the axes
+    int agree = 0, edges = 0;
+    for (int i = 0; i < view.size; ++i)
+      for_each_edge(view, i, [&](const Lattice_edge& edge) {
+        const Waves waves = carried(edge, view.waves[edge.node]);
+        agree += distance_of(waves.wave[0], view.waves[i].wave[0]) < 0.5;
+        ++edges;
+      });
+    CHECK(agree > 0.97 * edges); // but for some dislocations
+  }
+}
+
+TEST_CASE("the number of threads and who makes the facets' tree change nothing")
+{
+  for (const shapes::Soup& soup : {shapes::torus(20, 10, 2, 1), shapes::two_spheres(3)})
+    for (const Sampling sampling :
+         {Sampling::lattice, Sampling::stratified, Sampling::elimination}) {
+      const Surface s = shapes::make_surface(soup);
+      const Facet_tree tree(s.points, s.triangles);
+      const Remeshing_options o = options(900, sampling, 7);
+      const Samples a = sample_surface<CGAL::Sequential_tag>(s, o);
+      const Samples b = sample_surface<CGAL::Parallel_if_available_tag>(s, o, {}, &tree);
+      CHECK(a.points == b.points);
+      CHECK(a.facets == b.facets);
+      CHECK(a.patches == b.patches);
+    }
+}
+
+TEST_CASE("stratified samples: one in each part of equal mass")
+{
+  // On a square of two triangles each part is a right triangle of its area, or near it: any disc
+  // has nearly its share, which independent samples miss by the root of their number.
+  const Surface s = shapes::make_surface(shapes::plane_patch(1, 1));
+  const std::size_t n = 4096;
+  double stratified = 0, random = 0; // squared errors
+  for (unsigned seed = 0; seed < 8; ++seed)
+    for (const Sampling sampling : {Sampling::stratified, Sampling::random}) {
+      Remeshing_options o = options(n, sampling, seed);
+      o.oversampling = 1;
+      const Samples samples = sample_surface(s, o);
+      Vec3d low = samples.points[0], high = low;
+      for (const Vec3d& p : s.points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+      }
+      const Vec3d center = 0.5 * (low + high);
+      const double radius = 0.3 * (high.x - low.x);
+      double inside = 0;
+      for (const Vec3d& p : samples.points)
+        inside += std::hypot(p.x - center.x, p.y - center.y) < radius;
+      const double error = inside - n * 3.14159265358979 * radius * radius / s.area;
+      (sampling == Sampling::random ? random : stratified) += error * error / 8;
+    }
+  CHECK(stratified < 0.2 * random);
+}
+
+TEST_CASE("a lattice: most samples have their neighbors at its spacing")
+{
+  const shapes::Soup soups[] = {shapes::icosphere(4), shapes::torus(60, 30, 2, 0.8),
+                                shapes::ellipsoid(3, 2, 1, 4)};
+  for (const shapes::Soup& soup : soups)
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      const Surface s = shapes::make_surface(soup);
+      const auto lattice =
+          relative_distances(s, sample_surface(s, options(1000, Sampling::lattice, seed)));
+      CHECK(lattice.front() > 0.45);
+      CHECK(lattice[200] > 0.85);
+      CHECK(lattice[500] > 0.92);
+      CHECK(lattice.back() < 1.1);
+    }
+}
