@@ -102,10 +102,11 @@ private:
     const Triangle& t = m_surface.triangles[f];
     const auto& p = m_surface.points;
     int longest = 0;
-    double length_2 = -1;
+    double length_2 = 0;
+    constexpr double clearly = 1 + 1e-9; // rounding must not decide between equal edges
     for (int i = 0; i < 3; ++i) {
       const double l = squared_length(p[t[(i + 1) % 3]] - p[t[i]]);
-      if (l > length_2) longest = i, length_2 = l;
+      if (l > clearly * length_2) longest = i, length_2 = l;
     }
     Corners corners{};
     for (int i = 0; i < 3; ++i) corners[i][(longest + i) % 3] = 1;
