@@ -10,8 +10,8 @@
 // upper bound of it, valid for mean masses up to a limit, as the rule's change increases with the
 // mean. When the mean exceeds the limit, no cell is certified.
 //
-// What it is worth, on an H200: a whole run of the paper's preset takes 9 to 25 ms with this kernel,
-// 31 to 101 ms without it (kitten, fertility; --preset paper -n 3000 --traits cuda).
+// What it is worth, on an H200: a whole run of the paper's preset takes 9 to 25 ms with this
+// kernel, 31 to 101 ms without it (kitten, fertility; --preset paper -n 3000 --traits cuda).
 #ifndef CGAL_POWER_RTF_CUDA_WARP_WEIGHT_PASSES_CUH
 #define CGAL_POWER_RTF_CUDA_WARP_WEIGHT_PASSES_CUH
 

@@ -27,7 +27,7 @@ namespace internal {
 class Restricted_delaunay_extractor {
 public:
   Restricted_delaunay_extractor(const Surface& surface, const Samples& samples)
-      : m_surface(surface), m_samples(samples)
+      : m_samples(samples)
   {
     m_facets.reserve(surface.triangles.size());
     for (const Triangle& t : surface.triangles)
@@ -118,7 +118,6 @@ private:
     return t;
   }
 
-  const Surface& m_surface;
   const Samples& m_samples;
   Facets m_facets;
   Tree m_tree;

@@ -27,8 +27,8 @@ class Facet_tree;
 /// Every component of the surface gets its share by mass (the integral of the density), and at
 /// least 4 samples when n allows it; components are sampled one after another.
 /// \returns the samples with their facets; normals and density are interpolated over the facet,
-///   weights are 0. The same seed gives the same samples, also for a scaled surface (a lattice, which
-///   is found in single precision: if the factor is a power of two).
+///   weights are 0. The same seed gives the same samples, also for a scaled surface (a lattice,
+///   which is found in single precision: if the factor is a power of two).
 /// \param features samples that are there already, on the patches' boundaries; they count among
 ///   the n
 /// \param tree of the surface's facets; null: it is made where it is needed
