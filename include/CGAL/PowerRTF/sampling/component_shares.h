@@ -90,9 +90,16 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
   std::vector<std::size_t> least;
   for (const Component_topology& c : component_topologies(surface))
     least.push_back(c.least_samples());
-  std::vector<double> masses(least.size(), 0);
+  std::vector<std::vector<int>> facets(least.size());
   for (std::size_t f = 0; f < component.size(); ++f)
-    masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
+    facets[component[f]].push_back(static_cast<int>(f));
+  std::vector<double> masses;
+  double sum = 0; // one running sum, as that from which samples are drawn
+  for (const std::vector<int>& part : facets) {
+    const double before = sum;
+    for (const int f : part) sum += internal::density_mass(surface, f);
+    masses.push_back(sum - before);
+  }
   std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
   const double cell_mass = density_integral(surface) / equivalent_cells(n, features);
   for (std::size_t s = 0; s < features.sites.size(); ++s) {
