@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <string>
@@ -161,13 +162,16 @@ TEST_CASE("insertion keeps the topology of every shape, for any number of sample
   }
 }
 
-TEST_CASE("a face that is said to be a part of a facet lies in it")
+TEST_CASE("a face that is said to be a part of a flat patch lies in it")
 {
   for (const Shape& shape : all_shapes())
     for (const unsigned seed : {0u, 1u}) {
       CAPTURE(shape.name);
       CAPTURE(seed);
       const Surface surface = surface_of(shape.soup);
+      const Flat_patches patches(surface, Flat_patches::coplanar_sine);
+      std::map<int, int> facet_of; // one by patch
+      for (int f = 0; f < int(surface.triangles.size()); ++f) facet_of[patches[f]] = f;
       internal::Working_mesh mesh(
           internal::insert_samples(surface, samples_on(surface, 150, seed, Sampling::elimination)));
       internal::Edge_flipper flipper(mesh, 0.1);
@@ -175,8 +179,8 @@ TEST_CASE("a face that is said to be a part of a facet lies in it")
       flipper.run(20 * mesh.mesh.number_of_edges());
       internal::Decimator(mesh, flipper).run();
       for (const auto face : mesh.mesh.faces()) {
-        const int f = mesh.facets[face];
-        if (f < 0) continue;
+        if (mesh.patches[face] < 0) continue;
+        const int f = facet_of.at(mesh.patches[face]);
         const Vec3d& corner = surface.points[surface.triangles[f][0]];
         for (const auto v : mesh.mesh.vertices_around_face(mesh.mesh.halfedge(face)))
           CHECK(std::abs(dot(mesh.point(v) - corner, surface.facet_normals[f])) < 1e-6);

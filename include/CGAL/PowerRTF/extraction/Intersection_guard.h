@@ -180,15 +180,15 @@ private:
     return sum;
   }
 
-  // Whether the faces are parts of one facet, and the triangles, too, not turned over.
-  bool is_within_facet(const Faces& old, const Triangles& fresh) const
+  // Whether the faces are parts of one flat patch, and the triangles, too, not turned over.
+  bool is_within_patch(const Faces& old, const Triangles& fresh) const
   {
     constexpr double clearly = 0.99; // cosine
-    const int facet = m.facets[old[0]];
-    if (facet < 0) return false;
+    const int patch = m.patches[old[0]];
+    if (patch < 0) return false;
     Vec3d normal{0, 0, 0};
     for (const Face f : old) {
-      if (m.facets[f] != facet) return false;
+      if (m.patches[f] != patch) return false;
       const Corners t = m_triangles.corners(f);
       normal += m.area_vector(t[0], t[1], t[2]);
     }
@@ -204,7 +204,7 @@ private:
     const bool is_watched = std::any_of(fresh.begin(), fresh.end(), [this](const Corners& t) {
       return std::max({m_sight[t[0]], m_sight[t[1]], m_sight[t[2]]}) == watched;
     });
-    if (!is_watched || is_within_facet(old, fresh)) return false;
+    if (!is_watched || is_within_patch(old, fresh)) return false;
     if (count(fresh, old, 1) == 0) return false;
     Triangles now;
     for (const Face f : old) now.push_back(m_triangles.corners(f));

@@ -34,13 +34,13 @@ struct Working_mesh {
   Mesh mesh;
   std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
-  std::vector<int> facets;    ///< by face: the surface's facet that it is a part of; -1: of none
+  std::vector<int> patches;   ///< by face: the surface's flat patch it is a part of; -1: of none
 
   explicit Working_mesh(Refined_surface&& surface)
       : normals(std::move(surface.normals)), samples(std::move(surface.samples)),
-        facets(std::move(surface.facets))
+        patches(std::move(surface.patches))
   {
-    facets.resize(surface.triangles.size(), -1);
+    patches.resize(surface.triangles.size(), -1);
     for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
     const auto vertices = Mesh::size_type(surface.points.size());
     mesh.reserve(vertices, 3 * vertices, Mesh::size_type(surface.triangles.size()));

@@ -186,7 +186,7 @@ private:
     const int sample = m.samples[v];
     const Vertex u = m.mesh.source(to_v);
     if (m_guard) m_guard->erase_around(std::array{u, v});
-    leave_facets(u);
+    leave_patches(u);
     if (m.is_on_feature(u)) m.shorten_feature(u, v);
     const Vertex kept = Euler::collapse_edge(m.mesh.edge(to_v), m.mesh);
     if (kept != v) m.rename_on_features(v, kept);
@@ -202,20 +202,20 @@ private:
     m_flipper.run(10 * m_ring.size());
   }
 
-  // The faces at `u` move out of their facets unless all are in the same.
-  void leave_facets(Vertex u)
+  // The faces at `u` move out of their flat patches unless all are in the same.
+  void leave_patches(Vertex u)
   {
-    std::optional<int> facet;
+    std::optional<int> patch;
     bool is_one = true;
     for (const Halfedge h : m_ring) {
       if (m.mesh.is_border(h)) continue;
-      const int f = m.facets[m.mesh.face(h)];
-      is_one = is_one && f == facet.value_or(f);
-      facet = f;
+      const int p = m.patches[m.mesh.face(h)];
+      is_one = is_one && p == patch.value_or(p);
+      patch = p;
     }
     if (is_one && !m.mesh.is_border(u)) return;
     for (const Halfedge h : m_ring)
-      if (!m.mesh.is_border(h)) m.facets[m.mesh.face(h)] = -1;
+      if (!m.mesh.is_border(h)) m.patches[m.mesh.face(h)] = -1;
   }
 
   // Flips edges at u away, best shapes first, so that it may become removable.

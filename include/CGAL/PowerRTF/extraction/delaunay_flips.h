@@ -85,8 +85,8 @@ public:
       m_guard->erase(m.mesh.face(h));
       m_guard->erase(m.mesh.face(o));
     }
-    int &f = m.facets[m.mesh.face(h)], &g = m.facets[m.mesh.face(o)];
-    if (f != g) f = g = -1;
+    int &p = m.patches[m.mesh.face(h)], &q = m.patches[m.mesh.face(o)];
+    if (p != q) p = q = -1;
     Euler::flip_edge(h, m.mesh);
     if (m_guard) {
       m_guard->insert(m.mesh.face(h));

@@ -26,8 +26,7 @@ namespace internal {
 
 class Restricted_delaunay_extractor {
 public:
-  Restricted_delaunay_extractor(const Surface& surface, const Samples& samples)
-      : m_samples(samples)
+  Restricted_delaunay_extractor(const Surface& surface, const Samples& samples) : m_samples(samples)
   {
     m_facets.reserve(surface.triangles.size());
     for (const Triangle& t : surface.triangles)

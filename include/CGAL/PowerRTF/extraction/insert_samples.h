@@ -12,6 +12,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 #define CGAL_POWER_RTF_EXTRACTION_INSERT_SAMPLES_H
 
+#include <CGAL/PowerRTF/features/flat_patches.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/errors.h>
@@ -39,7 +40,7 @@ struct Refined_surface {
   std::vector<Vec3d> normals; ///< unit normal of the surface at each point
   std::vector<int> samples;   ///< the sample that each vertex is; -1: none
   std::vector<Triangle> triangles;
-  std::vector<int> facets;    ///< by triangle: the surface's facet that it is a part of
+  std::vector<int> patches;   ///< by triangle: the surface's flat patch that it is a part of
   std::vector<Edge> features; ///< the pieces of the creases and borders
 };
 
@@ -59,13 +60,14 @@ public:
     place_samples();
     separate_edge_places();
     m_refined.triangles.reserve(surface.triangles.size() + 2 * samples.size());
+    const Flat_patches patches(surface, Flat_patches::coplanar_sine);
     auto inside = m_inside.begin();
     for (int f = 0; f < int(surface.triangles.size()); ++f) {
       Cancellation::poll();
       const auto begin = inside;
       while (inside != m_inside.end() && inside->facet == f) ++inside;
       triangulate_facet(f, begin, inside);
-      m_refined.facets.resize(m_refined.triangles.size(), f);
+      m_refined.patches.resize(m_refined.triangles.size(), patches[f]);
     }
     if (!features.empty()) cut_features();
     for (Vec3d& p : m_refined.points) p = surface.normalization.snapped(p);

@@ -12,10 +12,14 @@
 namespace CGAL::PowerRTF {
 
 /// The maximal sets of connected facets whose normals differ from that of their first facet by less
-/// than a tenth of a degree.
+/// than an angle (its sine, by default a tenth of a degree).
 class Flat_patches {
 public:
-  explicit Flat_patches(const Surface& surface) : m_patches(surface.triangles.size(), -1)
+  /// Of normals of coplanar facets whose coordinates are rounded to binary32.
+  static constexpr double coplanar_sine = 1e-7;
+
+  explicit Flat_patches(const Surface& surface, double max_sine = 1.73e-3)
+      : m_max_sine(max_sine), m_patches(surface.triangles.size(), -1)
   {
     const std::vector<int>& opposite = surface.adjacency.opposite;
     for (int f = 0; f < int(surface.triangles.size()); ++f)
@@ -32,13 +36,18 @@ public:
                    surface.points[halfedge_source(surface.triangles, h)]);
   }
 
+  int operator[](int facet) const { return m_patches[facet]; }
+
   /// The width of the patch of facet `f`: twice its area over its perimeter.
   double width(int f) const { return 2 * m_areas[m_patches[f]] / m_perimeters[m_patches[f]]; }
 
 private:
   void grow(const Surface& surface, int seed)
   {
-    constexpr double flat = 1 - 1.5e-6; // cosine
+    const Vec3d& n = surface.facet_normals[seed];
+    const auto is_flat = [&](const Vec3d& m) {
+      return dot(m, n) > 0 && squared_length(cross(m, n)) < m_max_sine * m_max_sine;
+    };
     const int patch = int(m_areas.size());
     double area = 0;
     std::vector<int> facets(1, seed);
@@ -48,7 +57,7 @@ private:
       for (int h = 3 * facets[k]; h < 3 * facets[k] + 3; ++h) {
         const int o = surface.adjacency.opposite[h];
         if (o == Facet_adjacency::none || m_patches[o / 3] >= 0 ||
-            !(dot(surface.facet_normals[o / 3], surface.facet_normals[seed]) > flat))
+            !is_flat(surface.facet_normals[o / 3]))
           continue;
         m_patches[o / 3] = patch;
         facets.push_back(o / 3);
@@ -57,6 +66,7 @@ private:
     m_areas.push_back(area);
   }
 
+  double m_max_sine;
   std::vector<int> m_patches; // by facet
   std::vector<double> m_areas, m_perimeters;
 };
