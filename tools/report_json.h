@@ -8,7 +8,7 @@
 #include "options.h"
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
-#include <CGAL/PowerRTF/exact/check_cells.h>
+#include <CGAL/PowerRTF/exact/Cell_comparison.h>
 
 #include <iosfwd>
 #include <string>

@@ -14,6 +14,7 @@ set(public_headers
     PowerRTF/cells/Cell_polygon.h
     PowerRTF/engines/Cuda_engine.h
     PowerRTF/engines/Cuda_engine_api.h
+    PowerRTF/exact/Cell_comparison.h
     PowerRTF/exact/Exact_cells.h
     PowerRTF/exact/Tangent_cell_clipper.h
     PowerRTF/exact/Tangent_cell_predicates.h

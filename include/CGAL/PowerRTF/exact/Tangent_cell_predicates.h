@@ -15,6 +15,7 @@
 #ifndef CGAL_POWER_RTF_EXACT_TANGENT_CELL_PREDICATES_H
 #define CGAL_POWER_RTF_EXACT_TANGENT_CELL_PREDICATES_H
 
+#include <CGAL/PowerRTF/exact/Cell_comparison.h>
 #include <CGAL/PowerRTF/exact/Tangent_lines.h>
 
 #include <CGAL/Exact_kernel_selector.h>
@@ -53,27 +54,6 @@ struct Tangent_cell_traits_3 {
     return {CGAL::to_double(v.x()), CGAL::to_double(v.y()), CGAL::to_double(v.z())};
   }
   double weight(const FT& w) const { return CGAL::to_double(w); }
-};
-
-/// \ingroup PkgPowerRTFExact
-/// How the predicates were decided. Add with `+=`.
-struct Filter_statistics {
-  std::size_t filtered = 0; ///< decided by interval arithmetic
-  std::size_t exact = 0;    ///< decided by exact arithmetic, ties included
-  std::size_t ties = 0;     ///< exactly zero, decided by the symbolic perturbation
-
-  Filter_statistics& operator+=(const Filter_statistics& o)
-  {
-    filtered += o.filtered;
-    exact += o.exact;
-    ties += o.ties;
-    return *this;
-  }
-  /// Share of the predicates that the filter decided, in [0, 1]; 1 when there were none.
-  double filtered_share() const
-  {
-    return filtered + exact == 0 ? 1 : double(filtered) / double(filtered + exact);
-  }
 };
 
 namespace internal {

@@ -10,6 +10,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
 #include <CGAL/PowerRTF/cells/Tree_cells.h>
+#include <CGAL/PowerRTF/exact/Cell_comparison.h>
 #include <CGAL/PowerRTF/exact/Exact_cells.h>
 #include <CGAL/PowerRTF/exact/Rounding_bound.h>
 #include <CGAL/PowerRTF/exact/construct_exact_cell.h>
@@ -24,35 +25,6 @@
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// \ingroup PkgPowerRTFExact
-/// Median, 99th percentile and maximum.
-struct Error_distribution {
-  double p50 = 0, p99 = 0, max = 0;
-};
-
-/// \ingroup PkgPowerRTFExact
-/// The result of `check_cells()`. A cell is certified when the engine gives it a status other than
-/// `incomplete`; each status is a claim about the cell (see `construct_cell()`). It is right when
-/// its status is the oracle's and its cycle of neighbors is, but for edges below the rounding
-/// bound: without the differing edges, the two cycles are one.
-struct Cell_comparison {
-  std::size_t cells = 0;
-  std::size_t equal_cycles = 0;      ///< the oracle's neighbors in the oracle's order
-  std::size_t certified_wrong = 0;   ///< must be 0
-  std::size_t uncertified_right = 0; ///< incomplete, but with the oracle's cycle
-  std::size_t uncertified_wrong = 0;
-  /// Of the right cells: edges in one of the two cycles only, or not at the same place.
-  std::size_t differing_edges = 0;
-  double worst_edge = 0; ///< longest of these over its bound: at most 1
-  /// Of the right cells that are not empty: \f$|A - A^*| / A^*\f$, and the distance of the
-  /// centroids over \f$\sqrt{A^*}\f$.
-  Error_distribution area, centroid;
-  std::vector<int> wrong; ///< the certified and wrong cells
-  Filter_statistics predicates;
-
-  bool passed() const { return certified_wrong == 0; }
-};
 
 namespace internal {
 
