@@ -34,22 +34,20 @@ constexpr Obj_attribute obj_attributes[] = {
     {"o", "objects", 1},           {"l", "lines"},    {"p", "points"},
 };
 
-} // namespace
+struct Off_header {
+  std::string_view prefixes; // for more values per vertex: ST (texture), C (color), N (normal)
+  std::size_t vertices, facets;
+  std::string announced; // these numbers, for messages
+};
 
-Polygon_mesh parse_off(std::string_view text)
+Off_header parse_off_header(Tokenizer& tokens, std::size_t bytes)
 {
-  Tokenizer tokens(text);
-  // OFF, with prefixes for more values per vertex: ST (texture), C (color), N (normal)
   const bool is_off = tokens.next() && tokens.token().size() <= 7 && tokens.token().size() >= 3 &&
                       tokens.token().substr(tokens.token().size() - 3) == "OFF";
   if (!is_off) reject("it is not an OFF file: it does not begin with OFF");
   const std::string_view prefixes = tokens.token().substr(0, tokens.token().size() - 3);
   if (prefixes.find_first_not_of("STCN") != std::string_view::npos)
     tokens.reject("is a kind of OFF that is not read");
-  Polygon_mesh mesh;
-  for (const auto& [letter, meaning] :
-       {std::pair{'S', "texture coordinates"}, {'C', "colors"}, {'N', "normals"}})
-    if (prefixes.find(letter) != std::string_view::npos) mesh.attributes.insert(meaning);
 
   std::size_t counts[2]; // vertices, facets
   for (std::size_t& count : counts) {
@@ -60,37 +58,51 @@ Polygon_mesh parse_off(std::string_view text)
     count = static_cast<std::size_t>(value);
   }
   tokens.skip_line(); // the number of edges
-  const std::string announced = ", its header announces " + std::to_string(counts[0]) +
-                                " vertices and " + std::to_string(counts[1]) + " facets";
+  std::string announced = ", its header announces " + std::to_string(counts[0]) + " vertices and " +
+                          std::to_string(counts[1]) + " facets";
   // every vertex and every facet takes a few bytes
-  if (counts[0] > text.size() || counts[1] > text.size())
-    reject("the file is truncated: it has only " + std::to_string(text.size()) + " bytes" +
-           announced);
+  if (counts[0] > bytes || counts[1] > bytes)
+    reject("the file is truncated: it has only " + std::to_string(bytes) + " bytes" + announced);
+  return {prefixes, counts[0], counts[1], std::move(announced)};
+}
 
-  mesh.points.resize(counts[0]);
-  mesh.polygons.resize(counts[1]);
-  for (std::size_t i = 0; i < counts[0]; ++i) {
+} // namespace
+
+Polygon_mesh parse_off(std::string_view text)
+{
+  Tokenizer tokens(text);
+  const Off_header header = parse_off_header(tokens, text.size());
+  Polygon_mesh mesh;
+  for (const auto& [letter, meaning] :
+       {std::pair{'S', "texture coordinates"}, {'C', "colors"}, {'N', "normals"}})
+    if (header.prefixes.find(letter) != std::string_view::npos) mesh.attributes.insert(meaning);
+
+  mesh.points.resize(header.vertices);
+  mesh.polygons.resize(header.facets);
+  for (std::size_t i = 0; i < header.vertices; ++i) {
     Vec3d& p = mesh.points[i];
     for (double* x : {&p.x, &p.y, &p.z}) {
       if (!tokens.next())
-        reject("the file is truncated: it ends in vertex " + std::to_string(i + 1) + announced);
+        reject("the file is truncated: it ends in vertex " + std::to_string(i + 1) +
+               header.announced);
       *x = tokens.number();
     }
-    if (!prefixes.empty()) tokens.skip_line();
+    if (!header.prefixes.empty()) tokens.skip_line();
   }
   bool has_colors = false;
-  for (std::size_t i = 0; i < counts[1]; ++i) {
+  for (std::size_t i = 0; i < header.facets; ++i) {
     const auto next = [&] {
       if (!tokens.next())
-        reject("the file is truncated: it ends in facet " + std::to_string(i + 1) + announced);
+        reject("the file is truncated: it ends in facet " + std::to_string(i + 1) +
+               header.announced);
       return tokens.whole_number();
     };
     const long long size = next();
     if (size < 0) tokens.reject("is not a number of vertices");
     for (long long k = 0; k < size; ++k) {
       const long long v = next();
-      if (v < 0 || v >= static_cast<long long>(counts[0]))
-        reject(out_of_range(tokens, i, v, counts[0]));
+      if (v < 0 || v >= static_cast<long long>(header.vertices))
+        reject(out_of_range(tokens, i, v, header.vertices));
       mesh.polygons[i].push_back(static_cast<std::size_t>(v));
     }
     has_colors = has_colors || tokens.next_in_line();

@@ -123,6 +123,12 @@ public:
                                const Exact_square* square = nullptr) const;
 
 private:
+  using Lines = std::vector<internal::Tangent_line<Exact_nt>>;
+
+  // Of the edges, in the order of `cell.neighbors`.
+  Lines edge_lines(const internal::Tangent_frame& f, int i, const Exact_cell& cell,
+                   const Exact_square* square) const;
+
   /// Returns `points`, so that the check comes before what is built on them.
   static const std::vector<Vec3d>& checked(const std::vector<Vec3d>& points,
                                            const std::vector<Vec3d>& normals,
@@ -209,6 +215,25 @@ private:
 };
 
 template <class Kernel, class Traits>
+typename Exact_cells<Kernel, Traits>::Lines
+Exact_cells<Kernel, Traits>::edge_lines(const internal::Tangent_frame& f, int i,
+                                        const Exact_cell& cell, const Exact_square* square) const
+{
+  Lines lines;
+  for (int id : cell.neighbors) {
+    if (id >= 0) {
+      lines.push_back(internal::sample_line<Exact_nt>(f, m_points[i], m_weights[i], m_points[id],
+                                                      m_weights[id]));
+    } else {
+      const Vec3d t = id == -1 || id == -3 ? square->t1 : square->t2;
+      lines.push_back(
+          internal::side_line<Exact_nt>(f, id >= -2 ? t : -t, square->half_size, false));
+    }
+  }
+  return lines;
+}
+
+template <class Kernel, class Traits>
 Exact_cell_geometry Exact_cells<Kernel, Traits>::geometry(int i, const Exact_cell& cell,
                                                           const Exact_square* square) const
 {
@@ -220,18 +245,7 @@ Exact_cell_geometry Exact_cells<Kernel, Traits>::geometry(int i, const Exact_cel
   }
   const internal::Tangent_frame f(m_normals[i]);
   const int n = int(cell.neighbors.size());
-  std::vector<internal::Tangent_line<Exact_nt>> lines;
-  for (int id : cell.neighbors) {
-    if (id >= 0) {
-      lines.push_back(internal::sample_line<Exact_nt>(f, m_points[i], m_weights[i], m_points[id],
-                                                      m_weights[id]));
-    } else {
-      const Vec3d t = id == -1 || id == -3 ? square->t1 : square->t2;
-      lines.push_back(
-          internal::side_line<Exact_nt>(f, id >= -2 ? t : -t, square->half_size, false));
-    }
-  }
-
+  const Lines lines = edge_lines(f, i, cell, square);
   const auto lift = [&](double p, double q) {
     double x[3];
     x[f.p] = p;
