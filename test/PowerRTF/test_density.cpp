@@ -180,10 +180,77 @@ TEST_CASE("limit_growth finds the largest function below the bound")
   }
 }
 
+TEST_CASE("diffusion spreads a value as far as is asked for")
+{
+  const int side = 80;
+  const Surface s = shapes::make_surface(shapes::plane_patch(side, side));
+  const Surface_edges edges = surface_edges(s);
+  std::size_t center = 0; // the vertex nearest to the middle
+  Vec3d middle{0, 0, 0};
+  for (const Vec3d& p : s.points) middle += p * (1. / double(s.points.size()));
+  for (std::size_t v = 0; v < s.points.size(); ++v)
+    if (squared_length(s.points[v] - middle) < squared_length(s.points[center] - middle))
+      center = v;
+  for (const double width : {0.1, 0.7, 2., 4.}) {
+    const std::size_t n = s.points.size() / 2; // spacing: 1.4 edges
+    const double sigma = width * std::sqrt(s.area / double(n));
+    std::vector<double> values(s.points.size(), 0);
+    values[center] = 1;
+    diffuse(edges, diffusion_times(s, edges, n, width), values);
+    double sum = 0, moment = 0, fourth = 0;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      sum += values[v];
+      const double r2 = squared_length(s.points[v] - s.points[center]);
+      moment += values[v] * r2;
+      fourth += values[v] * r2 * r2;
+    }
+    CHECK(sum == doctest::Approx(1).epsilon(1e-12));
+    CHECK(moment == doctest::Approx(2 * sigma * sigma).epsilon(1e-9));
+    // Gaussian: 8 sigma^4; four rings: 7 sigma^4; one: 4 sigma^4.
+    if (width > 1) CHECK(fourth / std::pow(sigma, 4) == doctest::Approx(7.4).epsilon(0.1));
+  }
+}
+
+TEST_CASE("diffusion keeps constants as they are and is stable")
+{
+  for (const shapes::Soup& soup : {shapes::box(10), shapes::ellipsoid(5, 1, 0.3, 3),
+                                   shapes::plane_patch(20, 3), shapes::two_spheres(2)}) {
+    const Surface s = shapes::make_surface(soup);
+    const Surface_edges edges = surface_edges(s);
+    for (const double width : {0.3, 1., 3., 100.}) {
+      const std::vector<double> times = diffusion_times(s, edges, 500, width);
+      std::vector<double> values(s.points.size(), 0.1);
+      diffuse(edges, times, values);
+      CHECK(values == std::vector<double>(s.points.size(), 0.1));
+      std::mt19937_64 random(7);
+      for (double& x : values) x = double(random() % 2);
+      diffuse(edges, times, values);
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      CHECK(*low > -0.05);
+      CHECK(*high < 1.05);
+    }
+  }
+}
+
+TEST_CASE("smoothing lowers the growth of the spacing")
+{
+  Surface s = shapes::make_surface(shapes::box(30));
+  Remeshing_options o = curvature_options(1, 0.2);
+  o.number_of_samples = 1000;
+  set_density(s, o);
+  const double before = steepest_growth(s, 1000);
+  for (const double width : {2., 4.}) {
+    o.density_smoothing = width;
+    set_density(s, o);
+    CHECK(steepest_growth(s, 1000) < 0.6 * before);
+  }
+}
+
 TEST_CASE("density does not depend on size, place, direction or order")
 {
   const shapes::Soup soup = shapes::ellipsoid(3, 2, 0.5, 3);
-  const Remeshing_options o = curvature_options(2, 0.2);
+  Remeshing_options o = curvature_options(2, 0.2);
+  o.density_smoothing = 1;
   Surface reference = shapes::make_surface(soup);
   set_density(reference, o);
   const auto check_same = [&](const shapes::Soup& other, double tolerance) {

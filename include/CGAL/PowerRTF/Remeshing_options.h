@@ -57,6 +57,9 @@ struct Remeshing_options {
   double density_power =
       1; ///< \f$p\f$ of \f$\rho = \kappa^p\f$: 1, 2, 3 are \f$f, f^2, f^3\f$ (Figure 9)
   double gradation = 0.1; ///< largest growth of the spacing per unit of length; 0: not limited
+  /// The density from the curvature is smoothed over this many times the local spacing (standard
+  /// deviation), which leaves a lattice fewer places where its rows must end; 0: not at all.
+  double density_smoothing = 0;
 
   // Initial sampling
   Sampling sampling = Sampling::elimination; ///< how the first samples are chosen

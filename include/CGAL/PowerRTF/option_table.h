@@ -103,6 +103,9 @@ void for_each_option(Visitor&& visit)
       power);
   add("gradation", &O::gradation, "", "largest growth of the spacing per unit of length; 0: any",
       {0, 1000});
+  add("density_smoothing", &O::density_smoothing, "",
+      "curvature's density is smoothed over this many times the local spacing; 0: not at all",
+      {0, 100});
 
   group = "Initial sampling (Section 4.3)";
   add("sampling", &O::sampling, "",

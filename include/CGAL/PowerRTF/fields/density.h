@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/fields/curvature.h>
+#include <CGAL/PowerRTF/fields/diffusion.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/internal/errors.h>
@@ -32,12 +33,24 @@ inline void normalize_density(std::vector<double>& density)
   for (double& rho : density) rho = (std::max)(smallest, rho / largest);
 }
 
+/// Diffuses the densities' logarithms over `width` times the local spacing of `n` samples.
+inline void smooth_density(Surface& surface, const Surface_edges& edges, std::size_t n,
+                           double width)
+{
+  std::vector<double>& rho = surface.vertex_density;
+  const std::vector<double> times = diffusion_times(surface, edges, n, width);
+  std::transform(rho.begin(), rho.end(), rho.begin(), [](double x) { return std::log(x); });
+  diffuse(edges, times, rho);
+  std::transform(rho.begin(), rho.end(), rho.begin(), [](double x) { return std::exp(x); });
+}
+
 } // namespace internal
 
 /// \ingroup PkgPowerRTFSurface
 /// Sets `surface.vertex_density` as `options` asks: 1, or \f$\kappa^p\f$ with \f$p\f$ =
-/// `density_power`, its growth limited by `gradation`. Only ratios of densities matter to any later
-/// stage. \throws Invalid_input_error an option has a value that is not allowed
+/// `density_power`, its growth limited by `gradation`, smoothed over `density_smoothing` times the
+/// spacing. Only ratios of densities matter to any later stage. \throws Invalid_input_error an
+/// option has a value that is not allowed
 inline void set_density(Surface& surface, const Remeshing_options& options)
 {
   validate(options);
@@ -60,6 +73,8 @@ inline void set_density(Surface& surface, const Remeshing_options& options)
   internal::normalize_density(surface.vertex_density);
   if (options.gradation > 0)
     limit_gradation(surface, edges, options.gradation, options.number_of_samples);
+  if (options.density_smoothing > 0)
+    internal::smooth_density(surface, edges, options.number_of_samples, options.density_smoothing);
 }
 
 /// \ingroup PkgPowerRTFSurface

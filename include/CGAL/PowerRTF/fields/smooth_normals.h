@@ -8,7 +8,7 @@
 #ifndef CGAL_POWER_RTF_FIELDS_SMOOTH_NORMALS_H
 #define CGAL_POWER_RTF_FIELDS_SMOOTH_NORMALS_H
 
-#include <CGAL/PowerRTF/fields/gradation.h>
+#include <CGAL/PowerRTF/fields/diffusion.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
@@ -27,19 +27,8 @@ inline void smooth_normals(Surface& surface, std::size_t n, double width)
   constexpr int max_passes = 64;
   const Surface_edges edges = surface_edges(surface);
   const std::size_t size = surface.points.size();
-  const double mass = density_integral(surface);
-  std::vector<double> wanted(size, 0); // 2 sigma^2 / mean squared edge length: a sum of blends
-  double largest = 0;
-  for (std::size_t v = 0; v < size; ++v) {
-    double squares = 0;
-    const int degree = edges.first[v + 1] - edges.first[v];
-    for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
-      squares += edges.length[e] * edges.length[e];
-    if (!(squares > 0)) continue;
-    const double h2 = mass / (double(n) * surface.vertex_density[v]);
-    wanted[v] = 2 * width * width * h2 * degree / squares;
-    largest = std::max(largest, wanted[v]);
-  }
+  const std::vector<double> wanted = diffusion_times(surface, edges, n, width); // sums of blends
+  const double largest = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end());
   constexpr double largest_blend = 0.5; // more than that oscillates
   const int passes =
       static_cast<int>(std::min<double>(max_passes, std::ceil(largest / largest_blend)));
