@@ -325,6 +325,19 @@ TEST_CASE("a tip without a vertex gets one")
   CHECK(after < 0.8 * before);
 }
 
+TEST_CASE("where a vertex is missing, one comes from a flat part")
+{
+  // Of these 24 meshes, moves and flips alone leave three with a triangle worse than that.
+  for (const shapes::Soup& soup : {shapes::icosphere(4), shapes::ellipsoid(1, 0.4, 0.3, 4)})
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      CAPTURE(seed);
+      const Case c = make_case(soup, 600, seed, Sampling::stratified);
+      const auto before = judge(c.surface, c.raw), after = judge(c.surface, improved(c));
+      check_kept(before, after);
+      CHECK(after.quality.q_min > 0.752);
+    }
+}
+
 TEST_CASE("a tree of the surface can be shared")
 {
   const Case c = make_case(shapes::torus(60, 30, 1, 0.4), 300, 2);

@@ -19,6 +19,7 @@
 //     if there are bad triangles: optimize
 //     else if places are still very far: once more, allowing worse triangles; optimize;
 //       undo that if bad triangles are left
+//     put vertices where triangles are still bad, if that makes them good
 //     move vertices to far tips where that makes no triangle bad
 //     if no faces intersect and the largest distance has hardly grown:
 //       unlock all vertices; optimize, with only what makes no faces intersect; done
@@ -145,6 +146,13 @@ private:
         optimizer.run(Schedule::optimization_rounds);
       if (optimizer.is_needed()) stars.restore(before);
       m_tracker.update();
+    }
+    if (optimizer.is_needed()) {
+      const Star_mesh before = stars;
+      if (relocator.mend() && !find_too_far(stars).empty()) {
+        stars.restore(before);
+        m_tracker.update();
+      }
     }
   }
 

@@ -4,7 +4,8 @@
 // Lowers the maximal distance where no vertex near by can be spared: an edge that bridges a hollow
 // is flipped; or a vertex is taken out of a flat part of the mesh (edge collapse) and put where the
 // surface and the mesh are farthest apart (edge split). Kept only if the triangles around the
-// places that change can be made good, and if the maximal distance falls.
+// places that change can be made good, and if the maximal distance falls. In the same way a vertex
+// is put where triangles are bad that neither moves nor flips mend: one is missing there.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_RELOCATE_VERTICES_H
 #define CGAL_POWER_RTF_IMPROVEMENT_RELOCATE_VERTICES_H
 
@@ -43,7 +44,9 @@ public:
     std::vector<Tip> tips = find_tips(share);
     if (tips.empty()) return false;
     const double farthest = tips.front().distance;
-    const std::vector<Vertex> spare = find_spare(tips);
+    std::vector<Vec3d> places;
+    for (const Tip& tip : tips) places.push_back(tip.point);
+    const std::vector<Vertex> spare = find_spare(places);
     const Star_mesh before = m;
     std::size_t next = 0;
     bool changed = false;
@@ -71,6 +74,27 @@ public:
     m.restore(before);
     m_tracker.update();
     return false;
+  }
+
+  /// Puts vertices where triangles are still bad, if that makes them good. \returns whether
+  /// anything has changed.
+  bool mend()
+  {
+    m_tolerable = Triangle_badness::tolerable;
+    bool changed = false;
+    for (const Working_mesh::Face f : find_bad()) {
+      Cancellation::poll();
+      const auto& mesh = m.working().mesh;
+      if (mesh.is_removed(f) || !(badness(f) > m_tolerable)) continue; // mended with another
+      const Vec3d center = middle(f);
+      const Star_mesh now = m;
+      if (fill(f) && !intersects_near(center))
+        changed = true;
+      else
+        m.restore(now);
+    }
+    if (changed) m_tracker.update();
+    return changed;
   }
 
   /// The largest distance that is worth a look, or 0.
@@ -162,8 +186,62 @@ private:
            across(mesh.halfedge(e)).second < Parameters::worthwhile_share * tip.distance;
   }
 
-  // The vertices in flat parts that leave the best triangles behind.
-  std::vector<Vertex> find_spare(const std::vector<Tip>& tips) const
+  double badness(Working_mesh::Face f) const
+  {
+    const auto [a, b, c] = m.points(m.working().mesh.halfedge(f));
+    return triangle_badness(a, b, c).badness;
+  }
+
+  Vec3d middle(Working_mesh::Face f) const
+  {
+    const auto [a, b, c] = m.points(m.working().mesh.halfedge(f));
+    return (a + b + c) * (1 / 3.);
+  }
+
+  // The worst triangles, apart from each other.
+  std::vector<Working_mesh::Face> find_bad() const
+  {
+    std::vector<std::pair<double, Working_mesh::Face>> bad;
+    for (const auto f : m.working().mesh.faces())
+      if (badness(f) > m_tolerable) bad.push_back({-badness(f), f});
+    std::sort(bad.begin(), bad.end());
+    std::vector<Working_mesh::Face> faces;
+    std::vector<Vec3d> places;
+    for (const auto& [negative_badness, f] : bad) {
+      if (int(faces.size()) == Parameters::max_tips) break;
+      if (!is_apart(middle(f), places)) continue;
+      faces.push_back(f);
+      places.push_back(middle(f));
+    }
+    return faces;
+  }
+
+  // Puts a vertex from a flat part into the triangle or next to it.
+  bool fill(Working_mesh::Face f)
+  {
+    const Halfedge near = m.working().mesh.halfedge(f);
+    const Star_mesh before = m;
+    int tries = 0;
+    for (const Vertex spare : find_spare({middle(f)})) {
+      if (tries++ == Parameters::max_tries) break;
+      if (!remove(spare)) {
+        m.restore(before);
+        continue;
+      }
+      const Star_mesh removed = m;
+      for (const Halfedge h : edges_to_split(near, [this](Halfedge g) { return middle(g); })) {
+        const Vertex v = m.split(h, m.projector().nearest(middle(h)));
+        release_around(v);
+        if (is_good_around(v)) return true;
+        m.restore(removed);
+      }
+      return false;
+    }
+    return false;
+  }
+
+  // The vertices in flat parts that leave the best triangles behind, apart from `places`.
+  std::vector<Vertex> find_spare(std::vector<Vec3d> places) const
   {
     std::vector<std::pair<double, Vertex>> candidates;
     for (const Vertex v : m.working().mesh.vertices()) {
@@ -172,8 +250,6 @@ private:
     }
     std::sort(candidates.begin(), candidates.end());
     std::vector<Vertex> spare;
-    std::vector<Vec3d> places;
-    for (const Tip& tip : tips) places.push_back(tip.point);
     for (const auto& [badness, v] : candidates)
       if (is_apart(m.point(v), places)) {
         spare.push_back(v);
@@ -219,7 +295,7 @@ private:
     const Star_mesh before = m;
     for (const double share : {1., 0.6, 0.3}) {
       const Vec3d p = tip.mesh_point + share * (tip.point - tip.mesh_point);
-      for (const Halfedge h : edges_to_split(tip, p)) {
+      for (const Halfedge h : edges_to_split(tip.near, [&p](Halfedge) { return p; })) {
         const Vertex v = m.split(h, m.projector().nearest(p));
         if (share < 1) m.move_off(v, p);
         release_around(v);
@@ -239,18 +315,19 @@ private:
         m.release(mesh.source(g));
   }
 
-  // Those that leave the best triangles.
-  std::vector<Halfedge> edges_to_split(const Tip& tip, const Vec3d& p) const
+  // Those around the face at `near` that leave the best triangles. `place(h)`: of the new vertex.
+  template <class Place>
+  std::vector<Halfedge> edges_to_split(Halfedge near, Place&& place) const
   {
     const auto& mesh = m.working().mesh;
     std::vector<std::pair<double, Halfedge>> candidates;
-    for (const Vertex v : mesh.vertices_around_face(tip.near))
+    for (const Vertex v : mesh.vertices_around_face(near))
       for (const Halfedge g : halfedges_around_target(v, mesh))
         for (const Halfedge h : {g, mesh.prev(g)}) {
           if (!m.is_free(mesh.edge(h))) continue;
           const auto is_same = [&](const auto& c) { return mesh.edge(c.second) == mesh.edge(h); };
           if (std::any_of(candidates.begin(), candidates.end(), is_same)) continue;
-          const double badness = badness_of_split(h, p);
+          const double badness = badness_of_split(h, place(h));
           if (badness < Parameters::max_split_badness) candidates.push_back({badness, h});
         }
     std::sort(candidates.begin(), candidates.end());
