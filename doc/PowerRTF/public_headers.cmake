@@ -16,6 +16,7 @@ set(public_headers
     PowerRTF/engines/Cuda_engine_api.h
     PowerRTF/exact/Cell_comparison.h
     PowerRTF/exact/Exact_cells.h
+    PowerRTF/exact/Filter_statistics.h
     PowerRTF/exact/Tangent_cell_clipper.h
     PowerRTF/exact/Tangent_cell_predicates.h
     PowerRTF/exact/check_cells.h

@@ -5,31 +5,12 @@
 #ifndef CGAL_POWER_RTF_EXACT_CELL_COMPARISON_H
 #define CGAL_POWER_RTF_EXACT_CELL_COMPARISON_H
 
+#include <CGAL/PowerRTF/exact/Filter_statistics.h>
+
 #include <cstddef>
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// \ingroup PkgPowerRTFExact
-/// How the predicates were decided. Add with `+=`.
-struct Filter_statistics {
-  std::size_t filtered = 0; ///< decided by interval arithmetic
-  std::size_t exact = 0;    ///< decided by exact arithmetic, ties included
-  std::size_t ties = 0;     ///< exactly zero, decided by the symbolic perturbation
-
-  Filter_statistics& operator+=(const Filter_statistics& o)
-  {
-    filtered += o.filtered;
-    exact += o.exact;
-    ties += o.ties;
-    return *this;
-  }
-  /// Share of the predicates that the filter decided, in [0, 1]; 1 when there were none.
-  double filtered_share() const
-  {
-    return filtered + exact == 0 ? 1 : double(filtered) / double(filtered + exact);
-  }
-};
 
 /// \ingroup PkgPowerRTFExact
 /// Median, 99th percentile and maximum.

@@ -15,7 +15,7 @@
 #ifndef CGAL_POWER_RTF_EXACT_TANGENT_CELL_PREDICATES_H
 #define CGAL_POWER_RTF_EXACT_TANGENT_CELL_PREDICATES_H
 
-#include <CGAL/PowerRTF/exact/Cell_comparison.h>
+#include <CGAL/PowerRTF/exact/Filter_statistics.h>
 #include <CGAL/PowerRTF/exact/Tangent_lines.h>
 
 #include <CGAL/Exact_kernel_selector.h>
