@@ -245,7 +245,7 @@ TEST_CASE("stratified samples: one in each part of equal mass")
       double inside = 0;
       for (const Vec3d& p : samples.points)
         inside += std::hypot(p.x - center.x, p.y - center.y) < radius;
-      const double error = inside - n * 3.14159265358979 * radius * radius / s.area;
+      const double error = inside - n * pi * radius * radius / s.area;
       (sampling == Sampling::random ? random : stratified) += error * error / 8;
     }
   CHECK(stratified < 0.2 * random);

@@ -29,24 +29,15 @@ struct Point_tree_view {
   CGAL_POWER_RTF_HD int nearest(const Vec3d& p, double radius, int* found, Counts counts) const
   {
     double distances[K];
-    int count = 0;
+    Nearest_items<double> nearest{K, distances, found};
     visit_near(
-        tree, nodes, p, [&]() { return bound_of(count < K ? radius * radius : distances[K - 1]); },
+        tree, nodes, p,
+        [&]() { return bound_of(nearest.is_full() ? nearest.farthest() : radius * radius); },
         [&](int i) {
           const double d = squared_length(points[i] - p);
-          const auto before = [&](int place) {
-            return d < distances[place] || (d == distances[place] && i < found[place]);
-          };
-          if ((count == K && !before(K - 1)) || !counts(i)) return;
-          int place = count < K ? count++ : K - 1;
-          for (; place > 0 && before(place - 1); --place) {
-            distances[place] = distances[place - 1];
-            found[place] = found[place - 1];
-          }
-          distances[place] = d;
-          found[place] = i;
+          if (nearest.takes(d, i) && counts(i)) nearest.insert(d, i);
         });
-    return count;
+    return nearest.count;
   }
 
   /// Whether `is_it(i)` for a point no farther than `radius` from `p`.

@@ -124,28 +124,18 @@ CGAL_POWER_RTF_HD inline int nearest_vertices(const Surface_view<Real>& view, co
                                               int k, int* found)
 {
   Real distances[max_near_vertices] = {};
-  int count = 0;
   k = k < view.vertex_tree.items ? k : view.vertex_tree.items;
   k = k < max_near_vertices ? k : max_near_vertices;
   if (k <= 0) return 0;
+  Nearest_items<Real> nearest{k, distances, found};
   visit_near(
       view.vertex_tree, view.vertex_nodes, p,
-      [&]() { return count < k ? 3e38f : bound_of(distances[k - 1]); },
+      [&]() { return nearest.is_full() ? bound_of(nearest.farthest()) : 3e38f; },
       [&](int v) {
         const Real d = squared_length(view.vertices[v] - p);
-        const auto before = [&](int place) {
-          return d < distances[place] || (d == distances[place] && v < found[place]);
-        };
-        if (count == k && !before(k - 1)) return;
-        int place = count < k ? count++ : k - 1;
-        for (; place > 0 && before(place - 1); --place) {
-          distances[place] = distances[place - 1];
-          found[place] = found[place - 1];
-        }
-        distances[place] = d;
-        found[place] = v;
+        if (nearest.takes(d, v)) nearest.insert(d, v);
       });
-  return count;
+  return nearest.count;
 }
 
 /// The paper's projection: onto the facets at the `k` nearest vertices (Section 4.2.2).

@@ -83,6 +83,40 @@ struct Child_boxes {
   }
 };
 
+/// The nearest items found so far, at most `most`, by increasing distance, equal distances by
+/// number. Non-owning.
+template <class Real>
+struct Nearest_items {
+  int most;
+  Real* distances;
+  int* found;
+  int count = 0;
+
+  CGAL_POWER_RTF_HD bool is_full() const { return count == most; }
+  CGAL_POWER_RTF_HD Real farthest() const { return distances[most - 1]; } ///< \pre `is_full()`
+  CGAL_POWER_RTF_HD bool takes(Real distance, int item) const
+  {
+    return !is_full() || comes_before(distance, item, most - 1);
+  }
+  /// \pre `takes(distance, item)`
+  CGAL_POWER_RTF_HD void insert(Real distance, int item)
+  {
+    int place = is_full() ? most - 1 : count++;
+    for (; place > 0 && comes_before(distance, item, place - 1); --place) {
+      distances[place] = distances[place - 1];
+      found[place] = found[place - 1];
+    }
+    distances[place] = distance;
+    found[place] = item;
+  }
+
+private:
+  CGAL_POWER_RTF_HD bool comes_before(Real distance, int item, int place) const
+  {
+    return distance < distances[place] || (distance == distances[place] && item < found[place]);
+  }
+};
+
 /// Computes node `k` of `level` and its own box `boxes[...]`; the levels are done in ascending
 /// order. `box_of(i)`: of item i.
 template <class Box_of>

@@ -40,6 +40,8 @@ public:
         m_failed_flips(mesh.working().mesh.number_of_edges(), 0)
   {}
 
+  double badness(Face f) const { return judgment(f).badness; }
+
   /// Whether a triangle is worse than tolerable.
   bool is_needed() const
   {
@@ -133,8 +135,6 @@ private:
     const auto [a, b, c] = m.points(m.working().mesh.halfedge(f));
     return triangle_badness(a, b, c);
   }
-
-  double badness(Face f) const { return judgment(f).badness; }
 
   double total_badness(const std::vector<Face>& faces) const
   {

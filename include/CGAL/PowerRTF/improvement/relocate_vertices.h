@@ -85,7 +85,8 @@ public:
     for (const Working_mesh::Face f : find_bad()) {
       Cancellation::poll();
       const auto& mesh = m.working().mesh;
-      if (mesh.is_removed(f) || !(badness(f) > m_tolerable)) continue; // mended with another
+      if (mesh.is_removed(f) || !(m_optimizer.badness(f) > m_tolerable))
+        continue; // mended with another
       const Vec3d center = middle(f);
       const Star_mesh now = m;
       if (fill(f) && !intersects_near(center))
@@ -186,12 +187,6 @@ private:
            across(mesh.halfedge(e)).second < Parameters::worthwhile_share * tip.distance;
   }
 
-  double badness(Working_mesh::Face f) const
-  {
-    const auto [a, b, c] = m.points(m.working().mesh.halfedge(f));
-    return triangle_badness(a, b, c).badness;
-  }
-
   Vec3d middle(Working_mesh::Face f) const
   {
     const auto [a, b, c] = m.points(m.working().mesh.halfedge(f));
@@ -203,7 +198,7 @@ private:
   {
     std::vector<std::pair<double, Working_mesh::Face>> bad;
     for (const auto f : m.working().mesh.faces())
-      if (badness(f) > m_tolerable) bad.push_back({-badness(f), f});
+      if (m_optimizer.badness(f) > m_tolerable) bad.push_back({-m_optimizer.badness(f), f});
     std::sort(bad.begin(), bad.end());
     std::vector<Working_mesh::Face> faces;
     std::vector<Vec3d> places;

@@ -45,14 +45,9 @@ public:
                   const Feature_samples& features, const std::vector<int>& component,
                   const std::vector<Component_share>& shares, std::uint64_t seed)
       : m_backend(backend), m_surface(surface), m_tree(tree), m_features(features),
-        m_component(component), m_shares(shares), m_seed(seed)
+        m_component(component), m_shares(shares), m_seed(seed), m_cube(surface)
   {
     for (const Component_share& share : shares) m_size += share.samples;
-    Box3<double> box{surface.points[0], surface.points[0]};
-    for (const Vec3d& p : surface.points) box.add(p);
-    const Vec3d size = box.hi - box.lo;
-    m_middle = 0.5 * (box.lo + box.hi);
-    m_scale = 2 / (std::max)({size.x, size.y, size.z});
   }
 
   Samples run()
@@ -144,12 +139,12 @@ private:
   void add_node(const Vec3d& point, const Vec3d& normal, double density, int component,
                 Lattice_nodes& nodes) const
   {
-    nodes.points.push_back((point - m_middle) * m_scale);
+    nodes.points.push_back(m_cube.to_inside(point));
     nodes.normals.push_back(
         {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)});
     nodes.components.push_back(component);
     const double cell = m_shares[component].cell_mass / density; // sqrt(3) / 2 h^2
-    nodes.spacing.push_back(static_cast<float>(m_scale * std::sqrt(2 / std::sqrt(3.) * cell)));
+    nodes.spacing.push_back(static_cast<float>(m_cube.scale * std::sqrt(2 / std::sqrt(3.) * cell)));
   }
 
   void choose_points(const Lattice_view& view)
@@ -255,7 +250,7 @@ private:
   /// The candidate's nearest point of the surface, on the node's side of a sheet.
   void add_on_surface(const Sample_candidate& candidate, Samples& samples) const
   {
-    const Vec3d point = candidate.point * (1 / m_scale) + m_middle;
+    const Vec3d point = m_cube.to_outside(candidate.point);
     const Vec3f n = m_levels.front().normals[candidate.node];
     const int near = m_facets[candidate.node];
     const Surface_point<double> on =
@@ -275,10 +270,7 @@ private:
   const std::vector<int>& m_component;
   const std::vector<Component_share>& m_shares;
   std::uint64_t m_seed;
-  // The nodes' coordinates are those of the cube around the surface, whose size then does not
-  // decide how single precision rounds.
-  Vec3d m_middle;
-  double m_scale;
+  Surface_cube m_cube; // the nodes' coordinates are inside
   std::size_t m_size = 0;
   std::vector<Lattice_nodes> m_levels; // from fine to coarse
   std::vector<int> m_facets;           // of the free nodes of the finest level

@@ -24,6 +24,24 @@
 
 namespace CGAL::PowerRTF {
 
+/// Maps a surface to the cube [-1, 1]^3 around it, where neither its size nor its position decides
+/// anything.
+struct Surface_cube {
+  Vec3d middle;
+  double scale;
+
+  explicit Surface_cube(const Surface& surface)
+  {
+    Box3<double> box{surface.points[0], surface.points[0]};
+    for (const Vec3d& p : surface.points) box.add(p);
+    const Vec3d size = box.hi - box.lo;
+    middle = 0.5 * (box.lo + box.hi);
+    scale = 2 / (std::max)({size.x, size.y, size.z});
+  }
+  Vec3d to_inside(const Vec3d& p) const { return (p - middle) * scale; }
+  Vec3d to_outside(const Vec3d& p) const { return p * (1 / scale) + middle; }
+};
+
 /// A point of a surface.
 struct Facet_place {
   int facet;
@@ -42,19 +60,14 @@ public:
                  const std::vector<Component_share>& shares)
       : m_surface(surface)
   {
-    // In the cube around the surface: no size or position decides the order.
-    Box3<double> box{surface.points[0], surface.points[0]};
-    for (const Vec3d& p : surface.points) box.add(p);
-    const Vec3d size = box.hi - box.lo, middle = 0.5 * (box.lo + box.hi);
-    const double scale = 2 / (std::max)({size.x, size.y, size.z});
+    const Surface_cube cube(surface);
     std::vector<std::tuple<int, std::uint64_t, int>> order;
     for (std::size_t f = 0; f < component.size(); ++f) {
       const Triangle& t = surface.triangles[f];
       const auto& p = surface.points;
       const Vec3d center = (p[t[0]] + p[t[1]] + p[t[2]]) * (1. / 3);
       if (shares[component[f]].samples > 0)
-        order.emplace_back(component[f], hilbert_code(scale * (center - middle)),
-                           static_cast<int>(f));
+        order.emplace_back(component[f], hilbert_code(cube.to_inside(center)), static_cast<int>(f));
     }
     std::sort(order.begin(), order.end());
     for (const auto& [c, code, f] : order) m_facets.push_back(f);

@@ -71,6 +71,34 @@ inline std::vector<std::size_t> allocate_samples(const std::vector<double>& mass
   return samples;
 }
 
+/// The facets sorted by component, with running sums of what the candidates are proportional to.
+struct Facet_distribution {
+  std::vector<int> facets;        ///< #F, component by component
+  std::vector<double> sums;       ///< #F + 1
+  std::vector<std::size_t> first; ///< #components + 1: where a component begins in `facets`
+
+  double mass(std::size_t c) const { return sums[first[c + 1]] - sums[first[c]]; }
+};
+
+/// \param facet_mass function facet -> mass
+template <class Facet_mass>
+Facet_distribution facet_distribution(const std::vector<int>& component, int components,
+                                      const Facet_mass& facet_mass)
+{
+  Facet_distribution d;
+  d.first.assign(components + 1, 0);
+  for (const int c : component) ++d.first[c + 1];
+  std::partial_sum(d.first.begin(), d.first.end(), d.first.begin());
+  d.facets.resize(component.size());
+  std::vector<std::size_t> end(d.first.begin(), d.first.end() - 1);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    d.facets[end[component[f]]++] = static_cast<int>(f);
+  d.sums.assign(component.size() + 1, 0);
+  for (std::size_t k = 0; k < component.size(); ++k)
+    d.sums[k + 1] = d.sums[k] + facet_mass(d.facets[k]);
+  return d;
+}
+
 /// The integral of the density over facet `f`.
 inline double density_mass(const Surface& surface, int f)
 {
@@ -90,16 +118,11 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
   std::vector<std::size_t> least;
   for (const Component_topology& c : component_topologies(surface))
     least.push_back(c.least_samples());
-  std::vector<std::vector<int>> facets(least.size());
-  for (std::size_t f = 0; f < component.size(); ++f)
-    facets[component[f]].push_back(static_cast<int>(f));
+  const internal::Facet_distribution distribution =
+      internal::facet_distribution(component, static_cast<int>(least.size()),
+                                   [&](int f) { return internal::density_mass(surface, f); });
   std::vector<double> masses;
-  double sum = 0; // one running sum, as that from which samples are drawn
-  for (const std::vector<int>& part : facets) {
-    const double before = sum;
-    for (const int f : part) sum += internal::density_mass(surface, f);
-    masses.push_back(sum - before);
-  }
+  for (std::size_t c = 0; c < least.size(); ++c) masses.push_back(distribution.mass(c));
   std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
   const double cell_mass = density_integral(surface) / equivalent_cells(n, features);
   for (std::size_t s = 0; s < features.sites.size(); ++s) {

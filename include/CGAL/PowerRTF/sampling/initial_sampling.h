@@ -24,34 +24,6 @@
 namespace CGAL::PowerRTF {
 namespace internal {
 
-/// The facets sorted by component, with running sums of what the candidates are proportional to.
-struct Facet_distribution {
-  std::vector<int> facets;        ///< #F, component by component
-  std::vector<double> sums;       ///< #F + 1
-  std::vector<std::size_t> first; ///< #components + 1: where a component begins in `facets`
-
-  double mass(std::size_t c) const { return sums[first[c + 1]] - sums[first[c]]; }
-};
-
-/// \param facet_mass function facet -> mass
-template <class Facet_mass>
-Facet_distribution facet_distribution(const std::vector<int>& component, int components,
-                                      const Facet_mass& facet_mass)
-{
-  Facet_distribution d;
-  d.first.assign(components + 1, 0);
-  for (const int c : component) ++d.first[c + 1];
-  std::partial_sum(d.first.begin(), d.first.end(), d.first.begin());
-  d.facets.resize(component.size());
-  std::vector<std::size_t> end(d.first.begin(), d.first.end() - 1);
-  for (std::size_t f = 0; f < component.size(); ++f)
-    d.facets[end[component[f]]++] = static_cast<int>(f);
-  d.sums.assign(component.size() + 1, 0);
-  for (std::size_t k = 0; k < component.size(); ++k)
-    d.sums[k + 1] = d.sums[k] + facet_mass(d.facets[k]);
-  return d;
-}
-
 /// Appends the point of facet `f` with the barycentric coordinates `b`.
 inline void add_sample(const Surface& surface, int f, const std::array<double, 3>& b,
                        Samples& samples)
