@@ -168,8 +168,8 @@ private:
     constexpr std::size_t patience = 20;
     constexpr double nearer = 0.9;
     const auto& steps = m_report.iterations;
-    const double tolerance = m_options.centroid_tolerance;
-    if (tolerance == 0 || steps.back().displacement <= tolerance) return tolerance > 0;
+    if (m_options.centroid_tolerance == 0) return false;
+    if (steps.back().displacement <= m_options.centroid_tolerance) return true;
     const auto nearest = [](auto begin, auto end) {
       return std::min_element(
                  begin, end,

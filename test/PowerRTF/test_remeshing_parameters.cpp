@@ -13,6 +13,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -103,6 +104,38 @@ TEST_CASE("number_of_samples of the options is not used; number_of_iterations is
   CHECK(num_vertices(output) == 120);
   CHECK(report.outer_iterations == 7);
   CHECK(report.iterations.size() == 7);
+}
+
+TEST_CASE("steps end when the samples are near their centroids, or come no nearer")
+{
+  const Mesh input = make_mesh(torus());
+  Remeshing_options options;
+  options.density = Density::uniform;
+  options.sampling = Sampling::lattice;
+  options.relaxation_iterations = 0;
+  options.max_iterations = 1000;
+  const auto displacements = [&](double tolerance) {
+    options.centroid_tolerance = tolerance;
+    Mesh output;
+    std::vector<double> result;
+    for (const auto& iteration :
+         CGAL::power_rtf_remeshing(input, 400, output, params::remeshing_options(options))
+             .iterations)
+      result.push_back(iteration.displacement);
+    return result;
+  };
+  for (const double tolerance : {0.05, 0.01}) {
+    const std::vector<double> steps = displacements(tolerance);
+    CHECK(steps.back() <= tolerance);
+    CHECK(*std::min_element(steps.begin(), steps.end() - 1) > tolerance);
+  }
+  const std::vector<double> steps = displacements(1e-12); // out of reach
+  REQUIRE(steps.size() > 20);
+  CHECK(steps.size() < 1000);
+  CHECK(*std::min_element(steps.end() - 20, steps.end()) >
+        0.9 * *std::min_element(steps.begin(), steps.end() - 20));
+  options.max_iterations = 60;
+  CHECK(displacements(0).size() == 60);
 }
 
 TEST_CASE("the user's own density")
