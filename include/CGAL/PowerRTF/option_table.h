@@ -113,7 +113,8 @@ void for_each_option(Visitor&& visit)
       "the paper's random choice",
       no_number);
   // The elimination's time and memory are proportional to n m^2.
-  add("oversampling", &O::oversampling, "m", "candidates per sample of the last two", {1, 32});
+  add("oversampling", &O::oversampling, "m", "candidates per sample (elimination, random)",
+      {1, 32});
   add("relaxation_iterations", &O::relaxation_iterations, "",
       "first steps, by Lloyd's method without weights", iterations);
 
