@@ -161,6 +161,21 @@ __device__ inline Real near_growth(const Verlet_lists<Real>& lists, int group, i
   return warp_max(growth);
 }
 
+/// Leaves the cells of the lanes with `deferred` to whole warps.
+template <class Real>
+__device__ inline void defer_cells(const Cell_targets<Real>& targets, const Lane_cell<Real>& cell,
+                                   int id, bool deferred, int lane)
+{
+  const unsigned lanes = __ballot_sync(full_warp, deferred);
+  if (lanes == 0) return;
+  int begin = 0;
+  if (lane == 0) begin = atomicAdd(targets.deferred_count, __popc(lanes));
+  begin = __shfl_sync(full_warp, begin, 0);
+  if (!deferred) return;
+  targets.deferred[begin + __popc(lanes & ((1u << lane) - 1))] = cell.place;
+  targets.radius[id] = std::fabs(cell.radius);
+}
+
 /// Makes the cells of the lanes with `open`, whose sites follow each other; what is not proved
 /// is deferred. The first search is for `growth` times the last radius. Several lanes per
 /// cell, where there are few cells, share the search and make lists for one of them.
@@ -213,28 +228,16 @@ __device__ inline void make_group(const Group_view<Real>& view, const Cell_targe
       deferred = !write_listed(view, targets, cell.place, id, polygon, column, 32, frame,
                                std::sqrt(polygon.squared_radius()));
     } else if (open) {
-      if (hopeless || round + 1 == rounds) {
-        open = false;
-        deferred = true;
-      } else {
-        const bool too_many = cell.listed > Warp_memory<Real>::max_listed;
-        cell.radius *= too_many ? shrinkage : further_growth;
-      }
+      deferred = hopeless || round + 1 == rounds;
+      open = !deferred;
+      const bool too_many = cell.listed > Warp_memory<Real>::max_listed;
+      if (open) cell.radius *= too_many ? shrinkage : further_growth;
     }
     if (LanesPerCell > 1)
       cell.radius = __shfl_sync(full_warp, cell.radius, lane - lane % LanesPerCell);
     __syncwarp();
   }
-
-  const unsigned lanes = __ballot_sync(full_warp, deferred);
-  if (lanes == 0) return;
-  int begin = 0;
-  if (lane == 0) begin = atomicAdd(targets.deferred_count, __popc(lanes));
-  begin = __shfl_sync(full_warp, begin, 0);
-  if (deferred) {
-    targets.deferred[begin + __popc(lanes & ((1u << lane) - 1))] = cell.place;
-    targets.radius[id] = std::fabs(cell.radius);
-  }
+  defer_cells(targets, cell, id, deferred, lane);
 }
 
 /// All cells; one warp per 32 / `LanesPerCell` sites.

@@ -128,63 +128,61 @@ __device__ inline int collect_vertices(const Surface_view<Real>& view, const Vec
   return size;
 }
 
-/// The same result as that of `nearest_vertex_in_tree()`. Looks first at the lists of vertices near
-/// `hint`, a facet that is probably near: a list proves its nearest ones where the ball that it
-/// covers holds them. A call of its own, which is made twice: instructions must be fetched, too.
+/// The candidates of one lane: two vertices, or -1, and their squared distances to the sample.
 template <class Real>
-__device__ __noinline__ int nearest_vertex(const Surface_view<Real>& view, const Vec3<Real>& p,
-                                           int k, int hint, Warp_lanes lanes)
-{
-  constexpr Real infinity = Real(1e30);
-  constexpr Real rounding = Real(2e-6); // of a few sums of lengths
-  constexpr int size = Surface_view<Real>::near_vertices;
-  static_assert(size == 2 * Warp_lanes::size, "two candidates for each lane");
-  Vertex_memory<Real>& memory = vertex_memory<Real>();
-  const int rank = lanes.rank();
-  List_center<Real> center;
-  center.vertex = view.facet_vertices[3 * hint + rank % 3];
-  center.cover = view.near_reach[center.vertex] - length(view.vertices[center.vertex] - p);
-  center.join(4, lanes); // all three corners
-  Real last = infinity;
-  for (bool by_list = true;;) {
-    int v[2] = {-1, -1};
-    Real d[2] = {infinity, infinity};
-    int candidates = 0;
-    if (by_list) {
-      const int* const list = view.near_lists + std::size_t(center.vertex) * size + rank;
-      v[0] = list[0];
-      v[1] = list[Warp_lanes::size];
-      if (v[0] >= 0) d[0] = squared_length(view.vertices[v[0]] - p);
-      if (v[1] >= 0) d[1] = squared_length(view.vertices[v[1]] - p);
-      Real most = rank < k ? d[0] : Real(0); // the first of the list are probably not far
-      for (int step = Warp_lanes::size / 2; step > 0; step /= 2)
-        most = fmax(most, lanes.exchanged(most, step));
-      lanes.synchronize(); // the memory may still be read
-#pragma unroll
-      for (int m = 0; m < 2; ++m) {
-        const unsigned near = lanes.those_with(d[m] <= most);
-        const int place = candidates + __popc(near & lanes.those_before());
-        if (d[m] <= most) {
-          memory.distances[place] = d[m];
-          memory.candidates[place] = v[m];
-        }
-        candidates += __popc(near);
-      }
-      lanes.synchronize();
-    } else {
-      candidates = collect_vertices(view, p, last, memory, lanes);
-      if (candidates < 0) return nearest_vertex_in_tree(view, p, k, last, lanes);
-      lanes.synchronize();
-#pragma unroll
-      for (int m = 0; m < 2; ++m) {
-        const int own = m * Warp_lanes::size + rank;
-        if (own >= candidates) continue;
-        v[m] = memory.candidates[own];
-        d[m] = memory.distances[own];
-      }
-    }
+struct Two_candidates {
+  static constexpr Real infinity = Real(1e30);
+  int v[2] = {-1, -1};
+  Real d[2] = {infinity, infinity};
 
-    int place[2] = {0, 0}; // in the order of distances
+  /// Reads two of the list of `center`, and makes candidates of those of the list that are no
+  /// farther than the first `k`. Returns their number.
+  __device__ int read_list(const Surface_view<Real>& view, const Vec3<Real>& p, int center, int k,
+                           Vertex_memory<Real>& memory, Warp_lanes lanes)
+  {
+    const int rank = lanes.rank();
+    const int* const list = view.near_lists + std::size_t(center) * memory.capacity + rank;
+    v[0] = list[0];
+    v[1] = list[Warp_lanes::size];
+    if (v[0] >= 0) d[0] = squared_length(view.vertices[v[0]] - p);
+    if (v[1] >= 0) d[1] = squared_length(view.vertices[v[1]] - p);
+    Real within = rank < k ? d[0] : Real(0); // the first of the list are probably not far
+    for (int step = Warp_lanes::size / 2; step > 0; step /= 2)
+      within = fmax(within, lanes.exchanged(within, step));
+    lanes.synchronize(); // the memory may still be read
+    int candidates = 0;
+#pragma unroll
+    for (int m = 0; m < 2; ++m) {
+      const unsigned near = lanes.those_with(d[m] <= within);
+      const int place = candidates + __popc(near & lanes.those_before());
+      if (d[m] <= within) {
+        memory.distances[place] = d[m];
+        memory.candidates[place] = v[m];
+      }
+      candidates += __popc(near);
+    }
+    lanes.synchronize();
+    return candidates;
+  }
+
+  /// Reads two of the candidates that are there.
+  __device__ void read_memory(const Vertex_memory<Real>& memory, int candidates, Warp_lanes lanes)
+  {
+    lanes.synchronize();
+#pragma unroll
+    for (int m = 0; m < 2; ++m) {
+      const int own = m * Warp_lanes::size + lanes.rank();
+      if (own >= candidates) continue;
+      v[m] = memory.candidates[own];
+      d[m] = memory.distances[own];
+    }
+  }
+
+  /// Finds the first `k` of the candidates in the order of distances, and the last one's distance.
+  __device__ void rank_nearest(int candidates, int k, Vertex_memory<Real>& memory,
+                               Warp_lanes lanes) const
+  {
+    int place[2] = {0, 0};
 #pragma unroll 4
     for (int c = 0; c < candidates; ++c) {
       const Real other = memory.distances[c];
@@ -200,6 +198,36 @@ __device__ __noinline__ int nearest_vertex(const Surface_view<Real>& view, const
       if (place[m] == k - 1) memory.last = d[m];
     }
     lanes.synchronize();
+  }
+};
+
+/// The same result as that of `nearest_vertex_in_tree()`. Looks first at the lists of vertices near
+/// `hint`, a facet that is probably near: a list proves its nearest ones where the ball that it
+/// covers holds them. A call of its own, which is made twice: instructions must be fetched, too.
+template <class Real>
+__device__ __noinline__ int nearest_vertex(const Surface_view<Real>& view, const Vec3<Real>& p,
+                                           int k, int hint, Warp_lanes lanes)
+{
+  constexpr Real rounding = Real(2e-6); // of a few sums of lengths
+  static_assert(Vertex_memory<Real>::capacity == 2 * Warp_lanes::size, "two candidates per lane");
+  Vertex_memory<Real>& memory = vertex_memory<Real>();
+  const int rank = lanes.rank();
+  List_center<Real> center;
+  center.vertex = view.facet_vertices[3 * hint + rank % 3];
+  center.cover = view.near_reach[center.vertex] - length(view.vertices[center.vertex] - p);
+  center.join(4, lanes); // all three corners
+  Real last = Two_candidates<Real>::infinity;
+  for (bool by_list = true;;) {
+    Two_candidates<Real> own;
+    int candidates = 0;
+    if (by_list) {
+      candidates = own.read_list(view, p, center.vertex, k, memory, lanes);
+    } else {
+      candidates = collect_vertices(view, p, last, memory, lanes);
+      if (candidates < 0) return nearest_vertex_in_tree(view, p, k, last, lanes);
+      own.read_memory(memory, candidates, lanes);
+    }
+    own.rank_nearest(candidates, k, memory, lanes);
     last = memory.last;
     const Real cover = center.cover - rounding * view.near_reach[center.vertex];
     if (!by_list || (cover > 0 && last < cover * cover)) return memory.found[rank < k ? rank : 0];
@@ -207,7 +235,7 @@ __device__ __noinline__ int nearest_vertex(const Surface_view<Real>& view, const
     List_center<Real> next = center;
 #pragma unroll
     for (int m = 0; m < 2; ++m)
-      if (v[m] >= 0) next.take({view.near_reach[v[m]] - std::sqrt(d[m]), v[m]});
+      if (own.v[m] >= 0) next.take({view.near_reach[own.v[m]] - std::sqrt(own.d[m]), own.v[m]});
     next.join(Warp_lanes::size, lanes);
     by_list = next.cover > center.cover; // else no list is better
     center = next;

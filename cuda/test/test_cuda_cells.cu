@@ -221,6 +221,28 @@ TEST_CASE("the paper's passes with guarded and empty cells")
   d.compare("again");
 }
 
+/// The paper's passes, plainly. Returns their number.
+int run_on_host(Host_cells& host, const Multiplicative_weight_rule& rule, int passes)
+{
+  const int n = int(host.sites.size());
+  const Sites_view<double> v = host.view();
+  for (int done = 0;; ++done) {
+    const std::vector<Plain_cell> cells = host.construct();
+    Multiplicative_weight_rule r = rule;
+    for (const Plain_cell& c : cells) r.mean_mass += c.area / n;
+    int outside = 0;
+    for (const Plain_cell& c : cells) outside += std::fabs(c.area / r.mean_mass - 1) > 0.04;
+    if (outside == 0 || done == passes) return done;
+    double mean = 0;
+    for (int i = 0; i < n; ++i) {
+      const int k = cells[i].area > 0 ? 1 : 6;
+      host.sites[i].weight += r(cells[i].area, distance_to_neighbor(v, i, k, -0.766));
+      mean += host.sites[i].weight / n;
+    }
+    for (Site<double>& s : host.sites) s.weight -= mean;
+  }
+}
+
 TEST_CASE("the paper's passes are those of the host")
 {
   int n = 3000, passes = 40;
@@ -255,23 +277,7 @@ TEST_CASE("the paper's passes are those of the host")
 
   const Multiplicative_weight_rule rule{0.04, 1, false, 0};
   const int done = run_weight_passes(d, in_one_kernel, rule, passes);
-  std::vector<Plain_cell> cells;
-  int host_done = 0;
-  for (;; ++host_done) {
-    cells = host.construct();
-    Multiplicative_weight_rule r = rule;
-    for (const Plain_cell& c : cells) r.mean_mass += c.area / n;
-    int outside = 0;
-    for (const Plain_cell& c : cells) outside += std::fabs(c.area / r.mean_mass - 1) > 0.04;
-    if (outside == 0 || host_done == passes) break;
-    double mean = 0;
-    for (int i = 0; i < n; ++i) {
-      const int k = cells[i].area > 0 ? 1 : 6;
-      host.sites[i].weight += r(cells[i].area, distance_to_neighbor(v, i, k, -0.766));
-      mean += host.sites[i].weight / n;
-    }
-    for (Site<double>& s : host.sites) s.weight -= mean;
-  }
+  const int host_done = run_on_host(host, rule, passes);
   const Host_sites<float> after = d.sites.download();
   double squares = 0, mean = 0;
   for (int i = 0; i < n; ++i) {

@@ -73,7 +73,7 @@ struct Option {
 };
 
 /// Calls `visit(option, member)` for every member of `Remeshing_options` but the preset; `member`
-/// is a pointer to member.
+/// is a pointer to member. (Long because it is the table, with a row for each.)
 template <class Visitor>
 void for_each_option(Visitor&& visit)
 {

@@ -59,6 +59,11 @@ struct Tangent_polygon {
 
   /// Keeps a x + b y <= c; the new edge belongs to neighbor `j`. Returns whether it cut.
   CGAL_POWER_RTF_HD bool clip(FT a, FT b, FT c, int j);
+
+private:
+  /// Puts an edge of neighbor `j` in place of the `removed` vertices `begin` to `end`; `s`: the
+  /// signed distances of all vertices from its line.
+  CGAL_POWER_RTF_HD void replace(int begin, int end, int removed, const FT* s, int j);
 };
 
 template <class FT>
@@ -95,6 +100,14 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
     return false;
   }
 
+  replace(begin, end, removed, s, j);
+  return true;
+}
+
+template <class FT>
+CGAL_POWER_RTF_HD inline void Tangent_polygon<FT>::replace(int begin, int end, int removed,
+                                                           const FT* s, int j)
+{
   const int in = previous(begin), out = next(end);
   const FT ti = s[in] / (s[in] - s[begin]), to = s[out] / (s[out] - s[end]);
   const FT px = x[in] + ti * (x[begin] - x[in]), py = y[in] + ti * (y[begin] - y[in]);
@@ -108,17 +121,19 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
   };
   // New polygon: the kept vertices out .. in, then p (edge j), then q (the edge that q lies on).
   const int kept = size - removed;
+  const auto put = [&](int place) {
+    x[place] = px;
+    y[place] = py;
+    neighbor[place] = j;
+    x[place + 1] = qx;
+    y[place + 1] = qy;
+    neighbor[place + 1] = exit_neighbor;
+    size = kept + 2;
+  };
   if (out <= in) { // the kept chain does not wrap around: move it to the front
     if (out > 0)
       for (int k = 0; k < kept; ++k) move(k, out + k);
-    x[kept] = px;
-    y[kept] = py;
-    neighbor[kept] = j;
-    x[kept + 1] = qx;
-    y[kept + 1] = qy;
-    neighbor[kept + 1] = exit_neighbor;
-    size = kept + 2;
-    return true;
+    return put(kept);
   }
   // The removed chain lies inside the array: close (or open) the gap to two places.
   const int tail = size - out, to_place = begin + 2;
@@ -126,14 +141,7 @@ CGAL_POWER_RTF_HD inline bool Tangent_polygon<FT>::clip(FT a, FT b, FT c, int j)
     for (int k = 0; k < tail; ++k) move(to_place + k, out + k);
   else if (to_place > out)
     for (int k = tail - 1; k >= 0; --k) move(to_place + k, out + k);
-  x[begin] = px;
-  y[begin] = py;
-  neighbor[begin] = j;
-  x[begin + 1] = qx;
-  y[begin + 1] = qy;
-  neighbor[begin + 1] = exit_neighbor;
-  size = kept + 2;
-  return true;
+  put(begin);
 }
 
 } // namespace CGAL::PowerRTF

@@ -52,8 +52,44 @@ struct Lbfgs_products {
   }
 };
 
-/// Takes in the tried pair when the energy is convex along it, and does the two loops. (All loops
-/// have constant bounds: one thread does this, and arrays in registers make it quick.)
+/// The two loops over the products of `count` pairs by age: from the newest to the oldest and back.
+/// (All loops have constant bounds: one thread does this, and arrays in registers make it quick.)
+template <int Memory, int slots>
+CGAL_POWER_RTF_HD inline void run_two_loops(Lbfgs_state<Memory>& state, int count,
+                                            const double (&sg)[slots], const double (&yg)[slots],
+                                            const double (&sy)[slots][slots],
+                                            const double (&yy)[slots][slots])
+{
+  double alpha[slots] = {}, gamma[slots] = {};
+  CGAL_POWER_RTF_UNROLL
+  for (int k = slots - 1; k >= 0; --k) {
+    if (k >= count) continue;
+    double a = sg[k];
+    CGAL_POWER_RTF_UNROLL
+    for (int l = 0; l < slots; ++l)
+      if (l > k && l < count) a -= alpha[l] * sy[k][l];
+    alpha[k] = a / sy[k][k];
+  }
+  CGAL_POWER_RTF_UNROLL
+  for (int k = 0; k < slots; ++k) {
+    if (k >= count) continue;
+    double b = yg[k];
+    CGAL_POWER_RTF_UNROLL
+    for (int l = 0; l < slots; ++l)
+      if (l < count) b -= alpha[l] * (l <= k ? yy[k][l] : yy[l][k]);
+    CGAL_POWER_RTF_UNROLL
+    for (int l = 0; l < slots; ++l)
+      if (l < k) b += gamma[l] * sy[l][k];
+    gamma[k] = alpha[k] - b / sy[k][k];
+  }
+  CGAL_POWER_RTF_UNROLL
+  for (int k = 0; k < slots; ++k) {
+    state.alpha[k] = alpha[k];
+    state.gamma[k] = gamma[k];
+  }
+}
+
+/// Takes in the tried pair when the energy is convex along it, and does the two loops.
 template <int Memory, class T>
 CGAL_POWER_RTF_HD inline void finish_products(Lbfgs_state<Memory>& state, const T& totals)
 {
@@ -108,35 +144,9 @@ CGAL_POWER_RTF_HD inline void finish_products(Lbfgs_state<Memory>& state, const 
     for (int k = 0; k < slots; ++k) state.order[k] = order[k];
   }
 
-  double alpha[slots] = {}, gamma[slots] = {};
-  CGAL_POWER_RTF_UNROLL
-  for (int k = slots - 1; k >= 0; --k) {
-    if (k >= count) continue;
-    double a = sg[k];
-    CGAL_POWER_RTF_UNROLL
-    for (int l = 0; l < slots; ++l)
-      if (l > k && l < count) a -= alpha[l] * sy[k][l];
-    alpha[k] = a / sy[k][k];
-  }
-  CGAL_POWER_RTF_UNROLL
-  for (int k = 0; k < slots; ++k) {
-    if (k >= count) continue;
-    double b = yg[k];
-    CGAL_POWER_RTF_UNROLL
-    for (int l = 0; l < slots; ++l)
-      if (l < count) b -= alpha[l] * (l <= k ? yy[k][l] : yy[l][k]);
-    CGAL_POWER_RTF_UNROLL
-    for (int l = 0; l < slots; ++l)
-      if (l < k) b += gamma[l] * sy[l][k];
-    gamma[k] = alpha[k] - b / sy[k][k];
-  }
+  run_two_loops(state, count, sg, yg, sy, yy);
   state.count = count;
   state.has_last = 1;
-  CGAL_POWER_RTF_UNROLL
-  for (int k = 0; k < slots; ++k) {
-    state.alpha[k] = alpha[k];
-    state.gamma[k] = gamma[k];
-  }
 }
 
 /// \tparam Memory the largest number of pairs that can be kept
