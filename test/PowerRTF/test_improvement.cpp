@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
+#include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
@@ -152,6 +153,56 @@ TEST_CASE("smoothing finds the best place in a star, and leaves it")
     const double angle = k * std::acos(-1.) / 6;
     CHECK(energy(p) < energy(p + 1e-3 * unit * Vec3d{std::cos(angle), std::sin(angle), 0}));
   }
+}
+
+TEST_CASE("dislocations glide to each other and annihilate")
+{
+  // a hexagonal lattice on a plane
+  constexpr int rows = 24;
+  const Surface surface = shapes::make_surface(shapes::plane_patch(10, 10));
+  const Facet_tree tree(surface.points, surface.triangles);
+  const internal::Surface_projector projector(surface, tree);
+  const Box3<double> box = internal::bounding_box(surface.points, surface.triangles);
+  const double unit = 0.9 * (box.hi.x - box.lo.x) / (1.5 * rows);
+  Extracted_mesh lattice;
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < rows; ++k)
+      lattice.points.push_back(
+          {box.lo.x + unit * (k + 0.5 * i + 0.5), box.lo.y + unit * (0.866 * i + 0.5), box.lo.z});
+  for (int i = 0; i + 1 < rows; ++i)
+    for (int k = 0; k + 1 < rows; ++k) {
+      const int a = i * rows + k;
+      lattice.triangles.push_back({a, a + 1, a + rows});
+      lattice.triangles.push_back({a + 1, a + rows + 1, a + rows});
+    }
+  internal::Star_mesh mesh(lattice, projector);
+  const auto& m = mesh.working().mesh;
+  using Vertex = internal::Star_mesh::Vertex;
+  const auto irregular = [&] {
+    int count = 0;
+    for (const Vertex v : m.vertices()) count += mesh.is_movable(v) && m.degree(v) != 6;
+    return count;
+  };
+  REQUIRE(irregular() == 0);
+
+  // Flips along a row make two dislocations and move them apart.
+  int length = 0;
+  SUBCASE("next to each other") { length = 1; }
+  SUBCASE("four edges apart") { length = 4; }
+  SUBCASE("too far apart") { length = 12; }
+  const int first = rows / 2 * rows + 6;
+  for (int k = 0; k < length; ++k)
+    mesh.flip(m.edge(m.halfedge(Vertex(first + k + 1), Vertex(first + k + rows))));
+  internal::Mesh_smoother smoother(mesh);
+  for (int sweep = 0; sweep < 50; ++sweep) smoother.sweep();
+  REQUIRE(irregular() == 4);
+  const bool are_near = length < 12;
+  if (length > 1) { // flips alone do not help
+    smoother.flip();
+    CHECK(irregular() == 4);
+  }
+  CHECK(internal::Dislocation_annihilator(mesh).run() == (are_near ? 1 : 0));
+  CHECK(irregular() == (are_near ? 0 : 4));
 }
 
 TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as a whole")

@@ -14,7 +14,7 @@ struct Improvement_parameters {
   /// improve_mesh.h
   struct Schedule {
     static constexpr int max_attempts = 8;
-    static constexpr int smoothing_passes = 3;
+    static constexpr int smoothing_passes = 3, last_smoothing_passes = 4;
     static constexpr int optimization_rounds = 8;
     static constexpr int sliding_passes = 2, sliding_rounds = 4;
     /// Of the largest distance, in h: more is undone.
@@ -49,6 +49,14 @@ struct Improvement_parameters {
     /// features that smoothing would slide off.
     static constexpr double min_agreement = 0.75;
     static constexpr double max_step = 0.25; ///< in the shortest edge of the star
+  };
+
+  /// annihilate_dislocations.h
+  struct Dislocations {
+    static constexpr int max_glide = 6; ///< edges
+    static constexpr int rings = 4;     ///< around the flips, of vertices that move
+    static constexpr int rounds_per_flip = 2, rounds = 5; ///< of their moves
+    static constexpr double min_agreement = 0.5;
   };
 
   /// optimize_bad_triangles.h

@@ -8,6 +8,8 @@
 //   repeat, at most 8 times:
 //     start from the extracted mesh, with some vertices locked (at first none)
 //     3 times (the second attempt: 2): flip edges, smooth vertices          smooth_mesh.h
+//     annihilate dislocations of the lattice                   annihilate_dislocations.h
+//     4 times: flip edges, smooth vertices
 //     optimize
 //     if there are creases or borders, twice:
 //       slide vertices along them; optimize                                slide_features.h
@@ -31,6 +33,7 @@
 
 #include <CGAL/PowerRTF/extraction/intersecting_faces.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/cover_tips.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
@@ -91,10 +94,9 @@ private:
   void improve(Star_mesh& stars, int smoothing_passes)
   {
     Mesh_smoother smoother(stars);
-    for (int pass = 0; pass < smoothing_passes; ++pass) {
-      smoother.flip();
-      smoother.sweep();
-    }
+    smoother.run(smoothing_passes);
+    Dislocation_annihilator(stars).run();
+    smoother.run(Schedule::last_smoothing_passes);
     Bad_triangle_optimizer optimizer(stars);
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
     optimize();

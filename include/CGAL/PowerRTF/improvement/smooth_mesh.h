@@ -26,6 +26,14 @@ public:
 
   explicit Mesh_smoother(Star_mesh& mesh) : m(mesh) {}
 
+  void run(int passes)
+  {
+    for (int pass = 0; pass < passes; ++pass) {
+      flip();
+      sweep();
+    }
+  }
+
   /// Flips edges until that does not help any more.
   void flip()
   {
@@ -45,42 +53,7 @@ public:
     }
   }
 
-private:
-  using Parameters = Improvement_parameters::Smoothing;
-
-  // The inverse mean ratio, up to the factor 1 / (2 sqrt(3)).
-  static double term(const Vec3d& a, const Vec3d& b, const Vec3d& c)
-  {
-    const Vec3d e = b - a, f = c - a;
-    const double twice_area = length(cross(e, f));
-    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
-    return (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
-  }
-
-  static double energy(const Star& star, const Vec3d& p)
-  {
-    double sum = 0;
-    for (const Star::Corner& c : star.corners) sum += term(p, c.a, c.b);
-    return sum;
-  }
-
-  bool flip_if_better(Edge e)
-  {
-    if (!m.is_free(e)) return false;
-    const auto [a, b, c, d] = m.corners(e);
-    const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
-    const double now = term(pa, pb, pc) + term(pb, pa, pd),
-                 then = term(pd, pc, pa) + term(pc, pd, pb);
-    if (!(then < clearly_less * now)) return false; // equal diagonals stay
-    const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
-    if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) <
-        std::min(Parameters::min_agreement, agreement))
-      return false;
-    if (!m.working().is_flippable(e)) return false;
-    m.flip(e);
-    return true;
-  }
-
+  /// One step of a movable vertex.
   void step(Vertex v)
   {
     const Star star = m.star(v);
@@ -125,6 +98,42 @@ private:
       m.move(v, place);
       return;
     }
+  }
+
+  /// Of a triangle: the inverse mean ratio, up to the factor 1 / (2 sqrt(3)).
+  static double energy(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+  {
+    const Vec3d e = b - a, f = c - a;
+    const double twice_area = length(cross(e, f));
+    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+    return (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
+  }
+
+private:
+  using Parameters = Improvement_parameters::Smoothing;
+
+  static double energy(const Star& star, const Vec3d& p)
+  {
+    double sum = 0;
+    for (const Star::Corner& c : star.corners) sum += energy(p, c.a, c.b);
+    return sum;
+  }
+
+  bool flip_if_better(Edge e)
+  {
+    if (!m.is_free(e)) return false;
+    const auto [a, b, c, d] = m.corners(e);
+    const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
+    const double now = energy(pa, pb, pc) + energy(pb, pa, pd),
+                 then = energy(pd, pc, pa) + energy(pc, pd, pb);
+    if (!(then < clearly_less * now)) return false; // equal diagonals stay
+    const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
+    if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) <
+        std::min(Parameters::min_agreement, agreement))
+      return false;
+    if (!m.working().is_flippable(e)) return false;
+    m.flip(e);
+    return true;
   }
 
   Star_mesh& m;
