@@ -10,11 +10,9 @@
 
 #include <boost/container/small_vector.hpp>
 #include <boost/geometry/algorithms/covered_by.hpp>
-#include <boost/geometry/algorithms/equals.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
-#include <boost/geometry/strategies/strategies.hpp>
 
 #include <algorithm>
 #include <array>
@@ -132,7 +130,12 @@ private:
   using Tree_point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
   using Tree_box = boost::geometry::model::box<Tree_point>;
   using Entry = std::pair<Tree_box, Face>;
-  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
+  struct Has_same_face {
+    bool operator()(const Entry& a, const Entry& b) const { return a.second == b.second; }
+  };
+  using Tree =
+      boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>,
+                                    boost::geometry::index::indexable<Entry>, Has_same_face>;
 
   Entry entry(Face f) const
   {
