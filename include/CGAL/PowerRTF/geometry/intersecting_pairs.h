@@ -13,11 +13,30 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
+
+/// The box of a face, with its number.
+using Face_box =
+    Box_intersection_d::Box_with_info_d<double, 3, int, Box_intersection_d::ID_EXPLICIT>;
+using Face_boxes = std::vector<const Face_box*>;
+
+/// Calls `test(a, b)` for the pairs of boxes of `some` and `all` that meet; without `some`, for
+/// those of `all`. No template: one instance of CGAL's search, which takes long to compile, serves
+/// all.
+inline void for_each_meeting(Face_boxes* some, Face_boxes& all,
+                             const std::function<void(const Face_box*, const Face_box*)>& test)
+{
+  constexpr std::ptrdiff_t cutoff = 2000; // the leaves are cheap against the recursion
+  if (some)
+    box_intersection_d(some->begin(), some->end(), all.begin(), all.end(), std::cref(test), cutoff);
+  else
+    box_self_intersection_d(all.begin(), all.end(), std::cref(test), cutoff);
+}
 
 /// Finds pairs of faces that meet in more than the vertices and edges that they share. A face
 /// without area counts as a pair with itself and with nothing else.
@@ -42,67 +61,62 @@ public:
   template <class Faces, class Found>
   void find(const Faces& faces, Found&& found) const
   {
-    const std::vector<Box> boxes = boxes_of(faces, found);
-    Pointers all = pointers(boxes);
-    box_self_intersection_d(all.begin(), all.end(), tester(found), cutoff);
+    const std::vector<Face_box> boxes = boxes_of(faces, found);
+    Face_boxes all = pointers(boxes);
+    for_each_meeting(nullptr, all, tester(found));
   }
 
   /// The same for the pairs of `faces` of which at least one `is_wanted()`.
   template <class Faces, class IsWanted, class Found>
   void find_where(const Faces& faces, IsWanted&& is_wanted, Found&& found) const
   {
-    const std::vector<Box> boxes = boxes_of(faces, [&](Face f, Face) {
+    const std::vector<Face_box> boxes = boxes_of(faces, [&](Face f, Face) {
       if (is_wanted(f)) found(f, f);
     });
-    Pointers all = pointers(boxes), wanted;
+    Face_boxes all = pointers(boxes), wanted;
     std::copy_if(all.begin(), all.end(), std::back_inserter(wanted),
-                 [&](const Box* box) { return is_wanted(box->info()); });
+                 [&](const Face_box* box) { return is_wanted(face(box)); });
     auto test = tester(found);
-    box_intersection_d(
-        wanted.begin(), wanted.end(), all.begin(), all.end(),
-        [&](const Box* a, const Box* b) {
-          // not with itself, and once if both are wanted
-          if (a == b || (is_wanted(b->info()) && b < a)) return;
-          test(a, b);
-        },
-        cutoff);
+    for_each_meeting(&wanted, all, [&](const Face_box* a, const Face_box* b) {
+      // not with itself, and once if both are wanted
+      if (a == b || (is_wanted(face(b)) && b < a)) return;
+      test(a, b);
+    });
   }
 
 private:
-  using Box = Box_intersection_d::Box_with_info_d<double, 3, Face, Box_intersection_d::ID_EXPLICIT>;
-  using Pointers = std::vector<const Box*>;
-  static constexpr std::ptrdiff_t cutoff = 2000; // the leaves are cheap against the recursion
+  static Face face(const Face_box* box) { return Face(box->info()); }
 
   // Of the faces with area; the others are found.
   template <class Faces, class Found>
-  std::vector<Box> boxes_of(const Faces& faces, Found&& found) const
+  std::vector<Face_box> boxes_of(const Faces& faces, Found&& found) const
   {
-    std::vector<Box> boxes;
+    std::vector<Face_box> boxes;
     boxes.reserve(faces.size());
     for (const Face f : faces) {
       const Triangle_points p = m_triangles.points(m_triangles.corners(f));
       if (has_no_area(p))
         found(f, f);
       else
-        boxes.emplace_back(box_of(p), f);
+        boxes.emplace_back(box_of(p), int(f));
     }
     return boxes;
   }
 
-  static Pointers pointers(const std::vector<Box>& boxes)
+  static Face_boxes pointers(const std::vector<Face_box>& boxes)
   {
-    Pointers result;
+    Face_boxes result;
     result.reserve(boxes.size());
-    for (const Box& box : boxes) result.push_back(&box);
+    for (const Face_box& box : boxes) result.push_back(&box);
     return result;
   }
 
   template <class Found>
   auto tester(Found& found) const
   {
-    return [this, &found, tests = 0u](const Box* a, const Box* b) mutable {
+    return [this, &found, tests = 0u](const Face_box* a, const Face_box* b) mutable {
       if (++tests % 1024 == 0) Cancellation::poll();
-      if (intersect(a->info(), b->info())) found(a->info(), b->info());
+      if (intersect(face(a), face(b))) found(face(a), face(b));
     };
   }
 
