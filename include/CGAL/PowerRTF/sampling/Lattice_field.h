@@ -44,7 +44,7 @@ public:
     for (const Lattice_nodes& nodes : levels) {
       m_levels.emplace_back();
       m_levels.back().set_nodes(m_backend, nodes, reach);
-      reach *= 1.41421356f;
+      reach *= 2;
     }
   }
 

@@ -55,7 +55,8 @@ public:
     make_nodes();
     Lattice_field<Backend> field(m_backend, m_levels, m_seed);
     field.orient();
-    double scale = 0.98; // rows that end cost points
+    // Rows that end cost points: a share that falls slowly with n (kitten, fertility, armadillo).
+    double scale = 1 - 0.02 * std::pow(3000. / static_cast<double>(m_size), 0.2);
     for (int step = 0;; ++step) {
       field.place(static_cast<float>(scale));
       choose_points(field.view());
@@ -70,7 +71,7 @@ public:
   }
 
 private:
-  static constexpr double nodes_per_sample = 6, coarsening = 2, tolerance = 0.02;
+  static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.02;
   static constexpr int coarsest_level = 64, max_scalings = 2;
   static constexpr std::size_t min_lattice = 50;                 // samples of a component
   static constexpr double cos_same_side = 0.2;                   // of normals
@@ -83,7 +84,7 @@ private:
     for (int level = 0;; ++level, count /= coarsening) {
       m_levels.emplace_back();
       add_strata(strata, static_cast<int>(std::ceil(count)), m_levels.back());
-      add_sites(std::size_t(1) << level / 2, m_levels.back()); // as much farther apart as nodes
+      add_sites(std::size_t(1) << level, m_levels.back()); // as much farther apart as nodes
       if (count <= coarsest_level) break;
     }
   }
