@@ -53,8 +53,9 @@ struct Improvement_parameters {
 
   /// annihilate_dislocations.h
   struct Dislocations {
-    static constexpr int max_glide = 6; ///< edges
-    static constexpr int rings = 4;     ///< around the flips, of vertices that move
+    static constexpr int max_glide = 6;         ///< edges
+    static constexpr int irregular_degree = 10; ///< of vertices that take no part
+    static constexpr int rings = 4;             ///< around the flips, of vertices that move
     static constexpr int rounds_per_flip = 2, rounds = 5; ///< of their moves
     static constexpr double min_agreement = 0.5;
   };

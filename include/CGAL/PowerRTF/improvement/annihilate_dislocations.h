@@ -44,8 +44,11 @@ private:
   using Face = Working_mesh::Face;
   using Parameters = Improvement_parameters::Dislocations;
 
+  // At most `irregular_degree`.
+  int degree(Vertex v) const { return m.working().degree_up_to(Parameters::irregular_degree, v); }
+
   // Edges above six; 0 where the mesh is not free, as on features and borders.
-  int excess(Vertex v) const { return m.is_movable(v) ? int(m.working().mesh.degree(v)) - 6 : 0; }
+  int excess(Vertex v) const { return m.is_movable(v) ? degree(v) - 6 : 0; }
 
   // Of the corners of an edge's triangles: the sum of squares.
   int irregularity(Edge e) const
@@ -97,8 +100,9 @@ private:
   {
     if (!m.is_free(e) || !m.working().is_flippable(e)) return false;
     const auto corners = m.corners(e);
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](Vertex v) { return m.is_movable(v) && m.working().mesh.degree(v) > 4; });
+    return std::all_of(corners.begin(), corners.end(), [&](Vertex v) {
+      return m.is_movable(v) && degree(v) > 4 && degree(v) < Parameters::irregular_degree;
+    });
   }
 
   void undo(const std::vector<Edge>& flips)
@@ -126,7 +130,8 @@ private:
     return false;
   }
 
-  // Those that are at most so many edges away from the corners of the edges' triangles.
+  // Those that are at most so many edges away from the corners of the edges' triangles; no way
+  // leads through a vertex that is far from regular.
   std::vector<Vertex> vertices_near(const std::vector<Edge>& edges,
                                     int rings = Parameters::rings) const
   {
@@ -137,7 +142,7 @@ private:
     for (int ring = 0; ring < rings; ++ring) {
       for (std::size_t k = 0, size = near.size(); k < size; ++k)
         for (const Halfedge h : halfedges_around_target(near[k], mesh))
-          near.push_back(mesh.source(h));
+          if (degree(mesh.source(h)) < Parameters::irregular_degree) near.push_back(mesh.source(h));
       sort_uniquely(near);
     }
     return near;

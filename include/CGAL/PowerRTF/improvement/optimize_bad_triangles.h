@@ -90,10 +90,7 @@ private:
     set_anchors();
     double total = total_badness(bad);
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
-      std::vector<Vertex> vertices;
-      for (const Face f : bad)
-        for (const Vertex v : vertices_around(f)) vertices.push_back(v);
-      sort_uniquely(vertices);
+      const std::vector<Vertex> vertices = vertices_around(bad);
       for (const Vertex v : vertices) {
         Cancellation::poll();
         search(v);
@@ -118,16 +115,19 @@ private:
   using Parameters = Improvement_parameters::Optimization;
   using Vertices = boost::container::small_vector<Vertex, 16>;
 
-  Vertices vertices_around(Face f) const
+  // The corners and their neighbors.
+  std::vector<Vertex> vertices_around(const std::vector<Face>& faces) const
   {
     const auto& mesh = m.working().mesh;
-    Vertices result;
-    Halfedge h = mesh.halfedge(f);
-    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
-      for (const Halfedge g : halfedges_around_target(h, mesh)) result.push_back(mesh.source(g));
-      result.push_back(mesh.target(h));
-    }
-    return result;
+    std::vector<Vertex> vertices;
+    for (const Face f : faces)
+      for (const Vertex v : m.working().corners(f)) vertices.push_back(v);
+    sort_uniquely(vertices);
+    for (std::size_t k = 0, corners = vertices.size(); k < corners; ++k)
+      for (const Halfedge h : halfedges_around_target(vertices[k], mesh))
+        vertices.push_back(mesh.source(h));
+    sort_uniquely(vertices);
+    return vertices;
   }
 
   Triangle_badness judgment(Face f) const
