@@ -13,10 +13,12 @@
 namespace CGAL::PowerRTF {
 
 template Samples sample_surface<Sequential_tag>(const Surface&, const Remeshing_options&,
-                                                const Feature_samples&, const Facet_tree*);
+                                                const Feature_samples&, const Facet_tree*,
+                                                std::size_t*);
 #ifdef CGAL_LINKED_WITH_TBB
 template Samples sample_surface<Parallel_tag>(const Surface&, const Remeshing_options&,
-                                              const Feature_samples&, const Facet_tree*);
+                                              const Feature_samples&, const Facet_tree*,
+                                              std::size_t*);
 #endif
 
 } // namespace CGAL::PowerRTF

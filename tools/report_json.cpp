@@ -113,6 +113,7 @@ void add_mesh(Json& json, const Run& run)
   json["oriented"] = r.topology.oriented;
   json["self_intersections"] = r.self_intersections;
   json["feature_samples"] = r.feature_samples;
+  json["off_lattice_samples"] = r.off_lattice_samples;
   json["crease_edges"] = r.crease_edges;
   json["feature_edges"] = r.feature_edges;
   json["lost_feature_edges"] = r.lost_feature_edges;

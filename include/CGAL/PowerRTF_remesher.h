@@ -135,7 +135,8 @@ private:
     PowerRTF::internal::Stopwatch watch(m_report.seconds.sampling);
     const PowerRTF::Feature_samples& features = m_patches.features();
     m_engine.set_samples(PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
-                             m_patches.surface(), m_options, features, &m_engine.facet_tree()),
+                             m_patches.surface(), m_options, features, &m_engine.facet_tree(),
+                             &m_report.off_lattice_samples),
                          features);
     m_report.iterations.clear();
   }

@@ -207,6 +207,30 @@ TEST_CASE("a flat piece gets one lattice, whatever it begins from")
   }
 }
 
+TEST_CASE("small components have no lattice, and the report says so")
+{
+  Remeshing_options o;
+  o.number_of_samples = 1000;
+  o.sampling = Sampling::lattice;
+  std::size_t off_lattice = 1;
+  sample_surface(shapes::make_surface(shapes::torus(40, 20, 2, 1)), o, {}, nullptr, &off_lattice);
+  CHECK(off_lattice < 20);
+  const shapes::Soup both =
+      shapes::joined(shapes::icosphere(3),
+                     shapes::translated(shapes::scaled(shapes::icosphere(3), 0.2), {3, 0, 0}));
+  const Surface surface = shapes::make_surface(both);
+  const Samples samples = sample_surface(surface, o, {}, nullptr, &off_lattice);
+  std::size_t small = 0;
+  for (const Vec3d& p : samples.points) small += surface.normalization.to_outside(p).x > 2;
+  CHECK(small > 20);
+  CHECK(small < 50);
+  CHECK(off_lattice >= small);
+  CHECK(off_lattice < small + 20);
+  o.sampling = Sampling::stratified;
+  sample_surface(surface, o, {}, nullptr, &off_lattice);
+  CHECK(off_lattice == 0);
+}
+
 TEST_CASE("the number of threads and who makes the facets' tree change nothing")
 {
   for (const shapes::Soup& soup : {shapes::torus(20, 10, 2, 1), shapes::two_spheres(3)})

@@ -105,8 +105,10 @@ struct Remeshing_report {
   std::size_t outer_iterations = 0;
   std::vector<Iteration_report> iterations;
   std::size_t feature_samples = 0; ///< on creases and borders: they have no cells
-  Cell_counts cells;               ///< at the end
-  Capacity_statistics capacity;    ///< at the end
+  /// `Sampling::lattice`: first samples where it does not fit, as in gaps and on small components.
+  std::size_t off_lattice_samples = 0;
+  Cell_counts cells;            ///< at the end
+  Capacity_statistics capacity; ///< at the end
   Repair_counts repairs;
   Topology_statistics input_topology, topology;
   std::size_t self_intersections = 0;       ///< pairs of facets

@@ -15,6 +15,7 @@
 
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
 #include <CGAL/PowerRTF/sampling/Surface_strata.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
@@ -22,6 +23,7 @@
 #include <CGAL/PowerRTF/sampling/sample_elimination.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +49,10 @@ public:
       : m_backend(backend), m_surface(surface), m_tree(tree), m_features(features),
         m_component(component), m_shares(shares), m_seed(seed), m_cube(surface)
   {
-    for (const Component_share& share : shares) m_size += share.samples;
+    for (const Component_share& share : shares) {
+      m_size += share.samples;
+      if (share.samples >= min_lattice) m_lattice_size += share.samples;
+    }
   }
 
   Samples run()
@@ -61,7 +66,7 @@ public:
       field.place(static_cast<float>(scale));
       choose_points(field.view());
       const double count = static_cast<double>(distinct_points(field.view()));
-      const double wanted = static_cast<double>(m_size);
+      const double wanted = static_cast<double>(m_lattice_size);
       if (step == max_scalings || std::fabs(count - wanted) <= tolerance * wanted || count == 0)
         break;
       scale *= std::sqrt(count / wanted);
@@ -70,11 +75,15 @@ public:
     return eliminate();
   }
 
+  /// Samples of the last run that are no points of the lattice.
+  std::size_t off_lattice() const { return m_off_lattice; }
+
 private:
   static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.02;
   static constexpr int coarsest_level = 64, max_scalings = 2;
-  static constexpr std::size_t min_lattice = 50;                 // samples of a component
-  static constexpr double cos_same_side = 0.2;                   // of normals
+  static constexpr std::size_t min_lattice = 50; // samples of a component
+  static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
+  static constexpr double cos_same_side = 0.2;   // of normals
   static constexpr double twin_distance = 0.6, gap_radius = 0.7; // relative to the spacing
 
   void make_nodes()
@@ -161,7 +170,7 @@ private:
                        Choose_points{view, seen.data(), is_chosen.data(), points.data()});
     m_candidates.clear();
     for (int i = 0; i < view.free; ++i)
-      if (is_chosen.data()[i])
+      if (is_chosen.data()[i] && m_shares[view.components[i]].samples >= min_lattice)
         m_candidates.push_back({points.data()[i], i, seen.data()[i].distance});
   }
 
@@ -242,26 +251,46 @@ private:
       for (const int k :
            eliminate_samples(points, normals, radii, 0, m_shares[c].samples, sites[c].size())) {
         const Sample_candidate& chosen = m_candidates[candidates[c][k]];
+        m_off_lattice += chosen.distance < 0;
         add_on_surface(chosen, samples);
       }
     }
     return samples;
   }
 
-  /// The candidate's nearest point of the surface, on the node's side of a sheet.
+  /// The candidate's nearest point of the surface, on the node's side of a sheet; the node itself
+  /// for a point of the lattice beyond a border, whose nearest point is on it.
   void add_on_surface(const Sample_candidate& candidate, Samples& samples) const
   {
-    const Vec3d point = m_cube.to_outside(candidate.point);
-    const Vec3f n = m_levels.front().normals[candidate.node];
+    const Lattice_nodes& nodes = m_levels.front();
+    const Vec3f n = nodes.normals[candidate.node];
     const int near = m_facets[candidate.node];
-    const Surface_point<double> on =
-        m_tree.nearest(point, Vec3d{n.x, n.y, n.z}, cos_same_side, near);
-    const int f = on.facet < 0 ? near : on.facet;
-    const Triangle& t = m_surface.triangles[f];
-    const auto& p = m_surface.points;
+    Vec3d point = m_cube.to_outside(candidate.point);
+    int f = m_tree.nearest(point, Vec3d{n.x, n.y, n.z}, cos_same_side, near).facet;
+    if (f < 0) f = near;
+    const double h = double(nodes.spacing[candidate.node]) / m_cube.scale;
+    if (beyond(point, f) > max_beyond * h) {
+      point = m_cube.to_outside(nodes.points[candidate.node]);
+      f = near;
+    }
+    const auto [a, b, c] = corners(f);
     double beta, gamma;
-    barycentric_coordinates(point, p[t[0]], p[t[1]], p[t[2]], beta, gamma);
+    barycentric_coordinates(point, a, b, c, beta, gamma);
     internal::add_sample(m_surface, f, {1 - beta - gamma, beta, gamma}, samples);
+  }
+
+  std::array<Vec3d, 3> corners(int f) const
+  {
+    const Triangle& t = m_surface.triangles[f];
+    return {m_surface.points[t[0]], m_surface.points[t[1]], m_surface.points[t[2]]};
+  }
+
+  /// How far the foot of the perpendicular from `p` to the plane of a facet is outside the facet.
+  double beyond(const Vec3d& p, int f) const
+  {
+    const auto [a, b, c] = corners(f);
+    const Vec3d normal = normalized(cross(b - a, c - a)), foot = p - dot(p - a, normal) * normal;
+    return length(foot - nearest_point_on_triangle(foot, a, b, c));
   }
 
   Backend& m_backend;
@@ -272,9 +301,9 @@ private:
   const std::vector<Component_share>& m_shares;
   std::uint64_t m_seed;
   Surface_cube m_cube; // the nodes' coordinates are inside
-  std::size_t m_size = 0;
-  std::vector<Lattice_nodes> m_levels; // from fine to coarse
-  std::vector<int> m_facets;           // of the free nodes of the finest level
+  std::size_t m_size = 0, m_lattice_size = 0, m_off_lattice = 0; // samples
+  std::vector<Lattice_nodes> m_levels;                           // from fine to coarse
+  std::vector<int> m_facets; // of the free nodes of the finest level
   std::vector<Sample_candidate> m_candidates;
 };
 

@@ -32,10 +32,12 @@ class Facet_tree;
 /// \param features samples that are there already, on the patches' boundaries; they count among
 ///   the n
 /// \param tree of the surface's facets; null: it is made where it is needed
+/// \param off_lattice gets the number of samples that are no points of the lattice; may be null
 /// \throws Invalid_input_error an option has a value that is not allowed
 template <class ConcurrencyTag = Sequential_tag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
-                       const Feature_samples& features = {}, const Facet_tree* tree = nullptr);
+                       const Feature_samples& features = {}, const Facet_tree* tree = nullptr,
+                       std::size_t* off_lattice = nullptr);
 
 } // namespace CGAL::PowerRTF
 

@@ -19,7 +19,8 @@ namespace CGAL::PowerRTF {
 
 template <class ConcurrencyTag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
-                       const Feature_samples& features, const Facet_tree* tree)
+                       const Feature_samples& features, const Facet_tree* tree,
+                       std::size_t* off_lattice)
 {
   validate(options);
   using Backend = Host_backend<ConcurrencyTag>;
@@ -28,12 +29,14 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
   const std::vector<Component_share> shares =
       component_shares(surface, options.number_of_samples, features, component);
   Samples samples;
+  if (off_lattice) *off_lattice = 0;
   if (options.sampling == Sampling::lattice) {
     std::optional<Facet_tree> own_tree;
     if (!tree) tree = &own_tree.emplace(surface.points, surface.triangles, surface.facet_patches);
-    samples = Lattice_sampler<Backend>(backend, surface, *tree, features, component, shares,
-                                       options.random_seed)
-                  .run();
+    Lattice_sampler<Backend> sampler(backend, surface, *tree, features, component, shares,
+                                     options.random_seed);
+    samples = sampler.run();
+    if (off_lattice) *off_lattice = sampler.off_lattice();
   } else if (options.sampling == Sampling::stratified) {
     samples = stratified_samples(backend, surface, component, shares, options.random_seed);
   } else {
