@@ -84,6 +84,7 @@ struct Settings {
   std::size_t samples;
   std::string density = "uniform";
   std::string format = "off"; ///< of input and output
+  unsigned seed = 0;
 };
 
 struct Run {
@@ -109,7 +110,8 @@ inline Run run(const Scratch_folder& folder, const std::string& name, const shap
   const std::string command =
       "ulimit -t " + std::to_string(time_limit) + "; exec" + quoted(program()) + quoted(run.input) +
       quoted(run.output) + " --quiet --threads 1 --samples " + std::to_string(settings.samples) +
-      " --density " + settings.density + " --report" + quoted(report) + " 2>" + quoted(messages);
+      " --density " + settings.density + " --seed " + std::to_string(settings.seed) + " --report" +
+      quoted(report) + " 2>" + quoted(messages);
   const int status = std::system(command.c_str());
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.message = content(messages);

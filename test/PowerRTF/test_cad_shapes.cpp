@@ -66,12 +66,13 @@ void check_flat_faces(const shapes::Soup& soup, bool sharp, double least_width =
     }
 }
 
-/// In per cent of the diagonal.
-double largest_distance(const shapes::Soup& soup, std::size_t samples)
+/// Relative to the spacing of the samples.
+double largest_distance(const shapes::Soup& soup, std::size_t samples, unsigned seed = 0)
 {
   const judged_run::Scratch_folder folder;
-  const Run run = met_run(folder, soup, {samples});
-  return run.report["distance_max"];
+  const Run run = met_run(folder, soup, {samples, "uniform", "off", seed});
+  const double percent = run.report["distance_max"], diagonal = run.report["diagonal"];
+  return percent / 100 * diagonal / std::sqrt(area(judge::read(run.input)) / double(samples));
 }
 
 } // namespace
@@ -125,7 +126,12 @@ TEST_CASE("a cone keeps its tip, in few long facets and in many")
     for (const std::size_t samples : {1000, 3000, 10000}) {
       CAPTURE(rows);
       CAPTURE(samples);
-      CHECK(largest_distance(shapes::cone(64, 1, 3, rows), samples) <= 1);
+      // Three triangles at the tip have angles of 38 degrees there: whether a vertex is on it is a
+      // matter of the start.
+      double mean = 0;
+      for (const unsigned seed : {0, 1, 2, 3})
+        mean += largest_distance(shapes::cone(64, 1, 3, rows), samples, seed) / 4;
+      CHECK(mean <= 0.5);
     }
 }
 
