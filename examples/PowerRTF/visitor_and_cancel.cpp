@@ -35,7 +35,7 @@ int main()
   CGAL::Subdivision_method_3::Loop_subdivision(input, CGAL::parameters::number_of_iterations(3));
 
   // std::ref: the visitor itself is used, not a copy.
-  Watcher patient(1000), impatient(30);
+  Watcher patient(1000), impatient(5);
   CGAL::power_rtf_remeshing(input, 500, output, CGAL::parameters::visitor(std::ref(patient)));
   const auto faces = num_faces(output);
 

@@ -21,6 +21,7 @@ Remeshing_options curvature_options(double power = 1, double gradation = 0)
   o.density = Density::curvature;
   o.density_power = power;
   o.gradation = gradation;
+  o.density_smoothing = 0;
   return o;
 }
 

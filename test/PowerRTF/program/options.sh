@@ -173,7 +173,8 @@ has_ended() { ! kill -0 $pid; }
 ends_by() {
   local status
   echo untouched >out.off
-  "$program" large.off out.off -n 4000 --iterations 1000000 --weight-method none 2>stderr &
+  "$program" large.off out.off -n 4000 --iterations 1000000 --centroid-tolerance 0 \
+    --weight-method none 2>stderr &
   pid=$!
   if [ ! -e "/proc/$pid/status" ]; then
     kill -KILL $pid
