@@ -226,10 +226,10 @@ private:
       double best = -1;
       Halfedge chosen;
       for (const Halfedge h : halfedges_around_source(u, m.mesh)) {
-        if (!m_flipper.is_legal(m.mesh.edge(h))) continue;
+        if (m.mesh.is_border(m.mesh.edge(h))) continue;
         const Vertex v = m.mesh.target(h), c = m.apex(h), d = m.apex(m.mesh.opposite(h));
         const double shape = m.agreement(d, v, c) > 0 ? m.shape(d, v, c) : 0;
-        if (shape <= best) continue;
+        if (shape <= best || !m_flipper.is_legal(m.mesh.edge(h))) continue; // the latter takes long
         best = shape;
         chosen = h;
         progress = true;
