@@ -73,15 +73,37 @@ struct Working_mesh {
     return result;
   }
 
+  /// The faces at the vertices, sorted.
+  template <class Vertices>
+  boost::container::small_vector<Face, 48> faces_at(const Vertices& vertices) const
+  {
+    boost::container::small_vector<Face, 48> faces;
+    for (const Vertex v : vertices)
+      for (const Halfedge h : halfedges_around_target(v, mesh))
+        if (!mesh.is_border(h)) faces.push_back(mesh.face(h));
+    sort_uniquely(faces);
+    return faces;
+  }
   /// The faces at `v` and at its neighbors, sorted.
   boost::container::small_vector<Face, 48> faces_near(Vertex v) const
   {
-    boost::container::small_vector<Face, 48> faces;
-    for (const Halfedge h : halfedges_around_target(v, mesh))
-      for (const Halfedge g : halfedges_around_target(mesh.opposite(h), mesh))
-        if (!mesh.is_border(g)) faces.push_back(mesh.face(g));
-    sort_uniquely(faces);
-    return faces;
+    return faces_at(mesh.vertices_around_target(mesh.halfedge(v)));
+  }
+
+  /// Adds the neighbors of the vertices, and sorts all.
+  void add_neighbors(std::vector<Vertex>& vertices) const
+  {
+    add_neighbors(vertices, [](Vertex) { return true; });
+  }
+  /// The same for those that `is_wanted()`.
+  template <class IsWanted>
+  void add_neighbors(std::vector<Vertex>& vertices, IsWanted&& is_wanted) const
+  {
+    sort_uniquely(vertices);
+    for (std::size_t k = 0, size = vertices.size(); k < size; ++k)
+      for (const Halfedge h : halfedges_around_target(vertices[k], mesh))
+        if (is_wanted(mesh.source(h))) vertices.push_back(mesh.source(h));
+    sort_uniquely(vertices);
   }
 
   /// The neighbors of `v` along creases and borders that must stay.

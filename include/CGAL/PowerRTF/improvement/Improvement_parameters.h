@@ -29,6 +29,13 @@ struct Improvement_parameters {
     static constexpr double healable_relocation_badness = 0.008;
   };
 
+  /// Star_mesh.h
+  struct Stars {
+    /// A vertex with so many edges (of a needle) has no good triangles, and to look at all of them
+    /// for each costs minutes.
+    static constexpr int hub_degree = 60;
+  };
+
   /// Surface_projector.h and Distance_tracker.h
   struct Projection {
     /// Between normals that agree: about 110 degrees.
@@ -76,9 +83,6 @@ struct Improvement_parameters {
     /// Least shape (mean ratio) of the triangles that a flip makes, before the search; and where
     /// the flip heals a valence that allows no good angles.
     static constexpr double min_flip_shape = 0.6, min_healing_flip_shape = 0.35;
-    /// A vertex with so many edges (of a needle) has no good triangles, and to look at all of them
-    /// for each costs minutes.
-    static constexpr int hub_degree = 60;
   };
 
   /// slide_features.h

@@ -11,6 +11,7 @@
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -132,6 +133,13 @@ public:
   }
   const Vec3d& normal(Vertex v) const { return m.normals[v]; }
   int facet(Vertex v) const { return m_facets[v]; }
+
+  /// Whether `v` has too many edges to look at all of them often.
+  bool is_hub(Vertex v) const
+  {
+    constexpr int hub_degree = Improvement_parameters::Stars::hub_degree;
+    return m.degree_up_to(hub_degree, v) == hub_degree;
+  }
 
   bool is_on_feature(Vertex v) const { return m_on_feature[v]; }
   bool is_feature(Edge e) const { return m_is_feature[e]; }

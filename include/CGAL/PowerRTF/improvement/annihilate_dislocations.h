@@ -114,16 +114,16 @@ private:
   bool flip_if_better(const std::vector<Edge>& flips)
   {
     const std::vector<Vertex> near = vertices_near(flips);
-    const std::vector<Face> faces = faces_at(near);
+    const auto faces = m.working().faces_at(near);
     std::vector<Surface_projector::Place> places;
     for (const Vertex v : near) places.push_back(m.place(v));
     const double before = energy(faces);
     for (const Edge e : flips) {
       m.flip(e);
       const std::vector<Vertex> around = vertices_near({e}, 1);
-      for (int round = 0; round < Parameters::rounds_per_flip; ++round) smooth(around);
+      for (int round = 0; round < Parameters::rounds_per_flip; ++round) m_smoother.sweep(around);
     }
-    for (int round = 0; round < Parameters::rounds; ++round) smooth(near);
+    for (int round = 0; round < Parameters::rounds; ++round) m_smoother.sweep(near);
     if (energy(faces) < clearly_less * before && lie_well(faces)) return true;
     undo(flips);
     for (std::size_t k = 0; k < near.size(); ++k) m.move(near[k], places[k]);
@@ -135,37 +135,17 @@ private:
   std::vector<Vertex> vertices_near(const std::vector<Edge>& edges,
                                     int rings = Parameters::rings) const
   {
-    const auto& mesh = m.working().mesh;
     std::vector<Vertex> near;
     for (const Edge e : edges)
       for (const Vertex v : m.corners(e)) near.push_back(v);
-    for (int ring = 0; ring < rings; ++ring) {
-      for (std::size_t k = 0, size = near.size(); k < size; ++k)
-        for (const Halfedge h : halfedges_around_target(near[k], mesh))
-          if (degree(mesh.source(h)) < Parameters::irregular_degree) near.push_back(mesh.source(h));
-      sort_uniquely(near);
-    }
+    for (int ring = 0; ring < rings; ++ring)
+      m.working().add_neighbors(
+          near, [this](Vertex v) { return degree(v) < Parameters::irregular_degree; });
     return near;
   }
 
-  std::vector<Face> faces_at(const std::vector<Vertex>& vertices) const
-  {
-    const auto& mesh = m.working().mesh;
-    std::vector<Face> faces;
-    for (const Vertex v : vertices)
-      for (const Halfedge h : halfedges_around_target(v, mesh))
-        if (!mesh.is_border(h)) faces.push_back(mesh.face(h));
-    sort_uniquely(faces);
-    return faces;
-  }
-
-  void smooth(const std::vector<Vertex>& vertices)
-  {
-    for (const Vertex v : vertices)
-      if (m.is_movable(v)) m_smoother.step(v);
-  }
-
-  double energy(const std::vector<Face>& faces) const
+  template <class Faces>
+  double energy(const Faces& faces) const
   {
     double sum = 0;
     for (const Face f : faces) {
@@ -175,7 +155,8 @@ private:
     return sum;
   }
 
-  bool lie_well(const std::vector<Face>& faces) const
+  template <class Faces>
+  bool lie_well(const Faces& faces) const
   {
     return std::all_of(faces.begin(), faces.end(), [&](Face f) {
       const auto [a, b, c] = m.working().corners(f);

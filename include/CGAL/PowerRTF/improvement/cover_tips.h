@@ -64,7 +64,7 @@ private:
     Halfedge h = m_tracker[i].face;
     for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
       const Vertex v = mesh.target(h);
-      if (!m.is_movable(v) || is_hub(v)) continue;
+      if (!m.is_movable(v) || m.is_hub(v)) continue;
       const Star star = m.star(v);
       const Vec3d p = m.point(v), r = x - m_tracker[i].nearest;
       const double agreement =
@@ -85,12 +85,6 @@ private:
     m.pin(best.v);
     m_tracker.update_around(best.v);
     return true;
-  }
-
-  bool is_hub(Vertex v) const
-  {
-    constexpr int hub_degree = Improvement_parameters::Optimization::hub_degree;
-    return m.working().degree_up_to(hub_degree, v) == hub_degree;
   }
 
   bool keeps_shape(const Star& star, const Vec3d& now, const Vec3d& p) const

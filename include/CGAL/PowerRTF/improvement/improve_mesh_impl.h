@@ -206,10 +206,7 @@ private:
     std::vector<Vertex> locked;
     for (const Face f : broken)
       for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) locked.push_back(v);
-    for (int ring = 0; ring < rings; ++ring)
-      for (std::size_t i = 0, size = locked.size(); i < size; ++i)
-        for (const auto h : halfedges_around_target(locked[i], mesh))
-          locked.push_back(mesh.source(h));
+    for (int ring = 0; ring < rings; ++ring) stars.working().add_neighbors(locked);
     for (const Vertex v : locked) m_locked[v] = true;
   }
 

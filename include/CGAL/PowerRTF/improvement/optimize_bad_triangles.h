@@ -113,20 +113,14 @@ private:
   }
 
   using Parameters = Improvement_parameters::Optimization;
-  using Vertices = boost::container::small_vector<Vertex, 16>;
 
   // The corners and their neighbors.
   std::vector<Vertex> vertices_around(const std::vector<Face>& faces) const
   {
-    const auto& mesh = m.working().mesh;
     std::vector<Vertex> vertices;
     for (const Face f : faces)
       for (const Vertex v : m.working().corners(f)) vertices.push_back(v);
-    sort_uniquely(vertices);
-    for (std::size_t k = 0, corners = vertices.size(); k < corners; ++k)
-      for (const Halfedge h : halfedges_around_target(vertices[k], mesh))
-        vertices.push_back(mesh.source(h));
-    sort_uniquely(vertices);
+    m.working().add_neighbors(vertices);
     return vertices;
   }
 
@@ -251,9 +245,7 @@ private:
     Halfedge h = mesh.halfedge(f);
     for (int k = 0; k < 3; ++k, h = mesh.next(h)) edges.push_back(mesh.edge(h));
     for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
-      if (m.working().degree_up_to(Parameters::hub_degree, mesh.target(h)) ==
-          Parameters::hub_degree)
-        continue;
+      if (m.is_hub(mesh.target(h))) continue;
       for (const Halfedge g : halfedges_around_target(h, mesh))
         if (std::find(edges.begin(), edges.end(), mesh.edge(g)) == edges.end())
           edges.push_back(mesh.edge(g));
@@ -270,16 +262,15 @@ private:
     const std::array<Vertex, 4> corners = m.corners(e);
     // a vertex of valence 3 or 4 cannot lose an edge; one of valence 8 is to get no more
     std::array<int, 4> valence;
-    for (int k = 0; k < 4; ++k)
-      valence[k] = m.working().degree_up_to(Parameters::hub_degree, corners[k]);
+    for (int k = 0; k < 4; ++k) valence[k] = m.working().degree_up_to(9, corners[k]);
     if (valence[0] < 5 || valence[1] < 5 || valence[2] > 7 || valence[3] > 7) return false;
-    if (valence[0] == Parameters::hub_degree || valence[1] == Parameters::hub_degree) return false;
+    if (m.is_hub(corners[0]) || m.is_hub(corners[1])) return false;
     const auto shape = [&](int i, int j, int k) {
       return m.working().shape(corners[i], corners[j], corners[k]);
     };
-    // In a plane the angles around a vertex of valence 4 or 9 cannot all be good.
+    // In a plane the angles around a vertex of valence 4, or 9 and more, cannot all be good.
     const bool heals =
-        std::min(valence[2], valence[3]) <= 4 || std::max(valence[0], valence[1]) >= 9;
+        std::min(valence[2], valence[3]) <= 4 || std::max(valence[0], valence[1]) == 9;
     if (std::min(shape(0, 3, 2), shape(1, 2, 3)) <
         (heals ? Parameters::min_healing_flip_shape : Parameters::min_flip_shape))
       return false; // hopeless
@@ -307,28 +298,17 @@ private:
     return false;
   }
 
-  boost::container::small_vector<Face, 32> patch(const std::array<Vertex, 4>& corners) const
-  {
-    const auto& mesh = m.working().mesh;
-    boost::container::small_vector<Face, 32> faces;
-    for (const Vertex v : corners)
-      for (const Halfedge h : halfedges_around_target(v, mesh))
-        if (!mesh.is_border(h)) faces.push_back(mesh.face(h));
-    sort_uniquely(faces);
-    return faces;
-  }
-
   double patch_energy(const std::array<Vertex, 4>& corners) const
   {
     double sum = 0;
-    for (const Face f : patch(corners)) sum += judgment(f).energy();
+    for (const Face f : m.working().faces_at(corners)) sum += judgment(f).energy();
     return sum;
   }
 
   double patch_agreement(const std::array<Vertex, 4>& corners)
   {
     double least = 1;
-    for (const Face f : patch(corners)) {
+    for (const Face f : m.working().faces_at(corners)) {
       const auto [a, b, c] = m.working().corners(f);
       least = std::min(least, m.agreement(a, b, c));
     }

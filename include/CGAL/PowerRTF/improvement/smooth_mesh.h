@@ -45,15 +45,30 @@ public:
   }
 
   /// One step of every movable vertex.
-  void sweep()
+  void sweep() { sweep(m.working().mesh.vertices()); }
+
+  /// The same for some vertices.
+  template <class Vertices>
+  void sweep(const Vertices& vertices)
   {
-    for (const Vertex v : m.working().mesh.vertices()) {
+    for (const Vertex v : vertices) {
       Cancellation::poll();
       if (m.is_movable(v)) step(v);
     }
   }
 
-  /// One step of a movable vertex.
+  /// Of a triangle: the inverse mean ratio, up to the factor 1 / (2 sqrt(3)).
+  static double energy(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+  {
+    const Vec3d e = b - a, f = c - a;
+    const double twice_area = length(cross(e, f));
+    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+    return (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
+  }
+
+private:
+  using Parameters = Improvement_parameters::Smoothing;
+
   void step(Vertex v)
   {
     const Star star = m.star(v);
@@ -99,18 +114,6 @@ public:
       return;
     }
   }
-
-  /// Of a triangle: the inverse mean ratio, up to the factor 1 / (2 sqrt(3)).
-  static double energy(const Vec3d& a, const Vec3d& b, const Vec3d& c)
-  {
-    const Vec3d e = b - a, f = c - a;
-    const double twice_area = length(cross(e, f));
-    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
-    return (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
-  }
-
-private:
-  using Parameters = Improvement_parameters::Smoothing;
 
   static double energy(const Star& star, const Vec3d& p)
   {
