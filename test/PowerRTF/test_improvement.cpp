@@ -1,20 +1,12 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
-#include "shapes.h"
+#include "improvement_case.h"
 
-#include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
-#include <CGAL/PowerRTF/fields/smooth_normals.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
-#include <CGAL/PowerRTF/improvement/Star_mesh.h>
-#include <CGAL/PowerRTF/improvement/Surface_projector.h>
-#include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
-#include <CGAL/PowerRTF/improvement/smooth_mesh.h>
-#include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
-#include <CGAL/PowerRTF/sampling/sample_surface.h>
 
 #include <doctest/doctest.h>
 
@@ -26,27 +18,9 @@
 #include <utility>
 #include <vector>
 
-using namespace CGAL::PowerRTF;
+using namespace improvement_case;
 
 namespace {
-
-struct Case {
-  Surface surface;
-  Extracted_mesh raw;
-};
-
-Case make_case(const shapes::Soup& soup, std::size_t n, unsigned seed,
-               Sampling sampling = Sampling::elimination)
-{
-  Case c{shapes::make_surface(soup), {}};
-  Remeshing_options o;
-  o.number_of_samples = n;
-  o.random_seed = seed;
-  o.sampling = sampling;
-  smooth_normals(c.surface, n, o.normal_smoothing);
-  c.raw = extract_by_insertion(c.surface, sample_surface(c.surface, o));
-  return c;
-}
 
 Remeshing_report judge(const Surface& surface, const Extracted_mesh& mesh)
 {
@@ -95,170 +69,6 @@ std::set<std::pair<int, int>> border_edges(const Extracted_mesh& mesh)
 }
 
 } // namespace
-
-TEST_CASE("triangle badness")
-{
-  const Vec3d a{0, 0, 0}, b{1, 0, 0};
-  const double degree = std::acos(-1.) / 180;
-  using internal::triangle_badness;
-  const auto equilateral = triangle_badness(a, b, {0.5, std::sqrt(0.75), 0});
-  CHECK(equilateral.badness == 0);
-  CHECK(equilateral.inverse_mean_ratio == doctest::Approx(1));
-  // isosceles: Q = sqrt(3) height / (half the perimeter * the longest edge)
-  for (double apex = 1; apex < 170; apex += 0.5) {
-    CAPTURE(apex);
-    const double base = 2 * std::sin(apex / 2 * degree);
-    const double q =
-        2 * std::sqrt(3.) * std::sin(apex * degree) / ((2 + base) * std::max(1., base));
-    const double smallest = std::min(apex, 90 - apex / 2), largest = std::max(apex, 90 - apex / 2);
-    const double expected = 4 * std::pow(std::max(0., 0.77 - q), 2) +
-                            4 * std::pow(std::max(0., 41.5 - smallest) / 60, 2) +
-                            8 * std::pow(std::max(0., largest - 86) / 60, 2);
-    const Vec3d c{std::cos(apex * degree), std::sin(apex * degree), 0};
-    CHECK(triangle_badness(a, b, c).badness == doctest::Approx(expected).epsilon(0.05));
-  }
-  CHECK(triangle_badness(a, b, {0, 1e3, 0}).badness > 1);
-  CHECK(std::isinf(triangle_badness(a, b, {2, 0, 0}).badness));
-  // the same at any size
-  CHECK(triangle_badness(1e-9 * a, 1e-9 * b, {0.2e-9, 0.7e-9, 0}).badness ==
-        doctest::Approx(triangle_badness(a, b, {0.2, 0.7, 0}).badness));
-}
-
-TEST_CASE("smoothing finds the best place in a star, and leaves it")
-{
-  const Surface surface = shapes::make_surface(shapes::plane_patch(10, 10));
-  const Facet_tree tree(surface.points, surface.triangles);
-  const internal::Surface_projector projector(surface, tree);
-  const Vec3d m = (1. / 3) * (surface.points[surface.triangles[50][0]] +
-                              surface.points[surface.triangles[50][1]] +
-                              surface.points[surface.triangles[50][2]]);
-  const double unit = 0.1 * std::sqrt(surface.area);
-  Extracted_mesh star;
-  for (const auto& [x, y] : {std::pair{0.3, 0.2}, std::pair{1., 0.1}, std::pair{0.4, 1.3},
-                             std::pair{-0.9, 0.7}, std::pair{-0.8, -0.6}, std::pair{0.5, -1.1}})
-    star.points.push_back(m + unit * Vec3d{x, y, 0});
-  for (int k = 0; k < 5; ++k) star.triangles.push_back({0, 1 + k, 1 + (k + 1) % 5});
-  const auto energy = [&](const Vec3d& p) {
-    double sum = 0;
-    for (const Triangle& t : star.triangles)
-      sum += internal::triangle_badness(p, star.points[t[1]], star.points[t[2]]).inverse_mean_ratio;
-    return sum;
-  };
-  internal::Star_mesh mesh(star, projector);
-  internal::Mesh_smoother smoother(mesh);
-  for (int i = 0; i < 10; ++i) smoother.sweep();
-  const Vec3d p = mesh.point(internal::Star_mesh::Vertex(0));
-  CHECK(energy(p) < energy(star.points[0]));
-  for (int k = 0; k < 12; ++k) {
-    const double angle = k * std::acos(-1.) / 6;
-    CHECK(energy(p) < energy(p + 1e-3 * unit * Vec3d{std::cos(angle), std::sin(angle), 0}));
-  }
-}
-
-TEST_CASE("dislocations glide to each other and annihilate")
-{
-  // a hexagonal lattice on a plane
-  constexpr int rows = 24;
-  const Surface surface = shapes::make_surface(shapes::plane_patch(10, 10));
-  const Facet_tree tree(surface.points, surface.triangles);
-  const internal::Surface_projector projector(surface, tree);
-  const Box3<double> box = internal::bounding_box(surface.points, surface.triangles);
-  const double unit = 0.9 * (box.hi.x - box.lo.x) / (1.5 * rows);
-  Extracted_mesh lattice;
-  for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < rows; ++k)
-      lattice.points.push_back(
-          {box.lo.x + unit * (k + 0.5 * i + 0.5), box.lo.y + unit * (0.866 * i + 0.5), box.lo.z});
-  for (int i = 0; i + 1 < rows; ++i)
-    for (int k = 0; k + 1 < rows; ++k) {
-      const int a = i * rows + k;
-      lattice.triangles.push_back({a, a + 1, a + rows});
-      lattice.triangles.push_back({a + 1, a + rows + 1, a + rows});
-    }
-  internal::Star_mesh mesh(lattice, projector);
-  const auto& m = mesh.working().mesh;
-  using Vertex = internal::Star_mesh::Vertex;
-  const auto irregular = [&] {
-    int count = 0;
-    for (const Vertex v : m.vertices()) count += mesh.is_movable(v) && m.degree(v) != 6;
-    return count;
-  };
-  REQUIRE(irregular() == 0);
-
-  // Flips along a row make two dislocations and move them apart.
-  int length = 0;
-  SUBCASE("next to each other") { length = 1; }
-  SUBCASE("four edges apart") { length = 4; }
-  SUBCASE("too far apart") { length = 12; }
-  const int first = rows / 2 * rows + 6;
-  for (int k = 0; k < length; ++k)
-    mesh.flip(m.edge(m.halfedge(Vertex(first + k + 1), Vertex(first + k + rows))));
-  internal::Mesh_smoother smoother(mesh);
-  for (int sweep = 0; sweep < 50; ++sweep) smoother.sweep();
-  REQUIRE(irregular() == 4);
-  const bool are_near = length < 12;
-  if (length > 1) { // flips alone do not help
-    smoother.flip();
-    CHECK(irregular() == 4);
-  }
-  CHECK(internal::Dislocation_annihilator(mesh).run() == (are_near ? 1 : 0));
-  CHECK(irregular() == (are_near ? 0 : 4));
-}
-
-TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as a whole")
-{
-  const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
-  const Facet_tree tree(c.surface.points, c.surface.triangles);
-  const internal::Surface_projector projector(c.surface, tree);
-  internal::Star_mesh mesh(c.raw, projector);
-  using Vertex = internal::Star_mesh::Vertex;
-  const auto& m = mesh.working().mesh;
-  const auto state = [&](bool with_times) {
-    std::vector<double> s;
-    for (const Vertex v : m.vertices()) {
-      for (const Vec3d& x : {mesh.point(v), mesh.normal(v)}) s.insert(s.end(), {x.x, x.y, x.z});
-      s.insert(s.end(), {double(mesh.facet(v)), mesh.height(v), double(mesh.is_movable(v)),
-                         double(m.halfedge(v))});
-      if (with_times) s.push_back(double(mesh.changed_around(v)));
-    }
-    for (const auto h : m.halfedges())
-      s.insert(s.end(), {double(m.target(h)), double(m.next(h)), double(m.face(h))});
-    for (const auto f : m.faces()) s.push_back(double(m.halfedge(f)));
-    return s;
-  };
-
-  const std::vector<double> before = state(true);
-  std::size_t flips = 0;
-  for (const auto e : m.edges()) {
-    if (!mesh.working().is_flippable(e)) continue;
-    ++flips;
-    const auto memory = mesh.before_flip(e);
-    const auto time = mesh.now();
-    mesh.flip(e);
-    for (const Vertex v : memory.corners) {
-      CHECK(mesh.changed_around(v) > time);
-      mesh.move(v, mesh.project(v, 0.9 * mesh.point(v) + 0.1 * mesh.point(memory.corners[0])));
-    }
-    CHECK(state(true) != before);
-    mesh.undo_flip(memory);
-    CHECK(state(true) == before);
-  }
-  CHECK(flips > 500);
-
-  const std::vector<double> all = state(false);
-  const internal::Star_mesh copy = mesh;
-  const auto time = mesh.now();
-  const Vertex v(7);
-  mesh.pin(v);
-  REQUIRE(mesh.move_off(v, 1.05 * mesh.point(v)));
-  mesh.restore(copy);
-  CHECK(state(false) == all);
-  CHECK(mesh.now() > time);
-  for (const Vertex u : m.vertices()) {
-    const bool is_near = u == v || mesh.working().are_adjacent(u, v);
-    CHECK((mesh.changed_around(u) > time) == is_near);
-  }
-}
 
 TEST_CASE("closed surfaces: better triangles, nearer to the surface, the same topology")
 {
