@@ -69,7 +69,7 @@ TEST_CASE("more cells than a GPU has threads: Newton's steps equal them, the sam
 {
   Case c = large_case(false, Density::uniform);
   c.options.number_of_samples = 400000;
-  c.options.oversampling = 1;
+  c.options.sampling = Sampling::stratified;
   const Start start(c);
   Samples first;
   for (int repeat = 0; repeat < 2; ++repeat) {

@@ -152,7 +152,6 @@ TEST_CASE(
   for_each_number([&](const Option& option, auto member, auto zero) {
     using T = decltype(zero);
     Remeshing_options options;
-    options.oversampling = 1; // so that the highest number of samples is allowed
     const auto set = [&](T value) { options.*member = value; };
     for (const double bound : {option.range.lowest, option.range.highest}) {
       set(static_cast<T>(bound));
@@ -222,6 +221,7 @@ TEST_CASE("what the named parameters say is validated, too")
   refuses("number_of_samples", 3, CGAL::parameters::default_values());
   refuses("max_iterations", 100, CGAL::parameters::number_of_iterations(-1));
   Remeshing_options options;
+  options.sampling = Sampling::elimination;
   options.oversampling = 30;
   check_refuses("number_of_samples times oversampling", "at most 1000000000", [&] {
     CGAL::power_rtf_remeshing(mesh, 40000000, output, params::remeshing_options(options));
@@ -240,6 +240,7 @@ TEST_CASE("a run at any bound of any option ends, with the vertices asked for")
           Remeshing_options options;
           if (preset == Preset::paper) options = Remeshing_options::paper_preset();
           options.max_iterations = options.max_weight_iterations = 5;
+          options.centroid_tolerance = 0; // or no run would be endless
           options.number_of_samples = 40;
           options.*member = static_cast<decltype(zero)>(bound);
           if (options.number_of_samples != 40) continue;

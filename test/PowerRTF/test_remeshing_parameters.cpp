@@ -111,8 +111,6 @@ TEST_CASE("steps end when the samples are near their centroids, or come no neare
   const Mesh input = make_mesh(torus());
   Remeshing_options options;
   options.density = Density::uniform;
-  options.sampling = Sampling::lattice;
-  options.relaxation_iterations = 0;
   options.max_iterations = 1000;
   const auto displacements = [&](double tolerance) {
     options.centroid_tolerance = tolerance;

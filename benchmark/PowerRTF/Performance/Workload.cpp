@@ -48,8 +48,9 @@ Workload make(const Workload::Kind& kind)
   w.surface = wavy_sphere();
   set_density(w.surface, w.options);
   smooth_normals(w.surface, w.options.number_of_samples, w.options.normal_smoothing);
-  if (!kind.regular) w.options.sampling = Sampling::random;
-  if (kind.n > 1000000) w.options.oversampling = 1; // an elimination would take minutes
+  w.options.sampling = !kind.regular      ? Sampling::random
+                       : kind.n > 1000000 ? Sampling::stratified // others would take minutes
+                                          : Sampling::elimination;
   w.samples = sample_surface(w.surface, w.options);
   if (!kind.regular) return w;
   Cpu_engine<CGAL::Parallel_if_available_tag> engine(w.surface, w.options);

@@ -12,7 +12,7 @@
 // machine's CPU, too. `--check`: what the oracle says of the cells of the first iteration, the one
 // in the middle and the last. `--meshes`: the least and largest figures of the meshes that the
 // GPU's and the CPU's samples make, over so many seeds. From 200 000 samples on, the first samples
-// are stratified random ones instead of those of an elimination, which takes the host long.
+// are stratified random ones instead of those of a lattice, which takes the host long.
 #include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
@@ -166,7 +166,7 @@ void measure(const Arguments& a, const Mesh& mesh, std::size_t n)
   o.feature_angle = 180;
   o.random_seed = a.seed;
   if (a.iterations >= 0) o.max_iterations = a.iterations;
-  if (n >= 200000) o.oversampling = 1;
+  if (n >= 200000) o.sampling = Sampling::stratified;
   Repair_counts repairs;
   Surface surface = import_surface(mesh, CGAL::parameters::default_values(), repairs);
   set_density(surface, o);

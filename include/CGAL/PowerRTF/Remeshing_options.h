@@ -59,12 +59,12 @@ struct Remeshing_options {
   double gradation = 0.1; ///< largest growth of the spacing per unit of length; 0: not limited
   /// The density from the curvature is smoothed over this many times the local spacing (standard
   /// deviation), which leaves a lattice fewer places where its rows must end; 0: not at all.
-  double density_smoothing = 0;
+  double density_smoothing = 3;
 
   // Initial sampling
-  Sampling sampling = Sampling::elimination; ///< how the first samples are chosen
-  double oversampling = 4;        ///< \f$m\f$: candidates per sample (`elimination`, `random`)
-  int relaxation_iterations = 10; ///< first iterations without weights, by Lloyd's method
+  Sampling sampling = Sampling::lattice; ///< how the first samples are chosen
+  double oversampling = 4;       ///< \f$m\f$: candidates per sample (`elimination`, `random`)
+  int relaxation_iterations = 0; ///< first iterations without weights, by Lloyd's method
 
   // Samples' attributes
   Attributes attributes = Attributes::facet; ///< where normals and densities come from
@@ -90,7 +90,7 @@ struct Remeshing_options {
   int max_iterations = 100;                                 ///< \f$N_m\f$: position steps at most
   /// Position steps end when the samples are as near as this to their cells' centroids, or come no
   /// nearer: RMS, in units of \f$h = \sqrt{\mathrm{area}/n}\f$; 0: they do not end before.
-  double centroid_tolerance = 0;
+  double centroid_tolerance = 0.002;
   int lbfgs_memory = 5;                              ///< pairs kept by L-BFGS
   Projection projection = Projection::nearest_facet; ///< of moved samples
   int projection_neighbors = 16;     ///< vertices whose facets are tried (`nearest_vertices`)
@@ -120,7 +120,10 @@ struct Remeshing_options {
     o.preset = Preset::paper;
     o.feature_angle = 180; // the paper has no creases
     o.gradation = 0.2;     // not in the paper: without it the weights hardly converge
+    o.density_smoothing = 0;
+    o.sampling = Sampling::elimination;
     o.oversampling = 2;
+    o.relaxation_iterations = 10;
     o.attributes = Attributes::nearest_vertices;
     o.normal_smoothing = 0;
     o.normal_angle = 60;
@@ -128,6 +131,7 @@ struct Remeshing_options {
     o.position_method = Position_method::lloyd;
     o.projection = Projection::nearest_vertices;
     o.centroid_density_power = 0;
+    o.centroid_tolerance = 0;
     o.weight_method = Weight_method::multiplicative;
     o.improvement = Improvement::no;
     return o;

@@ -231,9 +231,9 @@ bool is_allowed(const T& value, const Option_range& range)
 
 /// Checks all options.
 /// \returns `options`
-/// \throws Invalid_input_error an option has a value that is not allowed, or `number_of_samples`
-///   times `oversampling` is more than 1e9; the message names the option, its value and what is
-///   allowed
+/// \throws Invalid_input_error an option has a value that is not allowed, or the samplings with
+///   candidates would have more than 1e9, `number_of_samples` times `oversampling`; the message
+///   names the option, its value and what is allowed
 inline const Remeshing_options& validate(const Remeshing_options& options)
 {
   for_each_option([&](const Option& option, auto member) {
@@ -243,9 +243,11 @@ inline const Remeshing_options& validate(const Remeshing_options& options)
                                 ", but must be " +
                                 allowed_values<std::decay_t<decltype(value)>>(option.range));
   });
+  const bool has_candidates =
+      options.sampling == Sampling::elimination || options.sampling == Sampling::random;
   constexpr double max_candidates = 1e9; // they are numbered by int
   const double n = static_cast<double>(options.number_of_samples);
-  if (n * options.oversampling > max_candidates)
+  if (has_candidates && n * options.oversampling > max_candidates)
     throw Invalid_input_error("number_of_samples times oversampling is " +
                               to_text(n * options.oversampling) + ", but must be at most " +
                               to_text(max_candidates));

@@ -133,9 +133,9 @@ run 1 torus.off 'at least 7' 'genus 1' -- torus.off out.off -n 6
 for n in 3 0 -7 300000001 3000000000 1000000000000 99999999999999999999999; do
   run 1 torus.off 'from 4 to 300000000' -- torus.off out.off --samples $n
 done
-run 1 torus.off 'times oversampling' -- torus.off out.off -n 300000000
+run 1 torus.off 'times oversampling' -- torus.off out.off -n 300000000 --sampling elimination
 if [ "$(awk '/^MemTotal/ { print $2 }' /proc/meminfo)" -lt 290000000 ]; then
-  run 1 torus.off 'memory' -- torus.off out.off -n 300000000 --oversampling 1
+  run 1 torus.off 'memory' -- torus.off out.off -n 300000000 --sampling elimination --oversampling 1
 fi
 
 # --- outputs that cannot be written: said before the work, so a missing input does not matter
