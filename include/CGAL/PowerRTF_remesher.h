@@ -91,6 +91,13 @@ public:
   const PowerRTF::Feature_samples& features() const { return m_patches.features(); }
   /// The cells of the current samples and weights; their neighbors are numbers of sites.
   std::vector<PowerRTF::Cell_polygon> cells() { return m_engine.cells(); }
+  /// The fields of the lattice that the samples begin as. \throws Invalid_input_error when
+  /// `Options::sampling` is not `lattice`
+  PowerRTF::Lattice_fields lattice_fields()
+  {
+    return PowerRTF::lattice_fields<typename Traits::Concurrency_tag>(
+        m_patches.surface(), m_options, m_patches.features(), m_engine.facet_tree());
+  }
   /// The precision of the cells' numbers: the machine epsilon of double, or of float.
   double epsilon() const { return m_engine.epsilon(); }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "flat_lattice.h"
 #include "relative_distances.h"
 #include "shapes.h"
 
@@ -23,52 +24,6 @@ using namespace CGAL::PowerRTF;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-/// Random nodes of the square [-1/2, 1/2]^2, with arbitrary axes of a lattice with one point in
-/// `origin`, a row at `angle` and the spacing `h`: the waves are those of the perfect lattice.
-struct Flat_lattice {
-  std::vector<Vec3d> points;
-  std::vector<Vec3f> normals, turning, axes;
-  std::vector<int> components;
-  std::vector<float> spacing;
-  std::vector<Phasor> directions;
-  std::vector<Waves> waves;
-
-  Flat_lattice(int n, unsigned seed, double angle, float h, const Vec3d& origin)
-  {
-    Random_source random(seed);
-    for (int i = 0; i < n; ++i) {
-      const Vec3d p{random() - 0.5, random() - 0.5, 0};
-      const double theta = angle + pi / 3 * std::floor(6 * random());
-      points.push_back(p);
-      normals.push_back({0, 0, 1});
-      turning.push_back({0, 0, 0});
-      axes.push_back({float(std::cos(theta)), float(std::sin(theta)), 0});
-      components.push_back(0);
-      spacing.push_back(h);
-      directions.push_back(phasor_at(float(6 * theta / (2 * pi))));
-      const double x = std::cos(theta) * (p.x - origin.x) + std::sin(theta) * (p.y - origin.y);
-      const double y = std::cos(theta) * (p.y - origin.y) - std::sin(theta) * (p.x - origin.x);
-      const Phasor a = phasor_at(float((x - y / std::sqrt(3.)) / h));
-      const Phasor b = phasor_at(float(2 * y / std::sqrt(3.) / h));
-      waves.push_back({{a, b, conjugate(a * b)}});
-    }
-  }
-  Lattice_view view()
-  {
-    Lattice_view v;
-    v.size = v.free = static_cast<int>(points.size());
-    v.points = points.data();
-    v.normals = normals.data();
-    v.components = components.data();
-    v.spacing = spacing.data();
-    v.turning = turning.data();
-    v.directions = directions.data();
-    v.axes = axes.data();
-    v.waves = waves.data();
-    return v;
-  }
-};
 
 Remeshing_options options(std::size_t n, Sampling sampling, unsigned seed)
 {

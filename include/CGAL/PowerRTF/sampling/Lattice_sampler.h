@@ -17,8 +17,10 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
+#include <CGAL/PowerRTF/sampling/Lattice_fields.h>
 #include <CGAL/PowerRTF/sampling/Surface_strata.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
+#include <CGAL/PowerRTF/sampling/lattice_defects.h>
 #include <CGAL/PowerRTF/sampling/lattice_points.h>
 #include <CGAL/PowerRTF/sampling/sample_elimination.h>
 
@@ -28,6 +30,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -58,7 +61,37 @@ public:
   Samples run()
   {
     make_nodes();
-    Lattice_field<Backend> field(m_backend, m_levels, m_seed);
+    Field field(m_backend, m_levels, m_seed);
+    find_points(field);
+    add_gaps(field.view());
+    return eliminate();
+  }
+
+  /// Samples of the last run that are no points of the lattice.
+  std::size_t off_lattice() const { return m_off_lattice; }
+
+  /// What `run()` begins with.
+  Lattice_fields fields()
+  {
+    make_nodes();
+    Field field(m_backend, m_levels, m_seed);
+    find_points(field);
+    return described(field.view());
+  }
+
+private:
+  using Field = Lattice_field<Backend>;
+
+  static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.02;
+  static constexpr int coarsest_level = 64, max_scalings = 2;
+  static constexpr std::size_t min_lattice = 50; // samples of a component
+  static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
+  static constexpr double cos_same_side = 0.2;   // of normals
+  static constexpr double twin_distance = 0.6, gap_radius = 0.7; // relative to the spacing
+
+  /// The fields, and the points with their number scaled to what is wanted.
+  void find_points(Field& field)
+  {
     field.orient();
     // Rows that end cost points: a share that falls slowly with n (kitten, fertility, armadillo).
     double scale = 1 - 0.02 * std::pow(3000. / static_cast<double>(m_size), 0.2);
@@ -71,20 +104,7 @@ public:
         break;
       scale *= std::sqrt(count / wanted);
     }
-    add_gaps(field.view());
-    return eliminate();
   }
-
-  /// Samples of the last run that are no points of the lattice.
-  std::size_t off_lattice() const { return m_off_lattice; }
-
-private:
-  static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.02;
-  static constexpr int coarsest_level = 64, max_scalings = 2;
-  static constexpr std::size_t min_lattice = 50; // samples of a component
-  static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
-  static constexpr double cos_same_side = 0.2;   // of normals
-  static constexpr double twin_distance = 0.6, gap_radius = 0.7; // relative to the spacing
 
   void make_nodes()
   {
@@ -170,7 +190,7 @@ private:
                        Choose_points{view, seen.data(), is_chosen.data(), points.data()});
     m_candidates.clear();
     for (int i = 0; i < view.free; ++i)
-      if (is_chosen.data()[i] && m_shares[view.components[i]].samples >= min_lattice)
+      if (is_chosen.data()[i] && has_lattice(i))
         m_candidates.push_back({points.data()[i], i, seen.data()[i].distance});
   }
 
@@ -198,6 +218,11 @@ private:
     return view.components[i] == view.components[j] && dot(view.normals[i], view.normals[j]) > 0;
   }
 
+  bool has_lattice(int node) const
+  {
+    return m_shares[m_levels.front().components[node]].samples >= min_lattice;
+  }
+
   void add_gaps(const Lattice_view& view)
   {
     std::vector<Vec3d> points;
@@ -213,7 +238,7 @@ private:
     const Point_tree tree(points);
     std::vector<char> is_gap(view.free);
     m_backend.for_each(view.free, [&](int i) {
-      is_gap[i] = m_shares[view.components[i]].samples < min_lattice ||
+      is_gap[i] = !has_lattice(i) ||
                   !tree.view().any_near(view.points[i], gap_radius * double(view.spacing[i]),
                                         [&](int c) { return sees(view, i, nodes[c]); });
     });
@@ -291,6 +316,33 @@ private:
     const auto [a, b, c] = corners(f);
     const Vec3d normal = normalized(cross(b - a, c - a)), foot = p - dot(p - a, normal) * normal;
     return length(foot - nearest_point_on_triangle(foot, a, b, c));
+  }
+
+  /// The fields for those who want to look at them.
+  Lattice_fields described(const Lattice_view& view) const
+  {
+    Lattice_fields fields;
+    for (int i = 0; i < view.size; ++i) {
+      const Vec3f n = view.normals[i], axis = view.axes[i];
+      fields.nodes.push_back(m_cube.to_outside(view.points[i]));
+      fields.normals.push_back({n.x, n.y, n.z});
+      fields.axes.push_back({axis.x, axis.y, axis.z});
+      fields.spacing.push_back(view.spacing[i] / m_cube.scale);
+    }
+    fields.indices.resize(view.size);
+    fields.dislocations.resize(view.size);
+    m_backend.for_each(view.size, [&](int i) {
+      const Node_loop loop(view, i);
+      fields.indices[i] = orientation_index(view, loop);
+      fields.dislocations[i] = fields.indices[i] == 0 ? dislocation(view, loop) : 0;
+    });
+    Samples samples;
+    for (const Sample_candidate& c : m_candidates) {
+      add_on_surface(c, samples);
+      fields.point_nodes.push_back(c.node);
+    }
+    fields.points = std::move(samples.points);
+    return fields;
   }
 
   Backend& m_backend;

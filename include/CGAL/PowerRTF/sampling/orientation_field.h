@@ -14,6 +14,15 @@
 
 namespace CGAL::PowerRTF {
 
+/// The frame of a node with the normal `from`, carried to where the normal is `to`, in the frame
+/// there.
+CGAL_POWER_RTF_HD inline Phasor frame_turn(const Vec3f& from, const Vec3f& to)
+{
+  const Tangent_frame<float> from_frame(from), frame(to);
+  const Vec3f u = carried(from_frame.u, from, to);
+  return {dot(u, frame.u), dot(u, frame.v)};
+}
+
 /// t_ij = e^(6 i a): `a` is the angle between the frames of node `j` and node `i`, carried along
 /// the surface, and what the lattice turns on the way.
 CGAL_POWER_RTF_HD inline Phasor direction_turn(const Lattice_view& from, int j,
@@ -21,10 +30,8 @@ CGAL_POWER_RTF_HD inline Phasor direction_turn(const Lattice_view& from, int j,
 {
   const Vec3f n = to.normals[i];
   if (!is_carried(from.normals[j], n)) return {};
-  const Tangent_frame<float> from_frame(from.normals[j]), frame(n);
-  const Vec3f u = carried(from_frame.u, from.normals[j], n);
   const float turns = 6 * 0.159154943f * turning_between(from, j, to, i);
-  return sixth_power({dot(u, frame.u), dot(u, frame.v)}) * phasor_at(turns);
+  return sixth_power(frame_turn(from.normals[j], n)) * phasor_at(turns);
 }
 
 struct Set_direction_edges {

@@ -30,17 +30,21 @@ CGAL_POWER_RTF_HD inline Lattice_vector unrolled(const Lattice_view& view, int i
   return length > 0 ? Lattice_vector{factor * x, factor * y} : Lattice_vector{0, 0};
 }
 
-/// What the waves of node `j` need to become those of node `i`: the waves seen from a lattice that
-/// is turned by sixths, and the phases of the way, the mean of those that the two nodes see.
-CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
-                                                const Lattice_view& to, int i)
+/// The way from one node to another in the other's lattice.
+struct Lattice_step {
+  int sixths;      ///< of a turn, from the axis that is reached to the one that is left
+  float phases[2]; ///< what the first two waves pass through, in turns
+};
+
+/// From node `j` to node `i`; the phases are the means of those that the two nodes see.
+CGAL_POWER_RTF_HD inline Lattice_step lattice_step(const Lattice_view& from, int j,
+                                                   const Lattice_view& to, int i)
 {
   const Vec3f n = to.normals[i], axis = carried(from.axes[j], from.normals[j], n);
   const Phasor turned = // from the axis of i to that of j
       Phasor{dot(axis, to.axes[i]), dot(axis, cross(n, to.axes[i]))} *
       phasor_at(0.159154943f * turning_between(from, j, to, i));
-  Lattice_edge edge{};
-  edge.node = j;
+  int sixths = 0;
   Phasor best{1, 0};
   for (int k = 1; k < 6; ++k) {
     constexpr float half = 0.5f, root = 0.866025404f; // sqrt 3 / 2
@@ -49,7 +53,7 @@ CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
     if (turned.x * cosines[k] + turned.y * sines[k] <= turned.x * best.x + turned.y * best.y)
       continue;
     best = {cosines[k], sines[k]};
-    edge.sixths = k;
+    sixths = k;
   }
   const Vec3f d = step_between(from, j, to, i);
   const float distance = length(d);
@@ -57,9 +61,16 @@ CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
   const float x = 0.5f * (here.x + best.x * there.x - best.y * there.y);
   const float y = 0.5f * (here.y + best.y * there.x + best.x * there.y);
   constexpr float slope = 0.577350269f; // 1 / sqrt 3
-  edge.turn[0] = phasor_at(x - slope * y);
-  edge.turn[1] = phasor_at(2 * slope * y);
-  return edge;
+  return {sixths, {x - slope * y, 2 * slope * y}};
+}
+
+/// What the waves of node `j` need to become those of node `i`: the waves seen from a lattice that
+/// is turned by sixths, and the phases of the way.
+CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
+                                                const Lattice_view& to, int i)
+{
+  const Lattice_step step = lattice_step(from, j, to, i);
+  return {j, step.sixths, {phasor_at(step.phases[0]), phasor_at(step.phases[1])}};
 }
 
 /// The waves of the edge's node as they arrive.

@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
+#include <CGAL/PowerRTF/sampling/Lattice_fields.h>
 
 #include <CGAL/tags.h>
 
@@ -38,6 +39,13 @@ template <class ConcurrencyTag = Sequential_tag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                        const Feature_samples& features = {}, const Facet_tree* tree = nullptr,
                        std::size_t* off_lattice = nullptr);
+
+/// The fields of the lattice that `sample_surface()` begins with when it gets the same; they are
+/// made anew.
+/// \throws Invalid_input_error as `sample_surface()`, or `options.sampling` is not `lattice`
+template <class ConcurrencyTag = Sequential_tag>
+Lattice_fields lattice_fields(const Surface& surface, const Remeshing_options& options,
+                              const Feature_samples& features, const Facet_tree& tree);
 
 } // namespace CGAL::PowerRTF
 

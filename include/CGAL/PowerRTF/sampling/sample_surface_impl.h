@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/sampling/Lattice_sampler.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
@@ -46,6 +47,23 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
     for (const int f : samples.facets) samples.patches.push_back(component[f]);
   samples.weights.assign(samples.size(), 0);
   return samples;
+}
+
+template <class ConcurrencyTag>
+Lattice_fields lattice_fields(const Surface& surface, const Remeshing_options& options,
+                              const Feature_samples& features, const Facet_tree& tree)
+{
+  validate(options);
+  if (options.sampling != Sampling::lattice)
+    throw Invalid_input_error("the samples begin as a lattice only where sampling is lattice");
+  using Backend = Host_backend<ConcurrencyTag>;
+  Backend backend;
+  const std::vector<int> component = facet_components(surface.adjacency).first;
+  const std::vector<Component_share> shares =
+      component_shares(surface, options.number_of_samples, features, component);
+  return Lattice_sampler<Backend>(backend, surface, tree, features, component, shares,
+                                  options.random_seed)
+      .fields();
 }
 
 } // namespace CGAL::PowerRTF
