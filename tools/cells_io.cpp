@@ -46,7 +46,7 @@ void write_cells(std::ostream& out, Format format, Encoding encoding,
     mass.values.push_back(square * cell.mass);
     density.values.push_back(cell.density);
   }
-  data.polygon_fields = {sample, weight, mass, density, status};
+  data.cell_fields = {sample, weight, mass, density, status};
   write(out, format, encoding, data);
 }
 

@@ -128,7 +128,7 @@ void ply_header(Text& text, const Dataset& data, Encoding encoding)
   if (!data.polygons.empty()) {
     text << "element face " << data.polygons.size() << "\nproperty list "
          << (has_small_polygons(data) ? "uchar" : "int") << " int vertex_indices\n";
-    ply_properties(text, data.polygon_fields);
+    ply_properties(text, data.cell_fields);
   }
   text << "end_header\n";
 }
@@ -151,7 +151,7 @@ void ply_body(Rows rows, const Dataset& data)
     small_polygons ? rows.add(static_cast<std::uint8_t>(polygon.size()))
                    : rows.add(static_cast<int>(polygon.size()));
     for (const int v : polygon) rows.add(v);
-    ply_fields(rows, data.polygon_fields, i);
+    ply_fields(rows, data.cell_fields, i);
     rows.end_row();
   }
 }
@@ -174,6 +174,10 @@ void vtp_vectors(Text& text, const std::string& name, const std::vector<Vec3d>& 
 void vtp_fields(Text& text, const std::vector<Field>& fields)
 {
   for (const Field& f : fields) {
+    if (!f.vectors.empty()) {
+      vtp_vectors(text, f.name, f.vectors);
+      continue;
+    }
     vtp_array_begin(text, f.integers.empty() ? "Float64" : "Int32", f.name);
     for (const double x : f.values) text << x << "\n";
     for (const int x : f.integers) text << x << "\n";
@@ -211,23 +215,24 @@ void write_vtp(std::ostream& out, const Dataset& data)
 {
   Text text(out);
   // points without polygons are drawn only when each is a cell of its own
-  std::vector<std::vector<int>> dots;
-  if (data.polygons.empty())
+  std::vector<std::vector<int>> dots = data.dots;
+  if (dots.empty() && data.lines.empty() && data.polygons.empty())
     for (std::size_t i = 0; i < data.points.size(); ++i) dots.push_back({static_cast<int>(i)});
   text << "<?xml version=\"1.0\"?>\n"
           "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
           "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\""
-       << data.points.size() << "\" NumberOfVerts=\"" << dots.size()
-       << "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" << data.polygons.size()
+       << data.points.size() << "\" NumberOfVerts=\"" << dots.size() << "\" NumberOfLines=\""
+       << data.lines.size() << "\" NumberOfStrips=\"0\" NumberOfPolys=\"" << data.polygons.size()
        << "\">\n<PointData>\n";
   if (!data.normals.empty()) vtp_vectors(text, "normals", data.normals);
   vtp_fields(text, data.point_fields);
   text << "</PointData>\n<CellData>\n";
-  vtp_fields(text, data.polygon_fields);
+  vtp_fields(text, data.cell_fields);
   text << "</CellData>\n<Points>\n";
   vtp_vectors(text, "Points", data.points);
   text << "</Points>\n";
   vtp_cells(text, "Verts", dots);
+  vtp_cells(text, "Lines", data.lines);
   vtp_cells(text, "Polys", data.polygons);
   text << "</Piece>\n</PolyData>\n</VTKFile>\n";
 }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points and polygons with named values at both, and their files: PLY and VTP. (CGAL writes these
+// Points, lines and polygons with named values, and their files: PLY and VTP. (CGAL writes these
 // formats without such values.)
 #ifndef POWER_RTF_TOOLS_DATASET_H
 #define POWER_RTF_TOOLS_DATASET_H
@@ -16,23 +16,28 @@
 
 namespace tools {
 
-/// A value per point or polygon: those of `integers` if there are some, else those of `values`.
+/// A value per point or cell: those of `integers` or of `vectors` if there are some, else those of
+/// `values`.
 struct Field {
   std::string name;
   std::vector<double> values;
   std::vector<int> integers;
+  std::vector<CGAL::PowerRTF::Vec3d> vectors = {}; ///< VTP only
 };
 
 struct Dataset {
   std::vector<CGAL::PowerRTF::Vec3d> points;
   std::vector<CGAL::PowerRTF::Vec3d> normals; ///< of the points; or none
   std::vector<std::vector<int>> polygons;     ///< indices into `points`
-  std::vector<Field> point_fields, polygon_fields;
+  std::vector<std::vector<int>> dots, lines;  ///< likewise; VTP only
+  std::vector<Field> point_fields;
+  std::vector<Field> cell_fields; ///< of the dots, the lines and the polygons, in this order
 };
 
 /// Text has as many digits as are needed to read back the same doubles.
 void write_ply(std::ostream& out, const Dataset& data, Encoding encoding);
-void write_vtp(std::ostream& out, const Dataset& data); ///< as text
+/// As text. Points without any cells become dots.
+void write_vtp(std::ostream& out, const Dataset& data);
 
 } // namespace tools
 

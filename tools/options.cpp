@@ -99,7 +99,9 @@ public:
         "cells", text("FILE"),
         "write the polygons F_i with weight, mass, density, status (PLY, VTP)")(
         "samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")(
-        "ascii", "write PLY and STL as text, not as binary data")(
+        "fields", text("FILE"),
+        "write the lattice that the samples begin as: its points, the directions of its rows, and "
+        "where they do not fit (VTP)")("ascii", "write PLY and STL as text, not as binary data")(
         "no-mesh", "stop at the samples: OUTPUT is not needed and not written");
     group("Comparison with exact arithmetic")
         .add_options()("check", "compare the cells with the exact ones")(
@@ -214,13 +216,16 @@ void set_files(const po::variables_map& values, Program_options& o)
   if (o.write_mesh) written.emplace_back("OUTPUT", o.output);
   for (const auto& [option, file] :
        {std::pair{"report", &o.report_file}, std::pair{"cells", &o.cells_file},
-        std::pair{"samples-out", &o.samples_file}}) {
+        std::pair{"samples-out", &o.samples_file}, std::pair{"fields", &o.fields_file}}) {
     if (!values.count(option)) continue;
     *file = values[option].as<std::string>();
     written.emplace_back("--" + std::string(option), *file);
   }
   if (written.empty())
-    throw Usage_error("--no-mesh leaves nothing to write: give --samples-out, --cells or --report");
+    throw Usage_error(
+        "--no-mesh leaves nothing to write: give --samples-out, --cells, --fields or --report");
+  if (!o.fields_file.empty() && o.remeshing.sampling != Sampling::lattice)
+    throw Usage_error("--fields: only the samples of --sampling lattice begin as a lattice");
   for (std::size_t i = 0; i < written.size(); ++i) {
     if (written[i].second.empty())
       throw Usage_error(written[i].first + ": the file's name is empty");

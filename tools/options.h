@@ -22,7 +22,7 @@ public:
 
 struct Program_options {
   std::string input, output;
-  std::string report_file, cells_file, samples_file; ///< empty: not asked for
+  std::string report_file, cells_file, samples_file, fields_file; ///< empty: not asked for
   CGAL::PowerRTF::Remeshing_options remeshing;
   std::string traits;  ///< "cpu", "exact", "cuda", or "auto": "cuda" if there is a GPU, else "cpu"
   bool check = false;  ///< compare the cells with the exact ones at the end

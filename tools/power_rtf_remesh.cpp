@@ -4,6 +4,7 @@
 // power_rtf_remesh INPUT OUTPUT [options]: remeshes a surface from file to file.
 #include "Progress.h"
 #include "cells_io.h"
+#include "fields_io.h"
 #include "mesh_io.h"
 #include "options.h"
 #include "output_file.h"
@@ -58,8 +59,10 @@ void check_outputs(const Program_options& o)
   for (const std::string& file : {o.cells_file, o.samples_file})
     if (!file.empty() && format_of(file) != Format::ply && format_of(file) != Format::vtp)
       throw Output_error(file + ": cannot be written: its name does not end in .ply or .vtp");
+  if (!o.fields_file.empty() && format_of(o.fields_file) != Format::vtp)
+    throw Output_error(o.fields_file + ": cannot be written: its name does not end in .vtp");
   for (const std::string& file :
-       {o.write_mesh ? o.output : "", o.cells_file, o.samples_file, o.report_file})
+       {o.write_mesh ? o.output : "", o.cells_file, o.samples_file, o.fields_file, o.report_file})
     if (!file.empty()) check_writable(file);
 }
 
@@ -232,6 +235,9 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Program_optio
   outputs.add(options.samples_file, [&](std::ostream& out) {
     write_samples(out, format_of(options.samples_file), options.encoding, remesher.samples(),
                   normalization);
+  });
+  outputs.add(options.fields_file, [&](std::ostream& out) {
+    write_fields(out, remesher.lattice_fields(), normalization);
   });
 }
 

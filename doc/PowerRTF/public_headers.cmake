@@ -27,4 +27,5 @@ set(public_headers
     PowerRTF/features/Feature_samples.h
     PowerRTF/features/sample_features.h
     PowerRTF/input/import_surface.h
-    PowerRTF/prepare_surface.h)
+    PowerRTF/prepare_surface.h
+    PowerRTF/sampling/Lattice_fields.h)

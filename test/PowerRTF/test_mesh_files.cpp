@@ -260,13 +260,37 @@ TEST_CASE("meshes come back as they were written")
     }
 }
 
+TEST_CASE("VTP: dots, lines and polygons with values, in this order")
+{
+  Dataset data;
+  data.points = {{0.1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  data.polygons = {{0, 1, 2}};
+  data.lines = {{0, 1}, {1, 2}};
+  data.dots = {{2}};
+  data.cell_fields = {{"kind", {}, {7, 8, 8, 9}},
+                      {"axis", {}, {}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}}}};
+  std::ostringstream out;
+  write_vtp(out, data);
+  const std::string text = out.str();
+  std::size_t at = 0; // what follows is found in this order
+  for (const char* part :
+       {"NumberOfPoints=\"3\" NumberOfVerts=\"1\" NumberOfLines=\"2\"", "NumberOfPolys=\"1\"",
+        "<CellData>", "\"kind\"", "7\n8\n8\n9\n", "Name=\"axis\" NumberOfComponents=\"3\"",
+        "1 0 0\n0 1 0\n0 0 1\n0.5 0 0\n", "<Points>", "0.1 2 3\n", "<Verts>", "2 \n", "<Lines>",
+        "0 1 \n1 2 \n", "2\n4\n", "<Polys>", "0 1 2 \n"}) {
+    INFO(part);
+    at = text.find(part, at);
+    REQUIRE(at != std::string::npos);
+  }
+}
+
 TEST_CASE("PLY with values: binary and text hold the same")
 {
   Dataset data;
   data.points = {{0.1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
   data.normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
   data.point_fields = {{"weight", {0.25, -1e-9, 3}, {}}};
-  data.polygon_fields = {{"sample", {}, {-5, 70000}}, {"mass", {1.5, 2.5}, {}}};
+  data.cell_fields = {{"sample", {}, {-5, 70000}}, {"mass", {1.5, 2.5}, {}}};
   for (const std::size_t corners : {3, 255, 256, 1000}) { // a byte holds the number, or does not
     data.polygons = {std::vector<int>(corners, 2), {0, 1, 2}};
     for (const Encoding encoding : {Encoding::binary, Encoding::text}) {

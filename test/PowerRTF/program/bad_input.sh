@@ -155,6 +155,12 @@ run 5 nowhere/c.ply 'no directory' -- torus.off out.off --cells nowhere/c.ply
 run 5 nowhere/s.ply 'no directory' -- torus.off out.off --samples-out nowhere/s.ply
 run 5 c.off 'does not end in' -- torus.off out.off --cells c.off
 run 5 s.xyz 'does not end in' -- torus.off out.off --samples-out s.xyz
+run 5 nowhere/f.vtp 'no directory' -- torus.off out.off --fields nowhere/f.vtp
+for f in f.ply f.off f.xyz f; do
+  echo old >$f
+  run 5 $f 'does not end in .vtp' -- torus.off out.off --fields $f
+  expect "$f stays as it was" [ "$(cat $f)" = old ]
+done
 if [ "$(id -u)" -ne 0 ]; then
   mkdir locked && chmod a-w locked
   run 5 locked/o.off 'denied' -- torus.off locked/o.off

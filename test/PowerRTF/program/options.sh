@@ -22,6 +22,12 @@ run 2 'same option' -- torus.off out.off -n 100 --number-of-samples 200
 run 2 'nothing to write' -- torus.off --no-mesh
 run 2 'same file' -- torus.off out.off --report out.off
 run 2 'same file' -- torus.off out.off --report ./a.ply --cells a.ply
+run 2 'same file' -- torus.off out.off --fields a.vtp --cells a.vtp
+run 2 'empty' -- torus.off out.off --fields ''
+for sampling in stratified elimination random; do
+  run 2 '--fields' '--sampling lattice' -- torus.off out.off --fields out.off --sampling $sampling
+done
+run 2 '--fields' '--sampling lattice' -- torus.off out.off --fields a.vtp --preset paper
 run 2 'empty' -- torus.off ''
 
 # refuse OPTION VALUE REASON
@@ -97,7 +103,7 @@ for word in --samples --density --density-power --gradation --sampling --oversam
   --normal-angle --position-method --iterations --lbfgs-memory --projection --projection-neighbors \
   --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
   --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
-  --samples-out --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 60' \
+  --samples-out --fields --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 60' \
   '{above 0, at most 180}' '{from 1 to 32}' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
   expect "--help shows $word" grep -qF -- "$word" stdout
 done

@@ -163,6 +163,40 @@ expect '--no-mesh leaves the output' [ "$(cat out.off)" = untouched ]
 expect '--no-mesh says nothing about a mesh' [ -z "$(field q_min)" ]
 expect '--no-mesh reports the cells' [ -n "$(field inside_capacity_interval)" ]
 
+# --- the fields of the lattice, for a torus around (100, 0, 0): 6 nodes per sample, each a line
+awk 'NR > 2 && NF == 3 { printf "%.17g %s %s\n", $1 + 100, $2, $3; next } 1' torus.off >far.off
+run 0 -- far.off plain.off "${fast[@]}" --quiet
+run 0 -- far.off out.off "${fast[@]}" --fields f.vtp --quiet
+expect 'the fields do not change the mesh' cmp out.off plain.off
+if command -v python3 >/dev/null; then
+  expect 'the fields are XML' python3 -c 'import xml.dom.minidom as x; x.parse("f.vtp")'
+else
+  echo 'skipped: whether the fields are XML (there is no python3)'
+fi
+piece() { sed -n "s/.* $1=\"\([0-9]*\)\".*/\1/p" f.vtp | head -n 1; }
+# array NAME: its rows
+array() { sed -n "/Name=\"$1\"/,/<.DataArray>/p" f.vtp | sed '1d; $d'; }
+dots=$(piece NumberOfVerts)
+expect 'there are 1200 nodes' [ "$(piece NumberOfLines)" = 1200 ]
+expect "there are about as many points as samples, not $dots" [ "$dots" -gt 180 -a "$dots" -lt 280 ]
+expect 'a point has one point, a line two' [ "$(piece NumberOfPoints)" -eq $((dots + 2400)) ]
+expect 'all points are there' [ "$(array Points | wc -l)" -eq $((dots + 2400)) ]
+for name in node is_point normal axis spacing index dislocation; do
+  expect "each has its $name" [ "$(array $name | wc -l)" -eq $((dots + 1200)) ]
+done
+expect 'the first are points' [ "$(array is_point | grep -c 1)" = "$dots" ]
+expect 'the points are on the torus' awk -v n="$dots" 'NR <= n {
+  d = sqrt((sqrt(($1 - 100) ^ 2 + $2 ^ 2) - 3) ^ 2 + $3 ^ 2); if (d < 0.9 || d > 1.01) bad = 1 }
+  END { exit bad }' <(array Points)
+expect 'lines have half the length of the spacing' awk -v n="$dots" '
+  NR == FNR { h[FNR] = $1; next }
+  FNR > n { k = FNR - n - 1
+    if (k % 2) { l = sqrt(($1 - x) ^ 2 + ($2 - y) ^ 2 + ($3 - z) ^ 2) / h[n + (k + 1) / 2]
+      if (l < 0.499 || l > 0.501) bad = 1 }
+    x = $1; y = $2; z = $3 } END { exit bad }' <(array spacing) <(array Points)
+run 0 -- far.off --no-mesh "${fast[@]}" --fields again.vtp --threads 1 --quiet
+expect 'the fields are the same without the mesh, by one thread' cmp again.vtp f.vtp
+
 # --- the same seed, the same output, whatever the number of threads
 for threads in 1 2 0; do
   run 0 -- torus.off out.off "${fast[@]}" --threads $threads --quiet

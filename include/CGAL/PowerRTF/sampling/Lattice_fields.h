@@ -11,6 +11,7 @@
 
 namespace CGAL::PowerRTF {
 
+/// \ingroup PkgPowerRTFRef
 /// The fields of a lattice on the nodes that they were found on, several per sample, and the
 /// lattice's points. Coordinates and lengths are those of the surface.
 struct Lattice_fields {
@@ -24,7 +25,7 @@ struct Lattice_fields {
 
   // Before some are eliminated and gaps are filled; none of components too small for a lattice.
   std::vector<Vec3d> points;    ///< of the lattice, on the surface
-  std::vector<int> point_nodes; ///< the node that each is nearest to
+  std::vector<int> point_nodes; ///< the node that is nearest to each
 };
 
 } // namespace CGAL::PowerRTF
