@@ -70,6 +70,27 @@ TEST_CASE("cells at tips do not keep the others from equal capacities")
   }
 }
 
+TEST_CASE("the place where a model intersects itself does not spoil the rest")
+{
+  const Model model{"b9_mesh", 3000, 0};
+  if (!is_there(model)) {
+    MESSAGE("skipped: " << path_of(model) << " is missing");
+    return;
+  }
+  Mesh input, output;
+  REQUIRE(CGAL::IO::read_polygon_mesh(path_of(model), input));
+  REQUIRE(CGAL::Polygon_mesh_processing::does_self_intersect(input));
+  for (const std::size_t n : {std::size_t(1000), model.samples}) {
+    CAPTURE(n);
+    Remeshing_options options;
+    options.density = Density::uniform;
+    options.random_seed = 1;
+    CGAL::power_rtf_remeshing(input, n, output, parameters::remeshing_options(options));
+    CHECK(num_vertices(output) == n);
+    CHECK_FALSE(CGAL::Polygon_mesh_processing::does_self_intersect(output));
+  }
+}
+
 TEST_CASE("real models keep their topology and get good triangles")
 {
   for (const Model& model : models) {

@@ -68,11 +68,11 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
   if (sparse.empty()) return result;
   std::size_t fewest = sparse.size();
   std::vector<internal::Ball> guarded;
-  const bool is_input_simple = self_intersections(surface.points, surface.triangles) == 0;
+  const std::size_t input_intersections = self_intersections(surface.points, surface.triangles);
   for (const double reach : {2., 8., 1e3}) {
     guarded.insert(guarded.end(), sparse.begin(), sparse.end());
     internal::Guarded_extraction extraction(surface, samples, features, guarded, reach,
-                                            is_input_simple);
+                                            input_intersections);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
     if (sparse.size() < fewest) {

@@ -55,11 +55,11 @@ public:
   using Halfedge = Working_mesh::Halfedge;
 
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
-  /// `is_input_simple`: the surface does not intersect itself.
+  /// `input_intersections`: the surface's own pairs of facets.
   Guarded_extraction(const Surface& surface, const Samples& samples,
                      const Feature_samples& features, const std::vector<Ball>& balls, double reach,
-                     bool is_input_simple)
-      : m_may_go(may_go(samples, features)), m_is_input_simple(is_input_simple),
+                     std::size_t input_intersections)
+      : m_may_go(may_go(samples, features)), m_input_intersections(input_intersections),
         m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
         m_flipper(m, 0.1, &m_guard)
   {}
@@ -76,12 +76,12 @@ public:
   }
 
   const Working_mesh& mesh() const { return m; }
-  /// Whether more care would not help: the surface intersects itself, the mesh does not, or there
+  /// Whether more care would not help: the surface intersects itself as much as the mesh, or there
   /// are too few samples.
   bool is_hopeless() const
   {
-    return !m_is_input_simple || m_rest.size() > m_may_go.size() ||
-           !Intersection_finder(m.mesh).any();
+    return m_rest.size() > m_may_go.size() ||
+           Intersection_finder(m.mesh).all().size() <= m_input_intersections;
   }
 
 private:
@@ -224,7 +224,7 @@ private:
 
   std::vector<char> m_may_go; // by sample: may be exchanged, and has not been
   std::vector<Vertex> m_rest; // could not be removed, though they were no samples
-  bool m_is_input_simple;
+  std::size_t m_input_intersections;
   Working_mesh m;
   Intersection_guard m_guard;
   Edge_flipper m_flipper;
