@@ -101,6 +101,7 @@ TEST_CASE("models")
       Remeshing_options options;
       options.number_of_samples = 15000;
       options.density = density;
+      options.centroid_tolerance = 0; // cells of 100 steps are checked
       Surface surface = import_soup(points, polygons, repairs);
       set_density(surface, options);
       Remesher remesher(std::move(surface), options);
