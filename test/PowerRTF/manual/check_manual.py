@@ -140,8 +140,7 @@ def main():
     arguments, options = parser.parse_known_args()
     build, prefix = arguments.scratch / "build", arguments.scratch / "prefix"
     shutil.rmtree(arguments.scratch, ignore_errors=True)
-    off = [f"-DPOWER_RTF_{part}=OFF" for part in ("BUILD_TOOLS", "BUILD_TESTING", "WITH_CUDA")]
-    configured = run("cmake", "-S", arguments.source, "-B", build, *off, *options)
+    configured = run("cmake", "--preset", "headers", "-S", arguments.source, "-B", build, *options)
     if configured.returncode != 0:
         sys.exit(configured.stdout)
     if "No target doc" in configured.stdout:
