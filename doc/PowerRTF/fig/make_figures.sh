@@ -4,7 +4,8 @@
 #
 # make_figures.sh [PROGRAM [MODELS [FOLDER]]]
 # The pictures of the README (camel) and the manual, from the program's own output: cells and mesh of
-# some of CGAL's models, and the cells of a thin disc with and without NVISPC.
+# some of CGAL's models, the lattice that samples begin as, and the cells of a thin disc with and
+# without NVISPC.
 # PROGRAM: power_rtf_remesh; MODELS: the folder of CGAL's meshes; FOLDER: for the pictures. The
 # defaults are what ./remesh and ./run_tests have made, and this folder.
 # PYTHON: an interpreter with PyVista (see render.py).
@@ -34,6 +35,12 @@ draw elk 6000
 draw armadillo 6000 --azimuth 240
 draw bunny00 3000
 draw fandisk 3000 --azimuth 35 --elevation 30
+
+# The lattice, seen from near.
+"$program" "$models/bunny00.off" --no-mesh --samples 3000 --fields "$work/lattice.vtp" --quiet
+"${PYTHON:-python3}" "$here/render.py" "$models/bunny00.off" "$target/bunny00_lattice.png" \
+  --lattice "$work/lattice.vtp" --color "#faf6ee" --azimuth 20 --elevation 20 --zoom 1.5 \
+  --aspect 1.35 --height 600 --palette 256
 
 # The disc of the benchmarks, with the preset of the paper.
 "${PYTHON:-python3}" -B "$root/benchmark/PowerRTF/Quality/models.py" "$work"

@@ -5,6 +5,7 @@
 
 render.py mesh.off mesh.png --edges
 render.py cells.vtp cells.png --edges --color-by sides
+render.py mesh.off lattice.png --lattice fields.vtp
 
 Needs PyVista (python3 -m venv venv; venv/bin/pip install pyvista) and, where there is no display,
 Mesa's EGL (Debian, Ubuntu: apt-get install libegl1 libgl1-mesa-dri).
@@ -81,6 +82,29 @@ def camera(mesh, azimuth, elevation, up, zoom):
     return result, extent[0] / zoom, extent[1] / zoom
 
 
+def draw_lattice(plotter, path, view):
+    """What the program's --fields wrote: its lines and points, and on them where rows end."""
+    towards_viewer = -numpy.asarray(view.direction)
+    fields = pyvista.read(path)
+    fields = fields.extract_cells(fields["normal"] @ towards_viewer > 0.1)
+    # What, the radius of its discs in spacings (0: its lines), color; from below to above.
+    layers = [(fields["dislocation"] > 0, 0.3, "#f5a300"),
+              (fields["index"] > 0, 0.3, "#1f5fd0"),
+              (fields["index"] < 0, 0.3, "#d01c1c"),
+              (fields["is_point"] == 0, 0, "#6b737e"),
+              (fields["is_point"] == 1, 0.13, "#101010")]
+    for level, (which, radius, color) in enumerate(layers, start=2):
+        if not which.any():
+            continue
+        layer = fields.extract_cells(which)
+        if radius:
+            disc = pyvista.Disc(inner=0, outer=radius, normal=(1, 0, 0), c_res=24)
+            layer = layer.cell_centers().glyph(orient="normal", scale="spacing", geom=disc)
+        # Nearer to the viewer than the mesh: in a parallel projection nothing else changes.
+        layer.points += 0.04 * level * fields["spacing"].mean() * towards_viewer
+        plotter.add_mesh(layer, color=color, lighting=False, line_width=1.3)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("mesh")
@@ -92,6 +116,8 @@ def main():
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
                         help="of the colors; default: the 2nd to the 98th percentile")
     parser.add_argument("--color", default="#e9dcc3", help="where there is no --color-by")
+    parser.add_argument("--lattice", metavar="FILE",
+                        help="drawn on the mesh, which is smooth then: the program's --fields")
     parser.add_argument("--up", choices="xyz", default="y", help="the model's axis (default: y)")
     parser.add_argument("--azimuth", type=float, default=60, help="degrees around it (default: 60)")
     parser.add_argument("--elevation", type=float, default=15, help="degrees above (default: 15)")
@@ -125,13 +151,15 @@ def main():
                       "clim": options.range or numpy.nanpercentile(values, (2, 98))}
     plotter.add_mesh(mesh, show_edges=options.edges, edge_color="#202020",
                      line_width=options.edge_width, show_scalar_bar=False, ambient=0.3,
-                     diffuse=0.8, specular=0.1, **appearance)
+                     diffuse=0.8, specular=0.1, smooth_shading=bool(options.lattice), **appearance)
+    if options.lattice:
+        draw_lattice(plotter, options.lattice, view)
     plotter.camera = view
     plotter.enable_anti_aliasing("ssaa")
     plotter.reset_camera_clipping_range()
     picture = PIL.Image.fromarray(plotter.screenshot(return_img=True))
     if options.palette:
-        picture = picture.quantize(options.palette)
+        picture = picture.quantize(options.palette, kmeans=1)
     picture.save(options.image, optimize=True)
 
 
