@@ -20,7 +20,7 @@ file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
 run(${SCRATCH} ${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
 
-set(options)
+set(options "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG") # compiles in half the time
 foreach(variable CMAKE_MAKE_PROGRAM CMAKE_BUILD_TYPE CMAKE_CXX_COMPILER CMAKE_CXX_FLAGS
         CMAKE_CXX_FLAGS_DEBUG CMAKE_CXX_COMPILER_LAUNCHER CGAL_DIR TBB_DIR)
   if(NOT "${${variable}}" STREQUAL "")
