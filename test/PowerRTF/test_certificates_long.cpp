@@ -53,7 +53,7 @@ struct Checking_visitor : Remeshing_default_visitor {
   void on_iteration(const Iteration_report&, double)
   {
     const std::size_t done = remesher->report().iterations.size() - 1;
-    if (done == 0 || done == 20 || done == 100)
+    if (done == 0 || done == 20 || done == 99)
       check("after " + std::to_string(done) + " iterations");
   }
 };
