@@ -64,22 +64,24 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
   if (defects == 0) return result;
 
   // Where the samples are too sparse: more carefully there, and more widely if that does not help.
-  std::vector<internal::Ball> sparse = internal::sparse_places(mesh);
-  if (sparse.empty()) return result;
-  std::size_t fewest = sparse.size();
+  internal::Sparse_places sparse = internal::sparse_places(mesh);
+  if (sparse.balls.empty()) return result;
+  std::size_t fewest = sparse.balls.size();
   std::vector<internal::Ball> guarded;
   const std::size_t input_intersections = self_intersections(surface.points, surface.triangles);
   for (const double reach : {2., 8., 1e3}) {
-    guarded.insert(guarded.end(), sparse.begin(), sparse.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach,
-                                            input_intersections);
+    guarded.insert(guarded.end(), sparse.balls.begin(), sparse.balls.end());
+    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
-    if (sparse.size() < fewest) {
-      fewest = sparse.size();
+    if (sparse.balls.size() < fewest) {
+      fewest = sparse.balls.size();
       result = internal::to_extracted_mesh(extraction.mesh(), samples);
     }
-    if (sparse.empty() || extraction.is_hopeless()) break;
+    // More care does not help where the surface intersects itself as much as the mesh.
+    if (sparse.balls.empty() || sparse.intersections <= input_intersections ||
+        extraction.has_too_few_samples())
+      break;
   }
   return result;
 }

@@ -30,8 +30,13 @@ struct Ball {
   double radius;
 };
 
-/// Balls around the triangles that intersect others and around the vertices that are no samples.
-inline std::vector<Ball> sparse_places(const Working_mesh& m)
+/// Where the samples are too sparse.
+struct Sparse_places {
+  std::vector<Ball> balls; // around triangles that intersect others, and vertices that are no samples
+  std::size_t intersections = 0;
+};
+
+inline Sparse_places sparse_places(const Working_mesh& m)
 {
   const auto longest_edge = [&m](Working_mesh::Vertex v) {
     double longest = 0;
@@ -39,14 +44,17 @@ inline std::vector<Ball> sparse_places(const Working_mesh& m)
       longest = std::max(longest, length(m.point(m.mesh.source(h)) - m.point(v)));
     return longest;
   };
-  std::vector<Ball> balls;
-  for (const auto& [f, g] : Intersection_finder(m.mesh).all())
+  Sparse_places result;
+  const auto pairs = Intersection_finder(m.mesh).all();
+  result.intersections = pairs.size();
+  for (const auto& [f, g] : pairs)
     for (const auto face : {f, g})
       for (const auto v : m.mesh.vertices_around_face(m.mesh.halfedge(face)))
-        balls.push_back({m.point(v), longest_edge(v)});
+        result.balls.push_back({m.point(v), longest_edge(v)});
   for (const auto v : m.mesh.vertices())
-    if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) balls.push_back({m.point(v), longest_edge(v)});
-  return balls;
+    if (m.samples[v] < 0 && !m.mesh.is_isolated(v))
+      result.balls.push_back({m.point(v), longest_edge(v)});
+  return result;
 }
 
 class Guarded_extraction {
@@ -55,12 +63,9 @@ public:
   using Halfedge = Working_mesh::Halfedge;
 
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
-  /// `input_intersections`: the surface's own pairs of facets.
   Guarded_extraction(const Surface& surface, const Samples& samples,
-                     const Feature_samples& features, const std::vector<Ball>& balls, double reach,
-                     std::size_t input_intersections)
-      : m_may_go(may_go(samples, features)), m_input_intersections(input_intersections),
-        m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
+                     const Feature_samples& features, const std::vector<Ball>& balls, double reach)
+      : m_may_go(may_go(samples, features)), m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
         m_flipper(m, 0.1, &m_guard)
   {}
 
@@ -76,13 +81,7 @@ public:
   }
 
   const Working_mesh& mesh() const { return m; }
-  /// Whether more care would not help: the surface intersects itself as much as the mesh, or there
-  /// are too few samples.
-  bool is_hopeless() const
-  {
-    return m_rest.size() > m_may_go.size() ||
-           Intersection_finder(m.mesh).all().size() <= m_input_intersections;
-  }
+  bool has_too_few_samples() const { return m_rest.size() > m_may_go.size(); }
 
 private:
   enum class Place { inside, on_feature };
@@ -224,7 +223,6 @@ private:
 
   std::vector<char> m_may_go; // by sample: may be exchanged, and has not been
   std::vector<Vertex> m_rest; // could not be removed, though they were no samples
-  std::size_t m_input_intersections;
   Working_mesh m;
   Intersection_guard m_guard;
   Edge_flipper m_flipper;
