@@ -64,6 +64,7 @@ public:
     m_edges[(k & (capacity - 1)) * Columns] = static_cast<unsigned char>(k);
   }
   CGAL_POWER_RTF_HD void end_chain(int vertices) { size = vertices; }
+  CGAL_POWER_RTF_HD static Real quotient(Real a, Real b) { return quick_quotient(a, b); }
   /// Whether a x + b y <= c for all vertices of a chain that has just been made.
   CGAL_POWER_RTF_HD bool is_chain_inside(Real a, Real b, Real c) const
   {

@@ -18,7 +18,7 @@
 
 #include "Lane_cell.h"
 
-#include <CGAL/PowerRTF/cells/cell_moments.h>
+#include <CGAL/PowerRTF/cells/Edge_chain.h>
 
 namespace CGAL::PowerRTF::device {
 
@@ -54,12 +54,6 @@ CGAL_POWER_RTF_HD inline bool list_suffices(Real r, Real list_radius, Real outsi
          2 * far_radius * far_room >= all_growth - own_growth;
 }
 
-/// A neighbor's line a x + b y <= c in the tangent frame.
-template <class Real>
-struct Tangent_line {
-  Real a, b, c;
-};
-
 /// Makes the lines of a cell from its list.
 template <class Real>
 class Line_reader {
@@ -84,7 +78,7 @@ public:
     CGAL_POWER_RTF_UNROLL
     for (int k = 0; k < N; ++k) out[k] = load(m_sites + at[k]);
   }
-  CGAL_POWER_RTF_HD Tangent_line<Real> line(const Packed_site<Real>& other) const
+  CGAL_POWER_RTF_HD Edge_line<Real> line(const Packed_site<Real>& other) const
   {
     const Vec3<Real> offset = other.point - m_cell.site.point;
     const Real power = squared_length(offset) + (m_cell.site.weight - other.weight);
@@ -97,111 +91,6 @@ private:
   int m_stride;
   const Lane_cell<Real>& m_cell;
   const Tangent_frame<Real>& m_frame;
-};
-
-/// What a chain of edges tells about its cell on the way round; `moments` as `cell_moments()`.
-template <class Real>
-struct Chain_result {
-  Real radius2 = 0;
-  Cell_moments<Real> moments;
-};
-
-/// The corners of a cell between the lines of its edges, one after another.
-template <class Real, bool WithMoments>
-class Chain_walk {
-public:
-  /// `own`: the cube root of the density at the site.
-  CGAL_POWER_RTF_HD Chain_walk(Ring_polygon<Real, 32>& polygon, Real own)
-      : m_polygon(polygon), m_own(own)
-  {
-    polygon.begin_chain();
-  }
-
-  /// Edge k; `root`: of its neighbor, as `own`.
-  CGAL_POWER_RTF_HD void add(int k, const Tangent_line<Real>& l, Real root)
-  {
-    if (k == 0) {
-      m_first_line = l;
-      m_first_root = root;
-    } else {
-      add_vertex(k, l, root);
-      if (k == 1) m_first = m_here;
-    }
-    m_line = l;
-    m_root = root;
-  }
-
-  /// After all `edges`. A closed chain of left turns that goes round once, each edge in its line's
-  /// direction, bounds the intersection of its half-planes; returns whether it is one.
-  CGAL_POWER_RTF_HD bool close(int edges)
-  {
-    add_vertex(edges, m_first_line, m_first_root); // at the place of vertex 0
-    const Vertex last = m_here;
-    m_polygon.set_chain_vertex(0, last.x, last.y);
-    m_line = m_first_line;
-    m_is_chain = m_is_chain && is_forward(last, m_first);
-    add_triangle(last, m_first);
-    m_polygon.end_chain(edges);
-    m_result.moments.area /= 2;
-    if (WithMoments) {
-      Cell_moments<Real>& m = m_result.moments;
-      m.mass /= 6;
-      const Real scale = m.mass > 0 ? 1 / (24 * m.mass) : Real(0);
-      m.x *= scale;
-      m.y *= scale;
-    }
-    return m_is_chain && m_rounds == 1;
-  }
-  CGAL_POWER_RTF_HD const Chain_result<Real>& result() const { return m_result; }
-
-private:
-  struct Vertex {
-    Real x, y, density;
-  };
-
-  CGAL_POWER_RTF_HD void add_vertex(int k, const Tangent_line<Real>& l, Real root)
-  {
-    const Real turn = m_line.a * l.b - m_line.b * l.a;
-    const Real squares = (m_line.a * m_line.a + m_line.b * m_line.b) * (l.a * l.a + l.b * l.b);
-    m_is_chain = m_is_chain && turn > 0 && turn * turn > Real(0.01) * squares;
-    m_rounds += m_line.b < 0 && l.b >= 0;
-    const Real inverse = quick_quotient(Real(1), turn);
-    const Vertex v{(m_line.c * l.b - m_line.b * l.c) * inverse,
-                   (m_line.a * l.c - m_line.c * l.a) * inverse, m_own * m_root * root};
-    m_result.radius2 = std::fmax(m_result.radius2, v.x * v.x + v.y * v.y);
-    if (k > 1) {
-      m_is_chain = m_is_chain && is_forward(m_here, v);
-      add_triangle(m_here, v);
-    }
-    m_polygon.set_chain_vertex(k, v.x, v.y);
-    m_here = v;
-  }
-  CGAL_POWER_RTF_HD bool is_forward(const Vertex& from, const Vertex& to) const
-  {
-    return m_line.a * (to.y - from.y) - m_line.b * (to.x - from.x) > 0;
-  }
-
-  /// Sums that `close()` divides.
-  CGAL_POWER_RTF_HD void add_triangle(const Vertex& p, const Vertex& q)
-  {
-    Cell_moments<Real>& m = m_result.moments;
-    const Real area = p.x * q.y - q.x * p.y;
-    m.area += area;
-    if (!WithMoments) return;
-    const Real sum = m_own * m_own * m_own + p.density + q.density;
-    m.mass += area * sum;
-    m.x += area * ((sum + p.density) * p.x + (sum + q.density) * q.x);
-    m.y += area * ((sum + p.density) * p.y + (sum + q.density) * q.y);
-  }
-
-  Ring_polygon<Real, 32>& m_polygon;
-  Real m_own;
-  Tangent_line<Real> m_first_line{}, m_line{};
-  Real m_first_root = 1, m_root = 1;
-  Vertex m_first{}, m_here{}; // vertices 1 and k
-  bool m_is_chain = true;
-  int m_rounds = 0;
-  Chain_result<Real> m_result;
 };
 
 /// The cell whose edges are still the former ones, in their order: then their corners are its
@@ -220,7 +109,7 @@ clip_chain(const Group_view<Real>& view, const Verlet_lists<Real>& lists,
   int other_places[at_once];
   reader.places(edges, size, other_places);
 
-  Chain_walk<Real, WithMoments> walk(polygon, root(cell.place));
+  Edge_chain<Ring_polygon<Real, 32>, WithMoments> walk(polygon, root(cell.place));
   for (int first = 0; first < edges; first += edges_at_once) {
     int places[edges_at_once];
     reader.places(first, edges, places);
@@ -248,7 +137,7 @@ clip_chain(const Group_view<Real>& view, const Verlet_lists<Real>& lists,
     CGAL_POWER_RTF_UNROLL
     for (int k = 0; k < at_once; ++k) {
       if (first + k >= size) continue;
-      const Tangent_line<Real> l = reader.line(sites[k]);
+      const Edge_line<Real> l = reader.line(sites[k]);
       const Real t2 = l.a * l.a + l.b * l.b;
       const bool is_far = l.c > 0 && l.c * l.c > result.radius2 * t2;
       if (!is_far) is_chain = is_chain && t2 > 0 && polygon.is_chain_inside(l.a, l.b, l.c);
@@ -276,7 +165,7 @@ clip_entries(const Group_view<Real>& view, const Verlet_lists<Real>& lists,
     CGAL_POWER_RTF_UNROLL
     for (int k = 0; k < at_once; ++k) {
       if (first + k >= size) continue;
-      const Tangent_line<Real> l = reader.line(sites[k]);
+      const Edge_line<Real> l = reader.line(sites[k]);
       if (l.a * l.a + l.b * l.b > 0)
         polygon.clip(l.a, l.b, l.c, first + k);
       else if (!(l.c > 0))

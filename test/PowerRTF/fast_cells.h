@@ -22,32 +22,33 @@ using sample_families::Cloud;
 using sample_families::families;
 using sample_families::Family;
 
-/// The cells of `cloud`, as the engines construct them from a first guess of their radii; `cloud`
-/// is put into spatial order and gets normals of length 1.
-template <class Construction, class Tag = CGAL::Sequential_tag>
-std::vector<Cell_polygon> construct(Cloud& cloud, const Remeshing_options& options,
-                                    double first_radius)
+/// Puts `cloud` into spatial order, with normals of length 1.
+inline void sort(Cloud& cloud)
 {
-  Cloud sorted = cloud;
-  Owned_sites sites;
+  const Cloud before = cloud;
   int i = 0;
-  for (int k : internal::spatial_order(cloud.samples.points)) {
-    sorted.samples.points[i] = cloud.samples.points[k];
-    sorted.samples.normals[i] = normalized(cloud.samples.normals[k]);
-    sorted.samples.weights[i] = cloud.samples.weights[k];
-    sites.add(sorted.samples.points[i], sorted.samples.normals[i], sorted.samples.weights[i]);
+  for (int k : internal::spatial_order(before.samples.points)) {
+    cloud.samples.points[i] = before.samples.points[k];
+    cloud.samples.normals[i] = normalized(before.samples.normals[k]);
+    cloud.samples.weights[i] = before.samples.weights[k];
     ++i;
   }
-  cloud = sorted;
-  Host_backend<Tag> backend;
-  Tree_cells<double, Host_backend<Tag>, Construction> tree(backend, i, cloud.cos_angle,
-                                                           first_radius, options);
+}
+
+/// The cells of a sorted cloud by `tree`.
+template <class Tree>
+std::vector<Cell_polygon> construct(Tree& tree, const Cloud& cloud)
+{
+  const Samples& samples = cloud.samples;
+  Owned_sites sites;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    sites.add(samples.points[i], samples.normals[i], samples.weights[i]);
   tree.set_sites(sites.arrays());
   std::vector<Cell_polygon> cells(cloud.size());
   tree.for_each_cell([&](int site, Cell_status status, const auto& polygon, const auto& frame) {
     Cell_polygon& cell = cells[site];
     for (int k = 0; k < polygon.size; ++k) {
-      cell.vertices.push_back(cloud.samples.points[site] + frame.u * polygon.x[k] +
+      cell.vertices.push_back(samples.points[site] + frame.u * polygon.x[k] +
                               frame.v * polygon.y[k]);
       cell.neighbors.push_back(polygon.neighbor[k]);
     }
@@ -55,6 +56,19 @@ std::vector<Cell_polygon> construct(Cloud& cloud, const Remeshing_options& optio
     cell.status = status;
   });
   return cells;
+}
+
+/// The cells of `cloud`, as the engines construct them from a first guess of their radii; `cloud`
+/// is sorted.
+template <class Construction, class Tag = CGAL::Sequential_tag>
+std::vector<Cell_polygon> construct(Cloud& cloud, const Remeshing_options& options,
+                                    double first_radius)
+{
+  sort(cloud);
+  Host_backend<Tag> backend;
+  Tree_cells<double, Host_backend<Tag>, Construction> tree(backend, int(cloud.size()),
+                                                           cloud.cos_angle, first_radius, options);
+  return construct(tree, cloud);
 }
 
 } // namespace fast_cells

@@ -7,6 +7,7 @@
 #ifndef CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
 #define CGAL_POWER_RTF_CELLS_TANGENT_POLYGON_H
 
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/Tangent_frame.h>
 
 namespace CGAL::PowerRTF {
@@ -34,6 +35,23 @@ struct Tangent_polygon {
       y[k] = sy[k];
       neighbor[k] = -1 - k;
     }
+  }
+
+  /// Vertex by vertex; `neighbor` is the caller's.
+  CGAL_POWER_RTF_HD void begin_chain() { overflow = false; }
+  CGAL_POWER_RTF_HD void set_chain_vertex(int k, FT vertex_x, FT vertex_y)
+  {
+    x[k] = vertex_x;
+    y[k] = vertex_y;
+  }
+  CGAL_POWER_RTF_HD void end_chain(int vertices) { size = vertices; }
+  CGAL_POWER_RTF_HD static FT quotient(FT a, FT b) { return a / b; }
+  /// Whether a x + b y <= c for all vertices.
+  CGAL_POWER_RTF_HD bool is_chain_inside(FT a, FT b, FT c) const
+  {
+    FT most = a * x[0] + b * y[0];
+    for (int k = 1; k < size; ++k) most = internal::larger(most, a * x[k] + b * y[k]);
+    return !(most > c);
   }
 
   /// Squared distance of the farthest vertex from the site: the squared security radius R^2.

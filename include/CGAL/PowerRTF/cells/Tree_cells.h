@@ -1,12 +1,14 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All cells (Algorithm 1) on the CPU, by searches in a packed tree of the sites.
+// All cells (Algorithm 1) on the CPU, from neighbor lists or by searches in a packed tree of the
+// sites.
 #ifndef CGAL_POWER_RTF_CELLS_TREE_CELLS_H
 #define CGAL_POWER_RTF_CELLS_TREE_CELLS_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
+#include <CGAL/PowerRTF/cells/Neighbor_lists.h>
 
 #include <algorithm>
 #include <limits>
@@ -128,6 +130,7 @@ public:
             m_tree,     m_guard_factor, m_in.patches};
   }
   Backend& backend() { return m_backend; }
+  const Neighbor_lists<Real, Backend>& lists() const { return m_lists; }
   /// The number of cells: sites from there on only clip.
   int size() const { return m_in.cells; }
   Real cos_angle() const { return m_cos_angle; }
@@ -138,46 +141,74 @@ public:
   {
     constexpr int leaves_per_chunk = 32, arity = Packed_tree_layout::arity;
     const Sites_view<Real> v = view();
+    m_lists.update(m_backend, v, size(), m_radii);
     m_backend.for_each_chunk(size(), leaves_per_chunk * arity, [&](int begin, int end) {
       std::vector<int> gathered;
       for (int leaf = begin; leaf < end; leaf += arity)
         construct_leaf<Filtered>(v, leaf, (std::min)(end, leaf + arity), gathered, sink);
     });
+    m_lists.finish(m_backend);
   }
 
 private:
-  /// Constructs the cells of one leaf from candidates gathered for all of them at once.
+  static constexpr Real growth = Real(1.1); // after a step the radii differ by a few per cent
+
+  /// Constructs the cells of one leaf, where the lists do not suffice from candidates gathered for
+  /// all of them at once.
   template <bool Filtered, class Sink>
   void construct_leaf(const Sites_view<Real>& v, int begin, int end, std::vector<int>& gathered,
                       Sink& sink)
   {
-    constexpr Real growth = Real(1.1); // after a step the radii differ by a few per cent
-    Real group_radius = 0, min_weight = std::numeric_limits<Real>::infinity();
+    const int leaf = begin / Packed_tree_layout::arity;
+    const auto near = m_lists.near_changes(leaf);
+    Real group_radius = -1; // not gathered yet
+    const auto gather = [&] {
+      Real min_weight = std::numeric_limits<Real>::infinity();
+      group_radius = 0;
+      for (int i = begin; i < end; ++i) {
+        group_radius = (std::max)(group_radius, growth * m_radii[i]);
+        min_weight = (std::min)(min_weight, m_in.sites[i].weight);
+      }
+      gathered.clear();
+      for_each_possible_neighbor(v, m_boxes[leaf], min_weight, group_radius,
+                                 [&](int j) { gathered.push_back(j); });
+    };
+    int misses = 0;
     for (int i = begin; i < end; ++i) {
-      group_radius = (std::max)(group_radius, growth * m_radii[i]);
-      min_weight = (std::min)(min_weight, m_in.sites[i].weight);
-    }
-    gathered.clear();
-    for_each_possible_neighbor(v, m_boxes[begin / Packed_tree_layout::arity], min_weight,
-                               group_radius, [&](int j) { gathered.push_back(j); });
-    for (int i = begin; i < end; ++i) {
-      const auto candidates = [&](Real radius, auto&& f) {
-        if (radius <= group_radius) {
+      const Real listed_radius = m_lists.radius(v, i, near);
+      if constexpr (!Filtered) {
+        const Tangent_frame<Real> frame(v.normals[i]);
+        Tangent_polygon<Real> polygon;
+        if (m_lists.construct_from_edges(v, i, listed_radius, m_cos_angle, frame, polygon)) {
+          m_radii[i] = std::sqrt(polygon.squared_radius());
+          sink(i, Cell_status::ok, polygon, frame);
+          continue;
+        }
+      }
+      const Real radius = growth * m_radii[i];
+      misses += radius > listed_radius;
+      const auto candidates = [&](Real wanted, auto&& f) {
+        if (wanted <= listed_radius) return m_lists.for_each(i, f);
+        if (group_radius < 0) gather();
+        if (wanted <= group_radius) {
           for (const int j : gathered) f(j);
           return;
         }
         const Site<Real>& site = m_in.sites[i];
-        for_each_possible_neighbor(v, Box3<Real>{site.point, site.point}, site.weight, radius, f);
+        for_each_possible_neighbor(v, Box3<Real>{site.point, site.point}, site.weight, wanted, f);
       };
-      construct_cell<Filtered>(v, i, growth * m_radii[i], m_cos_angle, candidates,
+      construct_cell<Filtered>(v, i, radius, m_cos_angle, candidates,
                                [&](int site, Cell_status status,
                                    const Tangent_polygon<Real>& polygon,
                                    const Tangent_frame<Real>& frame, auto... certain) {
-                                 if (status == Cell_status::ok)
+                                 if (status == Cell_status::ok) {
                                    m_radii[site] = std::sqrt(polygon.squared_radius());
+                                   m_lists.set_edges(site, polygon);
+                                 }
                                  sink(site, status, polygon, frame, certain...);
                                });
     }
+    m_lists.set_misses(leaf, misses);
   }
 
   Backend& m_backend;
@@ -188,6 +219,7 @@ private:
   std::vector<Box3<Real>> m_boxes;
   std::vector<Real> m_max_weights;
   std::vector<Real> m_radii; // of the last construction: the next one's guess
+  Neighbor_lists<Real, Backend> m_lists;
 };
 
 } // namespace CGAL::PowerRTF
