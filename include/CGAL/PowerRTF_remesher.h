@@ -105,10 +105,7 @@ private:
   using Weight_method = PowerRTF::Weight_method;
 
   bool all_fixed() const { return m_patches.features().size() == m_options.number_of_samples; }
-  int iterations() const
-  {
-    return all_fixed() ? 0 : m_options.relaxation_iterations + m_options.max_iterations;
-  }
+  int iterations() const { return m_options.relaxation_iterations + m_options.max_iterations; }
 
   /// Algorithm 3, lines 2 to 21.
   template <class Visitor>
@@ -118,12 +115,13 @@ private:
     sample(visitor);
     visitor.on_stage("optimization");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.optimization);
-    for (int iteration = 0; iteration < iterations() && !m_report.cancelled; ++iteration) { // 5
-      m_engine.build_cells();                                                               // 8, 9
+    for (int iteration = 0; !all_fixed(); ++iteration) { // 5
+      m_engine.build_cells();                            // 8, 9
+      if (iteration == iterations()) break;
       const bool relaxation = iteration < m_options.relaxation_iterations;
       const bool equal = !relaxation && optimize_weights(); // 11 to 14
       finish_iteration(visitor, iteration);
-      if (equal || (!relaxation && has_settled())) break;
+      if (m_report.cancelled || equal || (!relaxation && has_settled())) break;
       m_engine.move_samples(relaxation ? PowerRTF::Position_method::lloyd
                                        : m_options.position_method); // 15 to 19
     }
@@ -209,7 +207,6 @@ private:
   /// The weights once the samples are in place, by Newton's method.
   void equalize_capacities()
   {
-    m_engine.build_cells();
     if (m_options.position_method == PowerRTF::Position_method::lbfgs) m_engine.restore_best();
     if (m_options.weight_method != Weight_method::newton) return;
     for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass)

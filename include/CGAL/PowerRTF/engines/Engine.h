@@ -147,7 +147,8 @@ private:
   double m_mean_mass = 0;             // of the first cells; 0: there was no look at them
   const int* m_passes_made = nullptr; // by the builder, where the summary shall tell
   bool m_is_summary_started = false, m_is_summary_known = false;
-  bool m_are_cells_due = false; // until something needs them
+  bool m_are_cells_due = false;                               // until something needs them
+  bool m_are_edges_wanted = false, m_are_edges_known = false; // of the cells, by Newton's steps
   bool m_are_distances_known = false, m_are_components_known = false, m_is_left_out_known = false;
   std::size_t m_constructions = 0;
 };

@@ -50,6 +50,7 @@ void Engine<R, B, C>::set_samples(const Engine_samples& samples)
   m_builder.reset(new C(m_backend, m_size, m_cos_angle, R(radius), m_options));
   m_constructions = 0;
   m_mean_mass = 0;
+  m_are_edges_wanted = m_are_edges_known = false;
   sort(samples);
   m_backend.start_clock();
   update_attributes();

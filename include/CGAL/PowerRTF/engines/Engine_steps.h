@@ -34,6 +34,7 @@ Cell_outputs<R> Engine<R, B, C>::outputs()
   out.mass = m_mass.data();
   out.offset = m_offset.data();
   out.status = m_status.data();
+  if (m_are_edges_wanted) m_newton.add_outputs(m_cells, out);
   return out;
 }
 
@@ -50,7 +51,9 @@ void Engine<R, B, C>::build_cells()
 template <class R, class B, class C>
 void Engine<R, B, C>::finish_cells()
 {
-  if (m_are_cells_due) m_builder->build(outputs());
+  if (!m_are_cells_due) return;
+  m_builder->build(outputs());
+  m_are_edges_known = m_are_edges_wanted;
   m_are_cells_due = false;
 }
 
@@ -147,6 +150,7 @@ void Engine<R, B, C>::choose_left_out()
 template <class R, class B, class C>
 bool Engine<R, B, C>::newton_weights()
 {
+  m_are_edges_wanted = true;
   choose_left_out();
   const auto take_step = [&](double step) {
     step_weights(m_backend, m_cells, m_sites.data(), m_weights_before.data(), m_newton.direction(),
@@ -155,12 +159,9 @@ bool Engine<R, B, C>::newton_weights()
     build_cells();
   };
   for (bool is_worth_another = true; is_worth_another;) {
+    if (!m_are_edges_known) build_cells();
     const Capacity_statistics before = summary().capacity;
     if (!(before.mean > 0)) return false; // all cells are left out
-    Cell_outputs<R> out = outputs();
-    m_newton.add_outputs(m_cells, out);
-    ++m_constructions;
-    m_builder->build(out);
     m_newton.solve(m_cells, m_area.data(), m_density.data(), m_is_left_out.data(),
                    m_options.capacity_tolerance, !m_are_components_known);
     m_are_components_known = true;

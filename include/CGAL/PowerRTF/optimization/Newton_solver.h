@@ -118,7 +118,7 @@ public:
   /// system, only rounding is left, so that the weights do not leap when the input changes a
   /// little.
   static constexpr double part_of_interval = Backend::works_by_warps ? 0.5 : 0;
-  static constexpr double tolerance = Backend::works_by_warps ? 0.03 : 1e-10;
+  static constexpr double tolerance = Backend::works_by_warps ? 0.03 : 1e-7;
 
   explicit Newton_solver(Backend& backend) : m_backend(backend), m_gradients(backend)
   {
