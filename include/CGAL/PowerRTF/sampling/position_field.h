@@ -132,7 +132,7 @@ CGAL_POWER_RTF_HD inline Vec3d nearest_lattice_point(const Lattice_view& view, i
   const float phases[] = {turns_of(w.wave[0]), turns_of(w.wave[1]), turns_of(w.wave[2])};
   // The three have the sum 0 but for full turns; what is left is shared.
   const float sum = phases[0] + phases[1] + phases[2];
-  const float excess = (sum - std::floor(sum + 0.5f)) / 3;
+  const float excess = (sum - nearest_integer(sum)) / 3;
   float x = 0, y = 0, best = 3e38f;
   for (int m = -1; m <= 1; ++m)
     for (int n = -1; n <= 1; ++n) { // node - p = a (1, 0) + b (1/2, sqrt 3 / 2)
