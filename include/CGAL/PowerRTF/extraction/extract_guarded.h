@@ -32,7 +32,8 @@ struct Ball {
 
 /// Where the samples are too sparse.
 struct Sparse_places {
-  std::vector<Ball> balls; // around triangles that intersect others, and vertices that are no samples
+  std::vector<Ball>
+      balls; // around triangles that intersect others, and vertices that are no samples
   std::size_t intersections = 0;
 };
 
@@ -65,8 +66,8 @@ public:
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
   Guarded_extraction(const Surface& surface, const Samples& samples,
                      const Feature_samples& features, const std::vector<Ball>& balls, double reach)
-      : m_may_go(may_go(samples, features)), m(insert_samples(surface, samples, features.places)), m_guard(m, sight(balls, reach)),
-        m_flipper(m, 0.1, &m_guard)
+      : m_may_go(may_go(samples, features)), m(insert_samples(surface, samples, features.places)),
+        m_guard(m, sight(balls, reach)), m_flipper(m, 0.1, &m_guard)
   {}
 
   void run()

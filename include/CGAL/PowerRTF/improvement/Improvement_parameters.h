@@ -55,7 +55,8 @@ struct Improvement_parameters {
     /// Agreement that a star must keep, if it had it. One on a strongly curved part stands for
     /// features that smoothing would slide off.
     static constexpr double min_agreement = 0.75;
-    static constexpr double max_step = 0.25; ///< in the shortest edge of the star
+    /// In the shortest edge of the star; smaller steps are not worth their search of the surface.
+    static constexpr double max_step = 0.25, min_step = 0.002;
   };
 
   /// annihilate_dislocations.h

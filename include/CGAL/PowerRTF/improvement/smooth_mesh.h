@@ -98,9 +98,9 @@ private:
     const double determinant = huu * hww - huw * huw;
     if (!(determinant > 0) || !(huu > 0)) return;
     double su = -(hww * gu - huw * gw) / determinant, sw = -(huu * gw - huw * gu) / determinant;
-    const double size = std::sqrt(su * su + sw * sw),
-                 limit = Parameters::max_step * std::sqrt(shortest);
-    if (!(size > 0)) return;
+    const double size = std::sqrt(su * su + sw * sw), unit = std::sqrt(shortest),
+                 limit = Parameters::max_step * unit;
+    if (!(size > Parameters::min_step * unit)) return;
     if (size > limit) su *= limit / size, sw *= limit / size;
 
     const double now = energy(star, p);
