@@ -22,52 +22,95 @@
 
 namespace CGAL::PowerRTF::internal {
 
+/// A concurrency tag as a value: what is compiled only once runs with the tag that it is given.
+class Concurrency {
+public:
+  /// From a tag.
+  template <class ConcurrencyTag>
+  Concurrency(ConcurrencyTag)
+      : m_is_parallel(std::is_convertible<ConcurrencyTag, Parallel_tag>::value)
+  {}
+
+  bool is_parallel() const { return m_is_parallel; }
+
+private:
+  bool m_is_parallel;
+};
+
 /// Calls `f(c)` for c in [0, n). A function pointer and no template: one instance of TBB's loop,
 /// which takes long to compile, serves all.
-template <class ConcurrencyTag>
-void for_each_task(int n, void (*f)(const void* data, int c), const void* data)
+inline void for_each_task(Concurrency concurrency, int n, void (*f)(const void* data, int c),
+                          const void* data)
 {
 #ifdef CGAL_LINKED_WITH_TBB
-  if constexpr (std::is_convertible<ConcurrencyTag, Parallel_tag>::value) {
+  if (concurrency.is_parallel()) {
     tbb::parallel_for(tbb::blocked_range<int>(0, n, 1), [&](const tbb::blocked_range<int>& range) {
       for (int c = range.begin(); c != range.end(); ++c) f(data, c);
     });
     return;
   }
+#else
+  (void)concurrency;
 #endif
   for (int c = 0; c < n; ++c) f(data, c);
 }
 
 /// Calls `f(begin, end)` for consecutive chunks of [0, n) of at most `chunk` items.
-template <class ConcurrencyTag, class F>
-void for_each_chunk(int n, int chunk, F&& f)
+template <class F>
+void for_each_chunk(Concurrency concurrency, int n, int chunk, F&& f)
 {
   const auto run = [&](int c) {
     Cancellation::poll();
     f(c * chunk, std::min(n, (c + 1) * chunk));
   };
   using Run = decltype(run);
-  for_each_task<ConcurrencyTag>((n + chunk - 1) / chunk,
-                                [](const void* r, int c) { (*static_cast<Run*>(r))(c); }, &run);
+  for_each_task(
+      concurrency, (n + chunk - 1) / chunk,
+      [](const void* r, int c) { (*static_cast<Run*>(r))(c); }, &run);
+}
+template <class ConcurrencyTag, class F>
+void for_each_chunk(int n, int chunk, F&& f)
+{
+  for_each_chunk(ConcurrencyTag(), n, chunk, f);
 }
 
 /// Calls `f(i)` for i in [0, n).
+template <class F>
+void for_each_index(Concurrency concurrency, int n, F&& f)
+{
+  for_each_chunk(concurrency, n, 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) f(i);
+  });
+}
 template <class ConcurrencyTag, class F>
 void for_each_index(int n, F&& f)
 {
-  for_each_chunk<ConcurrencyTag>(n, 256, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) f(i);
+  for_each_index(ConcurrencyTag(), n, f);
+}
+
+/// The items i of [0, n) with `is_wanted(i)`, in order.
+template <class F>
+std::vector<int> select(Concurrency concurrency, int n, F&& is_wanted)
+{
+  constexpr int chunk = 4096;
+  std::vector<std::vector<int>> parts((n + chunk - 1) / chunk);
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i)
+      if (is_wanted(i)) parts[begin / chunk].push_back(i);
   });
+  std::vector<int> all;
+  for (const std::vector<int>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 /// Folds `accumulate(partial, i)` over the indices of each chunk, then `join(total, partial)` over
 /// the chunks in order.
-template <class ConcurrencyTag, class T, class Accumulate, class Join>
-T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
+template <class T, class Accumulate, class Join>
+T reduce(Concurrency concurrency, int n, const T& zero, Accumulate&& accumulate, Join&& join,
+         int chunk = 1024)
 {
-  constexpr int chunk = 1024;
   std::vector<T> partial((n + chunk - 1) / chunk, zero);
-  for_each_chunk<ConcurrencyTag>(n, chunk, [&](int begin, int end) {
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
     T t = zero;
     for (int i = begin; i < end; ++i) accumulate(t, i);
     partial[begin / chunk] = t;
@@ -76,16 +119,27 @@ T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
   for (const T& p : partial) join(total, p);
   return total;
 }
+template <class ConcurrencyTag, class T, class Accumulate, class Join>
+T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
+{
+  return reduce(ConcurrencyTag(), n, zero, accumulate, join);
+}
 
 /// Sorts items that all differ.
+template <class Iterator>
+void sort(Concurrency concurrency, Iterator begin, Iterator end)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if (concurrency.is_parallel()) return tbb::parallel_sort(begin, end);
+#else
+  (void)concurrency;
+#endif
+  std::sort(begin, end);
+}
 template <class ConcurrencyTag, class Iterator>
 void sort(Iterator begin, Iterator end)
 {
-#ifdef CGAL_LINKED_WITH_TBB
-  if constexpr (std::is_convertible<ConcurrencyTag, Parallel_tag>::value)
-    return tbb::parallel_sort(begin, end);
-#endif
-  std::sort(begin, end);
+  sort(ConcurrencyTag(), begin, end);
 }
 
 /// Sum of `f(i)` over [0, n).

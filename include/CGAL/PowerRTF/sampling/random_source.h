@@ -3,6 +3,8 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_RANDOM_SOURCE_H
 #define CGAL_POWER_RTF_SAMPLING_RANDOM_SOURCE_H
 
+#include <CGAL/PowerRTF/internal/mixed_bits.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,17 +13,12 @@
 namespace CGAL::PowerRTF {
 
 /// Uniform in [0, 1): a function of its arguments alone, so that numbers can be drawn in any order.
-/// (The mixing of SplitMix64: Steele, Lea and Flood 2014.)
 inline double counted_random(std::uint64_t seed, std::uint64_t index, std::uint64_t stream)
 {
-  const auto mixed = [](std::uint64_t x) {
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-  };
+  using internal::mixed_bits;
   constexpr std::uint64_t golden = 0x9e3779b97f4a7c15u;
-  const std::uint64_t key = mixed(seed * golden + golden) + stream * golden;
-  return static_cast<double>(mixed(mixed(index * golden + key) + key) >> 11) * 0x1p-53;
+  const std::uint64_t key = mixed_bits(seed * golden + golden) + stream * golden;
+  return static_cast<double>(mixed_bits(mixed_bits(index * golden + key) + key) >> 11) * 0x1p-53;
 }
 
 /// Random numbers that are the same with every standard library, which the distributions of
