@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H
 
+#include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -36,18 +37,19 @@ struct Working_mesh {
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
   std::vector<int> patches;   ///< by face: the surface's flat patch it is a part of; -1: of none
 
-  explicit Working_mesh(Refined_surface&& surface)
+  /// \throw Invalid_input_error if the triangles are no oriented 2-manifold
+  explicit Working_mesh(Refined_surface&& surface, Concurrency concurrency = Sequential_tag())
       : normals(std::move(surface.normals)), samples(std::move(surface.samples)),
         patches(std::move(surface.patches))
   {
     patches.resize(surface.triangles.size(), -1);
     for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
-    const auto vertices = Mesh::size_type(surface.points.size());
-    mesh.reserve(vertices, 3 * vertices, Mesh::size_type(surface.triangles.size()));
-    for (const Vec3d& p : surface.points) mesh.add_vertex(Point(p.x, p.y, p.z));
-    for (const Triangle& t : surface.triangles)
-      if (!mesh.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])).is_valid())
-        throw Invalid_input_error("the surface is not an oriented 2-manifold");
+    if (!connect_halfedges(mesh, surface.triangles, int(surface.points.size()), concurrency))
+      throw Invalid_input_error("the surface is not an oriented 2-manifold");
+    for_each_index(concurrency, int(surface.points.size()), [&](int v) {
+      const Vec3d& p = surface.points[v];
+      mesh.point(Vertex(v)) = Point(p.x, p.y, p.z);
+    });
   }
 
   Vec3d point(Vertex v) const
