@@ -230,7 +230,8 @@ private:
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       visitor.on_stage("improvement");
       PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
-      PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh);
+      PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
+                             typename Traits::Concurrency_tag());
     }
     return mesh;
   }

@@ -251,6 +251,18 @@ TEST_CASE("deterministic, and the same at any scale")
   CHECK(scaled.triangles == mesh.triangles);
 }
 
+TEST_CASE("the same bits in all threads")
+{
+  const std::size_t n = 5000; // several blocks of vertices
+  const Case c = make_case(shapes::torus(60, 30, 1, 0.4), n, 2, Sampling::stratified);
+  Extracted_mesh one_by_one = c.raw, at_once = c.raw;
+  REQUIRE(improve_mesh(c.surface, one_by_one, CGAL::Sequential_tag()));
+  REQUIRE(improve_mesh(c.surface, at_once, CGAL::Parallel_if_available_tag()));
+  CHECK(at_once.points == one_by_one.points);
+  CHECK(at_once.triangles == one_by_one.triangles);
+  CHECK(at_once.points != c.raw.points);
+}
+
 TEST_CASE("few, no and non-manifold triangles")
 {
   const Surface sphere = shapes::make_surface(shapes::icosphere(2));

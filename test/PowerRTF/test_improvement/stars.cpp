@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -130,6 +131,38 @@ TEST_CASE("dislocations glide to each other and annihilate")
   CHECK(irregular() == (are_near ? 0 : 4));
 }
 
+TEST_CASE("vertices that change at once are no neighbors, and come in the same order in all threads")
+{
+  const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 3000, 1);
+  const Facet_tree tree(c.surface.points, c.surface.triangles);
+  const internal::Surface_projector projector(c.surface, tree);
+  // By vertex: how many of its neighbors have changed before it, with some flips in between.
+  const auto changed_before = [&](internal::Concurrency concurrency) {
+    internal::Star_mesh mesh(c.raw, projector, concurrency);
+    const auto& m = mesh.working().mesh;
+    using Vertex = internal::Star_mesh::Vertex;
+    std::vector<std::vector<int>> result;
+    for (int pass = 0; pass < 4; ++pass) {
+      std::vector<int> before(mesh.size(), 0), calls(mesh.size(), 0);
+      mesh.for_each_vertex([&](Vertex v) {
+        for (const Vertex u : m.vertices_around_target(m.halfedge(v))) before[v] += calls[u];
+        ++calls[v];
+      });
+      CHECK(std::count(calls.begin(), calls.end(), 1) == int(mesh.size()));
+      // of two neighbors one is the first
+      CHECK(std::accumulate(before.begin(), before.end(), 0) == int(m.number_of_edges()));
+      result.push_back(before);
+      int e = 0;
+      for (const auto edge : m.edges())
+        if (++e % (7 + pass) == 0 && mesh.working().is_flippable(edge)) mesh.flip(edge);
+    }
+    return result;
+  };
+  const auto one_by_one = changed_before(CGAL::Sequential_tag());
+  CHECK(changed_before(CGAL::Parallel_if_available_tag()) == one_by_one);
+  CHECK(one_by_one[0] != one_by_one[1]);
+}
+
 TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as a whole")
 {
   const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
@@ -138,13 +171,13 @@ TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as
   internal::Star_mesh mesh(c.raw, projector);
   using Vertex = internal::Star_mesh::Vertex;
   const auto& m = mesh.working().mesh;
-  const auto state = [&](bool with_times) {
+  const auto state = [&](bool with_changes) {
     std::vector<double> s;
     for (const Vertex v : m.vertices()) {
       for (const Vec3d& x : {mesh.point(v), mesh.normal(v)}) s.insert(s.end(), {x.x, x.y, x.z});
       s.insert(s.end(), {double(mesh.facet(v)), mesh.height(v), double(mesh.is_movable(v)),
                          double(m.halfedge(v))});
-      if (with_times) s.push_back(double(mesh.changed_around(v)));
+      if (with_changes) s.push_back(double(mesh.changes(v)));
     }
     for (const auto h : m.halfedges())
       s.insert(s.end(), {double(m.target(h)), double(m.next(h)), double(m.face(h))});
@@ -158,10 +191,12 @@ TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as
     if (!mesh.working().is_flippable(e)) continue;
     ++flips;
     const auto memory = mesh.before_flip(e);
-    const auto time = mesh.now();
+    std::vector<internal::Star_mesh::State> states;
+    for (const Vertex v : memory.corners) states.push_back(mesh.state_around(v));
     mesh.flip(e);
-    for (const Vertex v : memory.corners) {
-      CHECK(mesh.changed_around(v) > time);
+    for (int k = 0; k < 4; ++k) {
+      const Vertex v = memory.corners[k];
+      CHECK(mesh.state_around(v) != states[k]);
       mesh.move(v, mesh.project(v, 0.9 * mesh.point(v) + 0.1 * mesh.point(memory.corners[0])));
     }
     CHECK(state(true) != before);
@@ -172,15 +207,15 @@ TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as
 
   const std::vector<double> all = state(false);
   const internal::Star_mesh copy = mesh;
-  const auto time = mesh.now();
+  std::vector<internal::Star_mesh::State> states;
+  for (const Vertex u : m.vertices()) states.push_back(mesh.state_around(u));
   const Vertex v(7);
   mesh.pin(v);
   REQUIRE(mesh.move_off(v, 1.05 * mesh.point(v)));
   mesh.restore(copy);
   CHECK(state(false) == all);
-  CHECK(mesh.now() > time);
   for (const Vertex u : m.vertices()) {
     const bool is_near = u == v || mesh.working().are_adjacent(u, v);
-    CHECK((mesh.changed_around(u) > time) == is_near);
+    CHECK((mesh.state_around(u) != states[u]) == is_near);
   }
 }

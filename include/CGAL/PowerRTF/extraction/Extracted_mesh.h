@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <vector>
@@ -22,11 +23,13 @@ struct Extracted_mesh {
   std::vector<Edge> feature_edges; ///< the pieces of creases and borders; sorted
 
   /// Puts the triangles into an order that depends on nothing but which triangles there are.
-  void sort_triangles()
+  void sort_triangles(internal::Concurrency concurrency = Sequential_tag())
   {
-    for (Triangle& t : triangles)
+    internal::for_each_index(concurrency, int(triangles.size()), [this](int f) {
+      Triangle& t = triangles[f];
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    std::sort(triangles.begin(), triangles.end());
+    });
+    internal::sort(concurrency, triangles.begin(), triangles.end());
   }
 };
 

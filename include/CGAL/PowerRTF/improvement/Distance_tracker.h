@@ -10,7 +10,7 @@
 
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -46,15 +46,20 @@ public:
   explicit Distance_tracker(const Star_mesh& mesh)
       : m_mesh(&mesh),
         m_tree_search_distance(Parameters::tree_search_distance *
-                               std::sqrt(mesh.projector().surface().area / double(mesh.size())))
+                               std::sqrt(mesh.projector().surface().area / double(mesh.size()))),
+        m_seen(mesh.size(), 0)
   {
     choose_points();
-    Halfedge start = topology().halfedge(*topology().faces().begin());
-    for (Tracked_point& w : m_points) { // they are in spatial order: most often it is not far
-      w.face = start;
-      descend(w);
-      if (w.distance <= m_tree_search_distance) start = w.face;
-    }
+    const std::vector<Halfedge> starts = first_faces();
+    for_each_chunk(mesh.concurrency(), size(), chunk, [&](int begin, int end) {
+      Halfedge start = starts[begin / chunk];
+      for (int i = begin; i < end; ++i) { // in spatial order: most often it is not far
+        Tracked_point& w = m_points[i];
+        w.face = start;
+        descend(w);
+        if (w.distance <= m_tree_search_distance) start = w.face;
+      }
+    });
     find_far();
   }
 
@@ -62,7 +67,7 @@ public:
   void track(const Star_mesh& copy)
   {
     m_mesh = &copy;
-    m_updated = 0;
+    m_seen.assign(copy.size(), 0);
     update();
   }
 
@@ -74,21 +79,26 @@ public:
 
   double max_distance() const
   {
-    double d = 0;
-    for (const Tracked_point& w : m_points) d = std::max(d, w.distance);
-    return d;
+    return reduce(
+        m_mesh->concurrency(), size(), 0.,
+        [&](double& d, int i) { d = std::max(d, m_points[i].distance); },
+        [](double& d, double part) { d = std::max(d, part); });
   }
 
   /// After any changes of the mesh.
   void update()
   {
-    std::vector<char> changed(m_mesh->size()); // by vertex: its star
-    for (const Vertex v : topology().vertices()) changed[v] = m_mesh->changed_around(v) > m_updated;
-    for (Tracked_point& w : m_points)
-      if (const auto [a, b, c] = m_mesh->working().corners(w.face);
-          changed[a] || changed[b] || changed[c])
-        descend(w);
-    m_updated = m_mesh->now();
+    const int vertices = int(m_mesh->size());
+    std::vector<char> changed(vertices); // by vertex: its star
+    for_each_index(m_mesh->concurrency(), vertices,
+                   [&](int i) { changed[i] = has_changed_around(Vertex(Vertex::size_type(i))); });
+    for_each_index(m_mesh->concurrency(), size(), [&](int i) {
+      Tracked_point& w = m_points[i];
+      const auto [a, b, c] = m_mesh->working().corners(w.face);
+      if (changed[a] || changed[b] || changed[c]) descend(w);
+    });
+    for_each_index(m_mesh->concurrency(), vertices,
+                   [&](int i) { m_seen[i] = m_mesh->changes(Vertex(Vertex::size_type(i))); });
     find_far();
   }
 
@@ -130,6 +140,7 @@ public:
 private:
   using Parameters = Improvement_parameters::Tracking;
   static constexpr double min_normal_cosine = Improvement_parameters::Projection::min_normal_cosine;
+  static constexpr int chunk = 1024; // of the points
 
   // A face in a ball.
   struct Bounded_face {
@@ -167,18 +178,48 @@ private:
       }
   }
 
+  // By chunk of the points: a face near its first.
+  std::vector<Halfedge> first_faces() const
+  {
+    const Facet_tree& tree = m_mesh->projector().tree();
+    std::vector<Vertex> at_place(tree.order().size()); // of the tree: one that its facet carries
+    for (const Vertex v : topology().vertices())
+      if (!topology().is_isolated(v)) at_place[tree.place(m_mesh->facet(v))] = v;
+    std::vector<Halfedge> faces;
+    for (int first = 0; first < size(); first += chunk) {
+      const int place = tree.place(m_points[first].facet), places = int(at_place.size());
+      int distance = 0;
+      const auto is_at = [&](int at) { return at >= 0 && at < places && at_place[at] != Vertex(); };
+      while (!is_at(place - distance) && !is_at(place + distance)) ++distance;
+      const Halfedge h = topology().halfedge(
+          at_place[is_at(place - distance) ? place - distance : place + distance]);
+      faces.push_back(topology().is_border(h) ? topology().opposite(h) : h);
+    }
+    return faces;
+  }
+
+  // Since the last update.
+  bool has_changed_around(Vertex v) const
+  {
+    const auto has_changed = [this](Vertex u) { return m_mesh->changes(u) != m_seen[u]; };
+    if (has_changed(v) || topology().is_isolated(v)) return has_changed(v);
+    for (const Halfedge h : halfedges_around_target(v, topology()))
+      if (has_changed(topology().source(h))) return true;
+    return false;
+  }
+
   // Those that seem to be far are searched for in the whole mesh.
   void find_far()
   {
-    std::vector<Tracked_point*> far;
-    for (Tracked_point& w : m_points)
-      if (w.distance > m_tree_search_distance) far.push_back(&w);
+    const std::vector<int> far = select(m_mesh->concurrency(), size(), [&](int i) {
+      return m_points[i].distance > m_tree_search_distance;
+    });
     if (!far.empty()) search_mesh(far);
     assign();
   }
 
   // \pre all faces are there: what has been taken out has been put back elsewhere
-  void search_mesh(const std::vector<Tracked_point*>& some)
+  void search_mesh(const std::vector<int>& some)
   {
     std::vector<Vec3d> points;
     const std::vector<Triangle> triangles = m_mesh->working().triangles();
@@ -187,19 +228,22 @@ private:
       m_tree.emplace(points, triangles);
     else
       m_tree->refit(points, triangles);
-    for (Tracked_point* w : some) {
-      Cancellation::poll();
-      const int hint = int(topology().face(w->face));
-      int f = m_tree->nearest(w->point, w->normal, min_normal_cosine, hint).facet;
-      if (f < 0) f = m_tree->nearest(w->point, hint).facet; // none agrees: any
-      try_face(*w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
-    }
+    for_each_chunk(m_mesh->concurrency(), int(some.size()), 16, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) {
+        Tracked_point& w = m_points[some[k]];
+        const int hint = int(topology().face(w.face));
+        int f = m_tree->nearest(w.point, w.normal, min_normal_cosine, hint).facet;
+        if (f < 0) f = m_tree->nearest(w.point, hint).facet; // none agrees: any
+        try_face(w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
+      }
+    });
   }
 
   void assign()
   {
     m_at_face.resize(topology().number_of_faces());
-    for (auto& here : m_at_face) here.clear();
+    for_each_index(m_mesh->concurrency(), int(m_at_face.size()),
+                   [&](int f) { m_at_face[f].clear(); });
     for (int i = 0; i < size(); ++i) m_at_face[topology().face(m_points[i].face)].push_back(i);
   }
 
@@ -293,8 +337,8 @@ private:
 
   const Star_mesh* m_mesh;
   std::optional<Facet_tree> m_tree; // of the mesh's faces
-  Star_mesh::Time m_updated = 0;
-  double m_tree_search_distance; // the least distance that is searched for in the whole mesh
+  double m_tree_search_distance;    // the least distance that is searched for in the whole mesh
+  std::vector<unsigned> m_seen;     // by vertex: its changes at the last update
   std::vector<Tracked_point> m_points;
   std::vector<boost::container::small_vector<int, 12>> m_at_face; // by face: the points
 };

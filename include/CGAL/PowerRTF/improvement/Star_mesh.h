@@ -12,7 +12,9 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Independent_vertices.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
+#include <CGAL/PowerRTF/internal/mixed_bits.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -21,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -42,15 +45,18 @@ public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
   using Edge = Working_mesh::Edge;
-  /// Counts the changes of the mesh.
-  using Time = std::size_t;
+  /// Stands for all that has happened to a vertex and its neighbors.
+  using State = std::uint64_t;
 
+  /// `concurrency`: of the loops over all of it.
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
-  Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector)
-      : m_projector(&projector), m(refined(mesh)), m_heights(mesh.points.size(), 0),
+  Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
+            Concurrency concurrency = Sequential_tag())
+      : m_concurrency(concurrency), m_projector(&projector), m(refined(mesh), concurrency),
+        m_facets(mesh.points.size()), m_heights(mesh.points.size(), 0),
         m_locked(mesh.points.size(), false), m_movable(mesh.points.size()),
         m_pinned(mesh.points.size(), false), m_on_feature(mesh.points.size(), false),
-        m_changed(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
+        m_changes(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
   {
     const std::size_t n = mesh.points.size();
     for (const auto& [a, b] : mesh.feature_edges) {
@@ -59,13 +65,12 @@ public:
           m.mesh.halfedge(Vertex(Vertex::size_type(a)), Vertex(Vertex::size_type(b)));
       if (h.is_valid()) m_is_feature[m.mesh.edge(h)] = true;
     }
-    m_facets.reserve(n);
-    for (std::size_t v = 0; v < n; ++v) {
+    for_each_index(concurrency, int(n), [&](int v) {
       const auto place = projector.nearest(mesh.points[v]);
-      m_facets.push_back(place.facet);
+      m_facets[v] = place.facet;
       m.normals[v] = place.normal;
       m_movable[v] = is_interior(Vertex(Vertex::size_type(v)));
-    }
+    });
   }
 
   /// `locked`: by vertex, those that neither move nor get or lose an edge.
@@ -88,6 +93,7 @@ public:
     }
   }
 
+  Concurrency concurrency() const { return m_concurrency; }
   Working_mesh& working() { return m; }
   const Working_mesh& working() const { return m; }
   const Surface_projector& projector() const { return *m_projector; }
@@ -110,19 +116,18 @@ public:
     return true;
   }
 
-  /// The time of the last change.
-  Time now() const { return m_now; }
-  /// When `v` or a neighbor has last changed.
-  Time changed_around(Vertex v) const
+  /// How often `v` or its edges have changed; at least 1.
+  unsigned changes(Vertex v) const { return m_changes[v]; }
+  /// Another one after each change of `v` or a neighbor; 0 is none.
+  State state_around(Vertex v) const
   {
-    Time last = m_changed[v];
-    if (m.mesh.is_isolated(v)) return last;
-    for (const Halfedge h : halfedges_around_target(v, m.mesh))
-      last = std::max(last, m_changed[m.mesh.source(h)]);
-    return last;
+    State sum = state(v);
+    if (m.mesh.is_isolated(v)) return sum;
+    for (const Halfedge h : halfedges_around_target(v, m.mesh)) sum += state(m.mesh.source(h));
+    return sum;
   }
   /// `v` counts as changed.
-  void touch(Vertex v) { m_changed[v] = ++m_now; }
+  void touch(Vertex v) { ++m_changes[v]; }
 
   Vec3d point(Vertex v) const { return m.point(v); }
   /// The corners of the face at `h`.
@@ -241,7 +246,7 @@ public:
     Edge edge;
     std::array<Vertex, 4> corners;
     std::array<Surface_projector::Place, 4> places;
-    std::array<Time, 4> changed;
+    std::array<unsigned, 4> changes;
     std::array<Halfedge, 4> at_corners;
     std::array<Halfedge, 2> at_faces;
   };
@@ -251,7 +256,7 @@ public:
     Before_flip b{e, corners(e), {}, {}, {}, {}};
     for (int k = 0; k < 4; ++k) {
       b.places[k] = place(b.corners[k]);
-      b.changed[k] = m_changed[b.corners[k]];
+      b.changes[k] = m_changes[b.corners[k]];
       b.at_corners[k] = m.mesh.halfedge(b.corners[k]);
     }
     for (int k = 0; k < 2; ++k) b.at_faces[k] = m.mesh.halfedge(m.mesh.face(m.mesh.halfedge(e, k)));
@@ -267,19 +272,17 @@ public:
     for (int k = 0; k < 4; ++k) {
       m.mesh.set_halfedge(b.corners[k], b.at_corners[k]);
       move(b.corners[k], b.places[k]);
-      m_changed[b.corners[k]] = b.changed[k];
+      m_changes[b.corners[k]] = b.changes[k];
     }
   }
 
   /// Brings back all that was in a copy. What has changed since then counts as changed now.
   void restore(const Star_mesh& copy)
   {
-    const Time now = m_now;
-    const std::vector<Time> changed = std::move(m_changed);
+    const std::vector<unsigned> changes = std::move(m_changes);
     *this = copy;
-    m_now = now;
     for (std::size_t v = 0; v < size(); ++v)
-      if (changed[v] != m_changed[v]) touch(Vertex(Vertex::size_type(v)));
+      if (changes[v] != m_changes[v]) m_changes[v] = changes[v] + 1;
   }
 
   /// Takes a vertex out of the mesh: of the two ends of `h` one stays, as its target was.
@@ -328,9 +331,17 @@ public:
     touch(v);
   }
 
+  /// Calls `f(v)` for all vertices, many at once: it may change `v` and read its neighbors.
+  template <class F>
+  void for_each_vertex(F&& f)
+  {
+    m_independent.for_each(m.mesh, m_concurrency, f);
+  }
+
   void write(Extracted_mesh& mesh) const
   {
-    for (std::size_t v = 0; v < size(); ++v) mesh.points[v] = m.point(Vertex(Vertex::size_type(v)));
+    for_each_index(m_concurrency, int(size()),
+                   [&](int v) { mesh.points[v] = m.point(Vertex(Vertex::size_type(v))); });
     mesh.triangles = m.triangles();
   }
 
@@ -346,6 +357,8 @@ private:
     return r;
   }
 
+  State state(Vertex v) const { return mixed_bits(State(v) << 32 | m_changes[v]); }
+
   // On neither feature nor border.
   bool is_interior(Vertex v) const
   {
@@ -357,14 +370,15 @@ private:
     for (const Halfedge h : halfedges_around_target(v, m.mesh)) touch(m.mesh.source(h));
   }
 
+  Concurrency m_concurrency;
   const Surface_projector* m_projector;
   Working_mesh m;
   std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
   std::vector<double> m_heights; // by vertex: over the surface
   std::vector<char> m_locked, m_movable, m_pinned, m_on_feature;
-  std::vector<Time> m_changed;    // by vertex: it or its edges
-  std::vector<char> m_is_feature; // by edge
-  Time m_now = 1;
+  std::vector<unsigned> m_changes; // by vertex: of it or its edges
+  std::vector<char> m_is_feature;  // by edge
+  Independent_vertices m_independent;
 };
 
 } // namespace CGAL::PowerRTF::internal

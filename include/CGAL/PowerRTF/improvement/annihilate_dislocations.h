@@ -14,9 +14,13 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#include <boost/container/small_vector.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -29,11 +33,7 @@ public:
   std::size_t run()
   {
     std::size_t meetings = 0;
-    for (int length = 1; length <= Parameters::max_glide; ++length)
-      for (const Vertex v : m.working().mesh.vertices()) {
-        Cancellation::poll();
-        if (excess(v) == -1) meetings += annihilate(v, length);
-      }
+    for (int length = 1; length <= Parameters::max_glide; ++length) meetings += run(length);
     return meetings;
   }
 
@@ -44,65 +44,137 @@ private:
   using Face = Working_mesh::Face;
   using Parameters = Improvement_parameters::Dislocations;
 
+  // Pairs that are `length` flips apart. Those whose surroundings do not touch meet at once.
+  std::size_t run(int length)
+  {
+    std::vector<int> fives = select(m.concurrency(), int(m.size()), [&](int v) {
+      return excess(Vertex(v)) == -1 && !find_meetings(Vertex(v), length).empty();
+    });
+    std::size_t meetings = 0;
+    while (!fives.empty()) {
+      Cancellation::poll();
+      const std::vector<int> chosen = take_independent(fives, length);
+      meetings += reduce(
+          m.concurrency(), int(chosen.size()), std::size_t(0),
+          [&](std::size_t& sum, int k) { sum += annihilate(Vertex(chosen[k]), length); },
+          [](std::size_t& sum, std::size_t part) { sum += part; }, 1);
+    }
+    return meetings;
+  }
+
+  // Takes those out of `fives` whose surroundings touch none of those taken before, and all that
+  // have no meeting any more.
+  std::vector<int> take_independent(std::vector<int>& fives, int length)
+  {
+    std::vector<std::vector<Vertex>> zones(fives.size());
+    for_each_chunk(m.concurrency(), int(fives.size()), 1, [&](int k, int) {
+      for (const std::vector<Edge>& flips : find_meetings(Vertex(fives[k]), length)) {
+        const std::vector<Vertex> zone = vertices_near(flips, Parameters::rings + 1);
+        zones[k].insert(zones[k].end(), zone.begin(), zone.end());
+      }
+    });
+    m_is_taken.assign(m.size(), false);
+    std::vector<int> chosen, left;
+    for (std::size_t k = 0; k < fives.size(); ++k) {
+      if (zones[k].empty()) continue;
+      const bool is_free = std::none_of(zones[k].begin(), zones[k].end(),
+                                        [this](Vertex v) { return m_is_taken[v]; });
+      (is_free ? chosen : left).push_back(fives[k]);
+      if (is_free)
+        for (const Vertex v : zones[k]) m_is_taken[v] = true;
+    }
+    fives.swap(left);
+    return chosen;
+  }
+
   // At most `irregular_degree`.
   int degree(Vertex v) const { return m.working().degree_up_to(Parameters::irregular_degree, v); }
 
   // Edges above six; 0 where the mesh is not free, as on features and borders.
   int excess(Vertex v) const { return m.is_movable(v) ? degree(v) - 6 : 0; }
 
-  // Of the corners of an edge's triangles: the sum of squares.
-  int irregularity(Edge e) const
-  {
-    int sum = 0;
-    for (const Vertex v : m.corners(e)) sum += excess(v) * excess(v);
-    return sum;
-  }
-
   // Makes a dislocation at `five` meet one that is `length` flips away.
   bool annihilate(Vertex five, int length)
   {
-    const auto& mesh = m.working().mesh;
-    std::vector<Vertex> sevens;
-    for (const Halfedge h : halfedges_around_target(five, mesh))
-      if (excess(mesh.source(h)) == 1) sevens.push_back(mesh.source(h));
-    for (const Vertex seven : sevens)
-      for (const bool to_left : {true, false}) {
-        const std::vector<Edge> flips = find_meeting(five, seven, length, to_left);
-        if (!flips.empty() && flip_if_better(flips)) return true;
-      }
+    for (const std::vector<Edge>& flips : find_meetings(five, length))
+      if (flip_if_better(flips)) return true;
     return false;
   }
 
-  // The `length` flips after which the dislocation meets another; empty: there is none.
-  std::vector<Edge> find_meeting(Vertex five, Vertex seven, int length, bool to_left)
+  // All chains of `length` flips after which the dislocations at `five` meet another.
+  std::vector<std::vector<Edge>> find_meetings(Vertex five, int length) const
+  {
+    const auto& mesh = m.working().mesh;
+    std::vector<std::vector<Edge>> meetings;
+    if (excess(five) != -1) return meetings;
+    for (const Halfedge h : halfedges_around_target(five, mesh)) {
+      if (excess(mesh.source(h)) != 1) continue;
+      for (const bool to_left : {true, false}) {
+        std::vector<Edge> flips = find_meeting(mesh.opposite(h), length, to_left);
+        if (!flips.empty()) meetings.push_back(std::move(flips));
+      }
+    }
+    return meetings;
+  }
+
+  // The degrees after some flips.
+  class Flipped_degrees {
+  public:
+    explicit Flipped_degrees(const Dislocation_annihilator& a) : m_annihilator(a) {}
+
+    int excess(Vertex v) const
+    {
+      int sum = m_annihilator.excess(v);
+      for (const auto& [u, change] : m_changes) sum += u == v ? change : 0;
+      return sum;
+    }
+    bool can_flip(Edge e) const
+    {
+      const Star_mesh& m = m_annihilator.m;
+      if (!m.is_free(e) || !m.working().is_flippable(e)) return false;
+      const auto corners = m.corners(e);
+      return std::all_of(corners.begin(), corners.end(), [&](Vertex v) {
+        return m.is_movable(v) && excess(v) > -2 && excess(v) < Parameters::irregular_degree - 6;
+      });
+    }
+    // Returns the change of the sum of the squares of the excess. \pre all corners may move
+    int flip(Edge e)
+    {
+      int sum = 0;
+      const auto corners = m_annihilator.m.corners(e);
+      for (int k = 0; k < 4; ++k) {
+        const int change = k < 2 ? -1 : 1; // the ends lose the edge
+        sum += 2 * change * excess(corners[k]) + 1;
+        m_changes.emplace_back(corners[k], change);
+      }
+      return sum;
+    }
+
+  private:
+    const Dislocation_annihilator& m_annihilator;
+    boost::container::small_vector<std::pair<Vertex, int>, 24> m_changes;
+  };
+
+  // The `length` flips after which the dislocation at `h`, from five to seven, meets another;
+  // empty: there is none. Each flip is of triangles that those before have not touched.
+  std::vector<Edge> find_meeting(Halfedge h, int length, bool to_left) const
   {
     const auto& mesh = m.working().mesh;
     std::vector<Edge> flips;
-    int change = 0;
-    while (change == 0 && int(flips.size()) < length) {
-      const Halfedge h = mesh.halfedge(five, seven), o = mesh.opposite(h);
-      const Halfedge beside = to_left ? mesh.next(h) : mesh.opposite(mesh.prev(o)); // from seven
+    Flipped_degrees degrees(*this);
+    while (int(flips.size()) < length) {
+      const Halfedge beside = // from seven
+          to_left ? mesh.next(h) : mesh.opposite(mesh.prev(mesh.opposite(h)));
       const Edge e = mesh.edge(beside);
-      if (!can_flip(e)) break;
-      five = mesh.target(beside);
-      seven = m.working().apex(to_left ? mesh.opposite(beside) : beside);
-      const int before = irregularity(e);
-      m.flip(e);
+      if (!degrees.can_flip(e)) break;
       flips.push_back(e);
-      change = irregularity(e) - before;
+      const int change = degrees.flip(e);
+      if (change < 0 && int(flips.size()) == length) return flips;
+      if (change != 0) break;
+      // from the new five to the new seven
+      h = to_left ? mesh.opposite(mesh.prev(mesh.opposite(beside))) : mesh.next(beside);
     }
-    const bool meets = change < 0 && int(flips.size()) == length;
-    undo(flips);
-    return meets ? flips : std::vector<Edge>();
-  }
-
-  bool can_flip(Edge e) const
-  {
-    if (!m.is_free(e) || !m.working().is_flippable(e)) return false;
-    const auto corners = m.corners(e);
-    return std::all_of(corners.begin(), corners.end(), [&](Vertex v) {
-      return m.is_movable(v) && degree(v) > 4 && degree(v) < Parameters::irregular_degree;
-    });
+    return {};
   }
 
   void undo(const std::vector<Edge>& flips)
@@ -118,7 +190,13 @@ private:
     std::vector<Surface_projector::Place> places;
     for (const Vertex v : near) places.push_back(m.place(v));
     const double before = energy(faces);
-    for (const Edge e : flips) {
+    for (std::size_t k = 0; k < flips.size(); ++k) {
+      const Edge e = flips[k];
+      if (!m.working().is_flippable(e)) { // not after the others
+        undo({flips.begin(), flips.begin() + k});
+        restore(near, places);
+        return false;
+      }
       m.flip(e);
       const std::vector<Vertex> around = vertices_near({e}, 1);
       for (int round = 0; round < Parameters::rounds_per_flip; ++round) m_smoother.sweep(around);
@@ -126,8 +204,14 @@ private:
     for (int round = 0; round < Parameters::rounds; ++round) m_smoother.sweep(near);
     if (energy(faces) < clearly_less * before && lie_well(faces)) return true;
     undo(flips);
-    for (std::size_t k = 0; k < near.size(); ++k) m.move(near[k], places[k]);
+    restore(near, places);
     return false;
+  }
+
+  void restore(const std::vector<Vertex>& vertices,
+               const std::vector<Surface_projector::Place>& places)
+  {
+    for (std::size_t k = 0; k < vertices.size(); ++k) m.move(vertices[k], places[k]);
   }
 
   // Those that are at most so many edges away from the corners of the edges' triangles; no way
@@ -166,6 +250,7 @@ private:
 
   Star_mesh& m;
   Mesh_smoother m_smoother;
+  std::vector<char> m_is_taken; // by vertex
 };
 
 } // namespace CGAL::PowerRTF::internal

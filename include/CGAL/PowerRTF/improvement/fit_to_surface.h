@@ -56,6 +56,8 @@ class Surface_fitter {
 public:
   using Vertex = Star_mesh::Vertex;
   using Halfedge = Star_mesh::Halfedge;
+  using Edge = Star_mesh::Edge;
+  using Face = Working_mesh::Face;
 
   /// `flat`: of the surface. `limit`: the badness that a move may bring upon a triangle that was
   /// better.
@@ -65,31 +67,51 @@ public:
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size()))),
         m_tangential_weight(is_even(mesh.projector().surface()) ? Parameters::even_tangential_weight
                                                                 : Parameters::tangential_weight),
-        m_unknowns(mesh.size()), m_coupling(mesh.working().mesh.number_of_edges())
+        m_centroids(mesh.working().mesh.num_faces()), m_middles(mesh.working().mesh.num_edges()),
+        m_unknowns(mesh.size()), m_coupling(mesh.working().mesh.num_edges())
   {}
 
   void run()
   {
     measure();
     solve();
-    for (const Vertex v : m.working().mesh.vertices())
+    m.for_each_vertex([this](Vertex v) {
       if (m.is_movable(v)) move(v);
+    });
   }
 
 private:
   using Edges = std::array<Halfedge, 3>;     // of a face
   using Barycentric = std::array<double, 3>; // of the sources of its edges
 
+  using Parameters = Improvement_parameters::Fitting;
+
+  // A point of the mesh is to move by `distance` along `direction`, to a place of the surface.
+  struct Target {
+    Vec3d direction{0, 0, 0}, place{0, 0, 0};
+    double distance = 0, weight = 0;
+    int facet = -1; // of the place; -1: there is none
+  };
+
   struct Unknown {
     Symmetric_matrix matrix;
     Vec3d right{0, 0, 0}, move{0, 0, 0};
+    Vec3d normal{0, 0, 0}; // of the surface at the vertex, as it is there
     double weight = 0, longest = 0;
     double around = 0, level = 0; // area of the star, and of what is in the plane of the vertex
 
     bool is_flat() const { return level > Parameters::flat_share * around; }
-  };
 
-  using Parameters = Improvement_parameters::Fitting;
+    // Of a point with the coordinate `b` at the vertex.
+    void add(const Target& t, double b)
+    {
+      if (t.facet < 0 || !(b > 0)) return;
+      matrix.add(t.direction, t.weight * b * b);
+      right += (t.weight * b * t.distance) * t.direction;
+      weight += t.weight * b * b;
+      if (b > 0.1) longest = std::max(longest, std::abs(t.distance));
+    }
+  };
 
   static bool is_even(const Surface& surface)
   {
@@ -97,48 +119,105 @@ private:
     return std::equal(density.begin() + 1, density.end(), density.begin());
   }
 
+  // All that says where the mesh should be, at faces and edges; then of each vertex and edge what
+  // is around it.
   void measure()
   {
     const auto& mesh = m.working().mesh;
-    for (const auto f : mesh.faces()) measure_face(mesh.halfedge(f));
+    const Concurrency concurrency = m.concurrency();
     const double density =
         std::min(1., double(m_tracker.size()) / (Parameters::fully_tracked * double(m.size())));
-    const double share = Parameters::tracked_weight * density * density;
-    for (int i = 0; i < m_tracker.size(); ++i) {
-      const auto& w = m_tracker[i];
-      const Edges edges{w.face, mesh.next(w.face), mesh.prev(w.face)};
-      const Vec3d direction = w.distance > 0 ? (w.point - w.nearest) * (1 / w.distance) : w.normal;
-      add(edges, w.barycentric, direction, w.distance, share * w.weight);
-    }
-    for (const Vertex v : mesh.vertices()) {
-      Unknown& u = m_unknowns[v];
-      u.matrix.add_identity(m_tangential_weight * u.weight);
-      u.matrix.add(normal(v),
-                   ((u.is_flat() ? Parameters::flat_normal_weight : Parameters::normal_weight) -
-                    m_tangential_weight) *
-                       u.weight);
-    }
+    m_tracked_weight = Parameters::tracked_weight * density * density;
+    for_each_index(concurrency, int(mesh.num_faces()), [&](int f) {
+      if (!mesh.is_removed(Face(f))) m_centroids[f] = centroid(mesh.halfedge(Face(f)));
+    });
+    for_each_index(concurrency, int(mesh.num_edges()), [&](int e) {
+      if (!mesh.is_removed(Edge(e))) m_middles[e] = middle(Edge(e));
+    });
+    for_each_index(concurrency, int(mesh.num_vertices()),
+                   [&](int v) { m_unknowns[v] = unknown(Vertex(v)); });
+    for_each_index(concurrency, int(mesh.num_edges()), [&](int e) {
+      if (!mesh.is_removed(Edge(e))) m_coupling[e] = coupling(Edge(e));
+    });
   }
 
-  // A rule that is exact for cubics: the corners, the middles of the edges, the centroid.
-  void measure_face(Halfedge first)
+  // The places are those of a rule that is exact for cubics: the corners, the middles of the edges,
+  // the centroid.
+  Target centroid(Halfedge h) const
   {
     const auto& mesh = m.working().mesh;
-    const Edges edges{first, mesh.next(first), mesh.prev(first)};
-    const double a = area(first);
-    add_point(edges, {1 / 3., 1 / 3., 1 / 3.}, a * 9 / 20);
-    for (int k = 0; k < 3; ++k) {
-      Barycentric corner{0, 0, 0}, middle{.5, .5, .5};
-      corner[k] = 1;
-      middle[(k + 2) % 3] = 0;
-      const Vertex v = mesh.source(edges[k]);
-      if (m.is_movable(v)) add(edges, corner, m.normal(v), -m.height(v), a / 20);
-      const Halfedge o = mesh.opposite(edges[k]);
-      if (mesh.is_border(o))
-        add_point(edges, middle, a * 2 / 15);
-      else if (edges[k] < o)
-        add_point(edges, middle, (a + area(o)) * 2 / 15);
+    return target({h, mesh.next(h), mesh.prev(h)}, {1 / 3., 1 / 3., 1 / 3.}, area(h) * 9 / 20);
+  }
+
+  Target middle(Edge e) const
+  {
+    const auto& mesh = m.working().mesh;
+    Halfedge h = mesh.halfedge(e, 0);
+    double a = 0;
+    for (const Halfedge side : {mesh.halfedge(e, 1), mesh.halfedge(e, 0)}) {
+      if (mesh.is_border(side)) continue;
+      h = side;
+      a += area(side);
     }
+    return target({h, mesh.next(h), mesh.prev(h)}, {.5, .5, 0}, a * 2 / 15);
+  }
+
+  Unknown unknown(Vertex v) const
+  {
+    Unknown u;
+    const auto& mesh = m.working().mesh;
+    if (!m.is_movable(v)) return u;
+    const Vec3d normal_now = m.normal(v);
+    for (const Halfedge h : halfedges_around_target(v, mesh)) {
+      const Target& middle = m_middles[mesh.edge(h)];
+      u.add(middle, 0.5);
+      note_level(u, v, middle);
+      const Face f = mesh.face(h);
+      u.add(m_centroids[f], 1 / 3.);
+      note_level(u, v, m_centroids[f]);
+      u.add({normal_now, {}, -m.height(v), m_centroids[f].weight / 9, 0}, 1);
+      for (const int i : m_tracker.at_face(f)) u.add(tracked(i), barycentric(i, v));
+    }
+    u.normal = u.is_flat() ? m.projector().surface().facet_normals[m.facet(v)] : normal_now;
+    u.matrix.add_identity(m_tangential_weight * u.weight);
+    u.matrix.add(u.normal,
+                 ((u.is_flat() ? Parameters::flat_normal_weight : Parameters::normal_weight) -
+                  m_tangential_weight) *
+                     u.weight);
+    return u;
+  }
+
+  // Of the two ends of an edge.
+  Symmetric_matrix coupling(Edge e) const
+  {
+    const auto& mesh = m.working().mesh;
+    Symmetric_matrix sum;
+    const auto add = [&sum](const Target& t, double b, double c) {
+      if (t.facet >= 0 && b > 0 && c > 0) sum.add(t.direction, t.weight * b * c);
+    };
+    add(m_middles[e], 0.5, 0.5);
+    for (const Halfedge h : {mesh.halfedge(e, 0), mesh.halfedge(e, 1)}) {
+      if (mesh.is_border(h)) continue;
+      add(m_centroids[mesh.face(h)], 1 / 3., 1 / 3.);
+      for (const int i : m_tracker.at_face(mesh.face(h)))
+        add(tracked(i), barycentric(i, mesh.source(h)), barycentric(i, mesh.target(h)));
+    }
+    return sum;
+  }
+
+  Target tracked(int i) const
+  {
+    const auto& w = m_tracker[i];
+    return {w.distance > 0 ? (w.point - w.nearest) * (1 / w.distance) : w.normal, w.point,
+            w.distance, m_tracked_weight * w.weight, w.facet};
+  }
+
+  // Of the tracked point: its coordinate at a corner of its face.
+  double barycentric(int i, Vertex v) const
+  {
+    const auto& w = m_tracker[i];
+    const auto corners = m.working().corners(w.face);
+    return w.barycentric[std::find(corners.begin(), corners.end(), v) - corners.begin()];
   }
 
   double area(Halfedge h) const
@@ -147,9 +226,9 @@ private:
     return length(m.working().area_vector(a, b, c)) / 2;
   }
 
-  // A point of the mesh, where the surface is now. `edges`: of its face. Corners on features belong
+  // Where the surface is at a point of the mesh. `edges`: of its face. Corners on features belong
   // to several patches: they do not say on which of them the face lies.
-  void add_point(const Edges& edges, const Barycentric& barycentric, double weight)
+  Target target(const Edges& edges, const Barycentric& barycentric, double weight) const
   {
     const auto& mesh = m.working().mesh;
     Vec3d p{0, 0, 0}, n{0, 0, 0};
@@ -161,42 +240,37 @@ private:
       n += barycentric[k] * m.normal(v);
       if (nearest < 0 || barycentric[k] > barycentric[nearest]) nearest = k;
     }
-    if (nearest < 0) return; // no corner can move
+    Target result;
+    result.weight = weight;
+    if (nearest < 0) return result; // no corner can move
     const Vertex guide = mesh.source(edges[nearest]);
     n = squared_length(n) > 0 ? normalized(n) : m.normal(guide); // the middle of a feature edge
     const auto place = m.projector().project(p, n, near_facet(mesh.face(edges[0]), p, n, guide));
-    if (place.facet < 0) return;
-    for (int k = 0; k < 3; ++k)
-      if (barycentric[k] > 0) note_level(mesh.source(edges[k]), place, weight);
-    const double distance = length(place.point - p);
-    add(edges, barycentric, distance > 0 ? (place.point - p) * (1 / distance) : n, distance,
-        weight);
+    result.facet = place.facet;
+    if (place.facet < 0) return result;
+    result.place = place.point;
+    result.distance = length(place.point - p);
+    result.direction = result.distance > 0 ? (place.point - p) * (1 / result.distance) : n;
+    return result;
   }
 
   // Whether a place of the surface is in the plane of the facet that carries `v`.
-  void note_level(Vertex v, const Surface_projector::Place& place, double weight)
+  void note_level(Unknown& u, Vertex v, const Target& t) const
   {
+    if (t.facet < 0) return;
     const auto& normals = m.projector().surface().facet_normals;
-    const Vec3d &n = normals[m.facet(v)], offset = place.point - m.point(v);
+    const Vec3d &n = normals[m.facet(v)], offset = t.place - m.point(v);
     const double height = dot(offset, n);
-    Unknown& u = m_unknowns[v];
-    u.around += weight;
+    u.around += t.weight;
     if (m_flat.width(m.facet(v)) > Parameters::flat_width * m_spacing &&
-        dot(normals[place.facet], n) > Parameters::coplanar_cosine &&
+        dot(normals[t.facet], n) > Parameters::coplanar_cosine &&
         height * height < (1 - Parameters::coplanar_cosine) * squared_length(offset))
-      u.level += weight;
-  }
-
-  // Of the surface at `v`, as it is there.
-  Vec3d normal(Vertex v) const
-  {
-    return m_unknowns[v].is_flat() ? m.projector().surface().facet_normals[m.facet(v)]
-                                   : m.normal(v);
+      u.level += t.weight;
   }
 
   // A facet near the point `p` of a face: that of `guide`, or of a point that is tracked there, on
   // the same patch, if it is nearer.
-  int near_facet(Working_mesh::Face f, const Vec3d& p, const Vec3d& n, Vertex guide) const
+  int near_facet(Face f, const Vec3d& p, const Vec3d& n, Vertex guide) const
   {
     int facet = m.facet(guide);
     double least = squared_length(m.point(guide) - p);
@@ -212,29 +286,12 @@ private:
     return facet;
   }
 
-  // A point with these barycentric coordinates is to move by `distance` along `direction`.
-  void add(const Edges& edges, const Barycentric& barycentric, const Vec3d& direction,
-           double distance, double weight)
-  {
-    const auto& mesh = m.working().mesh;
-    for (int k = 0; k < 3; ++k) {
-      const double b = barycentric[k], c = barycentric[(k + 1) % 3];
-      if (!(b > 0)) continue;
-      Unknown& u = m_unknowns[mesh.source(edges[k])];
-      u.matrix.add(direction, weight * b * b);
-      u.right += (weight * b * distance) * direction;
-      u.weight += weight * b * b;
-      if (b > 0.1) u.longest = std::max(u.longest, std::abs(distance));
-      if (c > 0) m_coupling[mesh.edge(edges[k])].add(direction, weight * b * c);
-    }
-  }
-
   void solve()
   {
     const auto& mesh = m.working().mesh;
     for (int sweep = 0; sweep < Parameters::sweeps; ++sweep)
-      for (const Vertex v : mesh.vertices()) {
-        if (!m.is_movable(v)) continue;
+      m.for_each_vertex([&](Vertex v) {
+        if (!m.is_movable(v)) return;
         Unknown& u = m_unknowns[v];
         Vec3d right = u.right;
         for (const Halfedge h : halfedges_around_target(v, mesh))
@@ -242,13 +299,13 @@ private:
         u.move = u.matrix.solve(right);
         const double l = length(u.move);
         if (l > u.longest) u.move *= u.longest / l;
-      }
+      });
   }
 
   void move(Vertex v)
   {
     const Unknown& u = m_unknowns[v];
-    const Vec3d n = u.is_flat() ? normal(v) : Vec3d{0, 0, 0};
+    const Vec3d n = u.is_flat() ? u.normal : Vec3d{0, 0, 0};
     const Vec3d p = m.point(v), q = p + u.move - dot(u.move, n) * n;
     for (const Star::Corner& c : m.star(v).corners) {
       const Vec3d before = cross(c.a - p, c.b - p), after = cross(c.a - q, c.b - q);
@@ -263,7 +320,9 @@ private:
   Star_mesh& m;
   const Distance_tracker& m_tracker;
   const Flat_patches& m_flat;
-  double m_badness_limit, m_spacing, m_tangential_weight;
+  double m_badness_limit, m_spacing, m_tangential_weight, m_tracked_weight = 0;
+  std::vector<Target> m_centroids; // by face
+  std::vector<Target> m_middles;   // by edge
   // the normal equations, and their solution
   std::vector<Unknown> m_unknowns;          // by vertex
   std::vector<Symmetric_matrix> m_coupling; // by edge

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 namespace CGAL::PowerRTF {
 
@@ -21,13 +22,15 @@ class Facet_tree;
 /// n). Where an improvement would break one of these, everything stays as it is.
 ///
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
-/// its facets and their patches.
+/// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
-bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh);
+bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
+                  internal::Concurrency concurrency = Sequential_tag());
 
 /// The same with a tree of its own.
-bool improve_mesh(const Surface& surface, Extracted_mesh& mesh);
+bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,
+                  internal::Concurrency concurrency = Sequential_tag());
 
 } // namespace CGAL::PowerRTF
 

@@ -53,10 +53,12 @@ namespace internal {
 class Mesh_improver {
 public:
   /// \throw Invalid_input_error if `raw` is not an oriented 2-manifold
-  Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw)
+  Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw,
+                Concurrency concurrency)
       : m_surface(surface), m_projector(surface, tree), m_raw(raw),
-        m_locked(raw.points.size(), false), m_raw_stars(raw, m_projector), m_tracker(m_raw_stars),
-        m_flat(surface), m_spacing(std::sqrt(surface.area / double(raw.points.size()))),
+        m_locked(raw.points.size(), false), m_raw_stars(raw, m_projector, concurrency),
+        m_tracker(m_raw_stars), m_flat(surface),
+        m_spacing(std::sqrt(surface.area / double(raw.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
 
@@ -223,22 +225,23 @@ private:
 } // namespace internal
 
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
-                                        Extracted_mesh& mesh)
+                                        Extracted_mesh& mesh, internal::Concurrency concurrency)
 {
   if (mesh.triangles.empty()) return true;
   try {
-    mesh = internal::Mesh_improver(surface, tree, mesh).run();
-    mesh.sort_triangles();
+    mesh = internal::Mesh_improver(surface, tree, mesh, concurrency).run();
+    mesh.sort_triangles(concurrency);
   } catch (const Invalid_input_error&) {
     return false;
   }
   return true;
 }
 
-CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, Extracted_mesh& mesh)
+CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,
+                                        internal::Concurrency concurrency)
 {
   return improve_mesh(surface, Facet_tree(surface.points, surface.triangles, surface.facet_patches),
-                      mesh);
+                      mesh, concurrency);
 }
 
 } // namespace CGAL::PowerRTF

@@ -32,7 +32,7 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Edge = Star_mesh::Edge;
   using Face = Working_mesh::Face;
-  using Time = Star_mesh::Time;
+  using State = Star_mesh::State;
 
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
@@ -168,8 +168,8 @@ private:
 
   void search(Vertex v)
   {
-    if (m.is_movable(v) && m.changed_around(v) > m_failed_searches[v] && !move_to_better(v))
-      m_failed_searches[v] = m.now();
+    if (m.is_movable(v) && m.state_around(v) != m_failed_searches[v] && !move_to_better(v))
+      m_failed_searches[v] = m.state_around(v);
   }
 
   // Looks for a place of less energy in six directions, with shorter and shorter steps.
@@ -274,11 +274,11 @@ private:
     if (std::min(shape(0, 3, 2), shape(1, 2, 3)) <
         (heals ? Parameters::min_healing_flip_shape : Parameters::min_flip_shape))
       return false; // hopeless
-    Time changed = 0;
-    for (const Vertex v : corners) changed = std::max(changed, m.changed_around(v));
-    if (changed <= m_failed_flips[e] || (m_guard && m_guard->forbids_flip(e))) return false;
+    State state = 0;
+    for (const Vertex v : corners) state += m.state_around(v);
+    if (state == m_failed_flips[e] || (m_guard && m_guard->forbids_flip(e))) return false;
     const Star_mesh::Before_flip before = m.before_flip(e);
-    std::array<Time, 4> failed_searches;
+    std::array<State, 4> failed_searches;
     for (int k = 0; k < 4; ++k) failed_searches[k] = m_failed_searches[corners[k]];
     const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);
     if (m_guard) m_guard->erase_around(corners);
@@ -294,7 +294,7 @@ private:
     m.undo_flip(before);
     if (m_guard) m_guard->insert_around(corners);
     for (int k = 0; k < 4; ++k) m_failed_searches[corners[k]] = failed_searches[k];
-    m_failed_flips[e] = m.now();
+    m_failed_flips[e] = state;
     return false;
   }
 
@@ -316,10 +316,10 @@ private:
   }
 
   Star_mesh& m;
-  Intersection_guard* m_guard;         // or none
-  std::vector<Vec3d> m_anchors;        // by vertex
-  std::vector<Time> m_failed_searches; // by vertex
-  std::vector<Time> m_failed_flips;    // by edge
+  Intersection_guard* m_guard;          // or none
+  std::vector<Vec3d> m_anchors;         // by vertex
+  std::vector<State> m_failed_searches; // by vertex: the state in which it has failed
+  std::vector<State> m_failed_flips;    // by edge: the sum of the corners' states
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -23,6 +24,7 @@ class Mesh_smoother {
 public:
   using Vertex = Star_mesh::Vertex;
   using Edge = Star_mesh::Edge;
+  using Halfedge = Star_mesh::Halfedge;
 
   explicit Mesh_smoother(Star_mesh& mesh) : m(mesh) {}
 
@@ -37,17 +39,34 @@ public:
   /// Flips edges until that does not help any more.
   void flip()
   {
-    for (int pass = 0; pass < Parameters::max_flip_passes; ++pass) {
-      std::size_t flips = 0;
-      for (const Edge e : m.working().mesh.edges()) flips += flip_if_better(e);
-      if (flips == 0) return;
+    std::vector<Edge> edges; // that may be worth a flip
+    for (const int e : select(m.concurrency(), int(m.working().mesh.num_edges()),
+                              [this](int e) { return is_better_flipped(Edge(e)); }))
+      edges.push_back(Edge(e));
+    for (int pass = 0; pass < Parameters::max_flip_passes && !edges.empty(); ++pass) {
+      std::vector<Edge> around;
+      for (const Edge e : edges) {
+        Cancellation::poll();
+        if (!is_better_flipped(e)) continue;
+        m.flip(e);
+        for (const Halfedge h : {m.working().mesh.halfedge(e, 0), m.working().mesh.halfedge(e, 1)})
+          for (const Halfedge side : {m.working().mesh.next(h), m.working().mesh.prev(h)})
+            around.push_back(m.working().mesh.edge(side));
+      }
+      sort_uniquely(around);
+      edges.swap(around);
     }
   }
 
   /// One step of every movable vertex.
-  void sweep() { sweep(m.working().mesh.vertices()); }
+  void sweep()
+  {
+    m.for_each_vertex([this](Vertex v) {
+      if (m.is_movable(v)) step(v);
+    });
+  }
 
-  /// The same for some vertices.
+  /// The same for some vertices, one after the other.
   template <class Vertices>
   void sweep(const Vertices& vertices)
   {
@@ -122,9 +141,9 @@ private:
     return sum;
   }
 
-  bool flip_if_better(Edge e)
+  bool is_better_flipped(Edge e) const
   {
-    if (!m.is_free(e)) return false;
+    if (m.working().mesh.is_removed(e) || !m.is_free(e)) return false;
     const auto [a, b, c, d] = m.corners(e);
     const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
     const double now = energy(pa, pb, pc) + energy(pb, pa, pd),
@@ -134,9 +153,7 @@ private:
     if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) <
         std::min(Parameters::min_agreement, agreement))
       return false;
-    if (!m.working().is_flippable(e)) return false;
-    m.flip(e);
-    return true;
+    return m.working().is_flippable(e);
   }
 
   Star_mesh& m;
