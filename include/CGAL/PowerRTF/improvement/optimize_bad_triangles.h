@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -36,18 +37,25 @@ public:
 
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
-      : m(mesh), m_guard(guard), m_anchors(mesh.size()), m_failed_searches(mesh.size(), 0),
-        m_failed_flips(mesh.working().mesh.number_of_edges(), 0)
+      : m(mesh), m_guard(guard), m_anchors(mesh.size()), m_anchored(mesh.size(), 0),
+        m_failed_searches(mesh.size(), 0), m_failed_flips(mesh.working().mesh.number_of_edges(), 0)
   {}
 
   double badness(Face f) const { return judgment(f).badness; }
 
   /// Whether a triangle is worse than tolerable.
-  bool is_needed() const
+  bool is_needed() const { return !faces_worse_than(Triangle_badness::tolerable).empty(); }
+
+  /// Sorted.
+  std::vector<Face> faces_worse_than(double limit) const
   {
-    const auto faces = m.working().mesh.faces();
-    return std::any_of(faces.begin(), faces.end(),
-                       [this](Face f) { return badness(f) > Triangle_badness::tolerable; });
+    const auto& mesh = m.working().mesh;
+    std::vector<Face> faces;
+    for (const int f : select(m.concurrency(), int(mesh.num_faces()), [&](int f) {
+           return !mesh.is_removed(Face(f)) && badness(Face(f)) > limit;
+         }))
+      faces.push_back(Face(f));
+    return faces;
   }
 
   /// Releases the pinned vertices of the triangles that are still bad. \returns their number.
@@ -55,20 +63,13 @@ public:
   {
     const auto& mesh = m.working().mesh;
     std::size_t released = 0;
-    for (const Face f : mesh.faces())
-      if (badness(f) > Triangle_badness::tolerable)
-        for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) released += m.release(v);
+    for (const Face f : faces_worse_than(Triangle_badness::tolerable))
+      for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) released += m.release(v);
     return released;
   }
 
   /// At most `rounds` passes over the bad triangles. \returns how many are left.
-  std::size_t run(int rounds)
-  {
-    std::vector<Face> bad;
-    for (const Face f : m.working().mesh.faces())
-      if (badness(f) > 0) bad.push_back(f);
-    return run(rounds, std::move(bad)).size();
-  }
+  std::size_t run(int rounds) { return run(rounds, faces_worse_than(0)).size(); }
 
   /// The same for the triangles around `v` and its neighbors. \returns the largest badness that is
   /// left there.
@@ -87,10 +88,11 @@ private:
   // \returns the triangles that are left.
   std::vector<Face> run(int rounds, std::vector<Face> bad)
   {
-    set_anchors();
+    ++m_run;
     double total = total_badness(bad);
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
       const std::vector<Vertex> vertices = vertices_around(bad);
+      set_anchors(vertices);
       for (const Vertex v : vertices) {
         Cancellation::poll();
         search(v);
@@ -157,13 +159,16 @@ private:
                    [](const auto& x) { return x.second; });
   }
 
-  void set_anchors()
+  // Where the vertices are when the run comes to them.
+  void set_anchors(const std::vector<Vertex>& vertices)
   {
-    for (const Vertex v : m.working().mesh.vertices())
-      if (!(m_anchors[v] == m.point(v))) {
-        m_anchors[v] = m.point(v);
-        m.touch(v);
-      }
+    for (const Vertex v : vertices) {
+      if (m_anchored[v] == m_run) continue;
+      m_anchored[v] = m_run;
+      if (m_anchors[v] == m.point(v)) continue;
+      m_anchors[v] = m.point(v);
+      m.touch(v);
+    }
   }
 
   void search(Vertex v)
@@ -316,8 +321,10 @@ private:
   }
 
   Star_mesh& m;
-  Intersection_guard* m_guard;          // or none
-  std::vector<Vec3d> m_anchors;         // by vertex
+  Intersection_guard* m_guard; // or none
+  unsigned m_run = 0;
+  std::vector<Vec3d> m_anchors;         // by vertex: since the run of `m_anchored`
+  std::vector<unsigned> m_anchored;     // by vertex
   std::vector<State> m_failed_searches; // by vertex: the state in which it has failed
   std::vector<State> m_failed_flips;    // by edge: the sum of the corners' states
 };

@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,11 +54,13 @@ public:
     for (const Tip& tip : tips) {
       Cancellation::poll();
       const Star_mesh now = m;
-      if (tip.is_edge && flip(tip) && !intersects_near(tip.point)) {
-        changed = true;
-        continue;
+      if (tip.is_edge) {
+        if (flip(tip) && !intersects_near(tip.point)) {
+          changed = true;
+          continue;
+        }
+        m.restore(now);
       }
-      m.restore(now);
       bool removed = false;
       while (next < spare.size() && !(removed = remove(spare[next++]))) m.restore(now);
       if (removed && insert(tip) && !intersects_near(tip.point)) {
@@ -134,11 +137,13 @@ private:
         all.push_back({m_tracker[i].distance, m_tracker[i].point, m_tracker[i].nearest,
                        m_tracker[i].face, false});
     const auto& mesh = m.working().mesh;
-    for (const Edge e : mesh.edges()) {
-      const Halfedge h = mesh.halfedge(e);
-      if (!m.is_free(e) || !is_steep(h)) continue;
+    for (const int e : select(m.concurrency(), int(mesh.num_edges()), [&](int e) {
+           return !mesh.is_removed(Edge(e)) && m.is_free(Edge(e)) &&
+                  is_steep(mesh.halfedge(Edge(e))) && across(mesh.halfedge(Edge(e))).second > least;
+         })) {
+      const Halfedge h = mesh.halfedge(Edge(e));
       const auto [point, distance] = across(h);
-      if (distance > least) all.push_back({distance, point, middle(h), h, true});
+      all.push_back({distance, point, middle(h), h, true});
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Tip& s, const Tip& t) { return s.distance > t.distance; });
@@ -197,8 +202,8 @@ private:
   std::vector<Working_mesh::Face> find_bad() const
   {
     std::vector<std::pair<double, Working_mesh::Face>> bad;
-    for (const auto f : m.working().mesh.faces())
-      if (m_optimizer.badness(f) > m_tolerable) bad.push_back({-m_optimizer.badness(f), f});
+    for (const auto f : m_optimizer.faces_worse_than(m_tolerable))
+      bad.push_back({-m_optimizer.badness(f), f});
     std::sort(bad.begin(), bad.end());
     std::vector<Working_mesh::Face> faces;
     std::vector<Vec3d> places;
@@ -238,14 +243,16 @@ private:
   // The vertices in flat parts that leave the best triangles behind, apart from `places`.
   std::vector<Vertex> find_spare(std::vector<Vec3d> places) const
   {
+    std::vector<double> badness(m.size());
+    for_each_index(m.concurrency(), int(m.size()),
+                   [&](int v) { badness[v] = best_collapse(Vertex(v)).first; });
     std::vector<std::pair<double, Vertex>> candidates;
-    for (const Vertex v : m.working().mesh.vertices()) {
-      const double badness = best_collapse(v).first;
-      if (badness < Parameters::max_collapse_badness) candidates.push_back({badness, v});
-    }
-    std::sort(candidates.begin(), candidates.end());
+    for (const int v : select(m.concurrency(), int(m.size()),
+                              [&](int v) { return badness[v] < Parameters::max_collapse_badness; }))
+      candidates.push_back({badness[v], Vertex(v)});
+    sort(m.concurrency(), candidates.begin(), candidates.end());
     std::vector<Vertex> spare;
-    for (const auto& [badness, v] : candidates)
+    for (const auto& [b, v] : candidates)
       if (is_apart(m.point(v), places)) {
         spare.push_back(v);
         places.push_back(m.point(v));
@@ -359,9 +366,12 @@ private:
     const auto& mesh = m.working().mesh;
     const double radius = Parameters::intersection_radius * m_spacing;
     std::vector<Working_mesh::Face> faces;
-    for (const auto f : mesh.faces())
-      if (squared_length(m.point(mesh.target(mesh.halfedge(f))) - p) < radius * radius)
-        faces.push_back(f);
+    for (const int i : select(m.concurrency(), int(mesh.num_faces()), [&](int i) {
+           const Working_mesh::Face f(i);
+           return !mesh.is_removed(f) &&
+                  squared_length(m.point(mesh.target(mesh.halfedge(f))) - p) < radius * radius;
+         }))
+      faces.push_back(Working_mesh::Face(i));
     return Intersection_finder(mesh).any_among(faces);
   }
 
