@@ -115,6 +115,30 @@ TEST_CASE("self-intersections: what floating point proves is what exact predicat
   CHECK(parted > apart / 2); // it is worth its while
 }
 
+TEST_CASE("self-intersections: the pairs of some faces, in any number of threads")
+{
+  for (const int size : {0, 1, 2, 9, 600}) {
+    const Soup s = random_triangles(size, 5);
+    const internal::Soup_triangles triangles{s.points, s.triangles};
+    using Finder = internal::Intersecting_pairs<internal::Soup_triangles>;
+    const Finder one_by_one(triangles), at_once(triangles, CGAL::Parallel_if_available_tag());
+    std::vector<int> faces;
+    for (int f = 0; f < size; f += 1 + f % 3) faces.push_back(f);
+    std::vector<Finder::Pair> expected, some;
+    for (const int f : faces)
+      for (const int g : faces)
+        if (f < g && one_by_one.intersect(f, g)) expected.emplace_back(f, g);
+    const auto is_wanted = [](int f) { return f % 4 == 0; };
+    for (const auto& [f, g] : expected)
+      if (is_wanted(f) || is_wanted(g)) some.emplace_back(f, g);
+    CHECK((size < 600 || some.size() > 20));
+    for (const Finder& finder : {one_by_one, at_once}) {
+      CHECK(finder.find(faces) == expected);
+      CHECK(finder.find_where(faces, is_wanted) == some);
+    }
+  }
+}
+
 TEST_CASE("self-intersections: CGAL's own count")
 {
   for (unsigned seed = 0; seed < 4; ++seed) {
@@ -123,6 +147,11 @@ TEST_CASE("self-intersections: CGAL's own count")
     CHECK(count > 0);
     CHECK(count == cgal_self_intersections(s));
     CHECK(count == self_intersections(shapes::permuted(s, seed)));
+    for (const double scale : {1e-150, 1e150}) {
+      Soup scaled = s;
+      for (Vec3d& p : scaled.points) p *= scale;
+      CHECK(count == self_intersections(scaled));
+    }
   }
   CHECK(self_intersections(shapes::torus(40, 20, 3, 1)) == 0);
   const Soup spheres = shapes::two_spheres(2, 1.3);

@@ -131,7 +131,8 @@ TEST_CASE("dislocations glide to each other and annihilate")
   CHECK(irregular() == (are_near ? 0 : 4));
 }
 
-TEST_CASE("vertices that change at once are no neighbors, and come in the same order in all threads")
+TEST_CASE(
+    "vertices that change at once are no neighbors, and come in the same order in all threads")
 {
   const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 3000, 1);
   const Facet_tree tree(c.surface.points, c.surface.triangles);

@@ -39,40 +39,20 @@ private:
   const Mesh& m_mesh;
 };
 
-/// Two faces that intersect, the one with the smaller number first; or one without area, twice.
-using Face_pair = std::pair<Face_triangles::Face, Face_triangles::Face>;
+/// Two faces that intersect; see there.
+using Face_pair = Intersecting_pairs<Face_triangles>::Pair;
 
 /// Finds the pairs of a mesh.
 class Intersection_finder : public Intersecting_pairs<Face_triangles> {
 public:
   using Mesh = Face_triangles::Mesh;
 
-  explicit Intersection_finder(const Mesh& mesh)
-      : Intersecting_pairs(Face_triangles(mesh)), m_mesh(mesh)
+  explicit Intersection_finder(const Mesh& mesh, Concurrency concurrency = Sequential_tag())
+      : Intersecting_pairs(Face_triangles(mesh), concurrency), m_mesh(mesh)
   {}
 
   /// All of them, sorted.
-  std::vector<Face_pair> all() const
-  {
-    std::vector<Face_pair> pairs;
-    find(m_mesh.faces(), [&](Face f, Face g) { pairs.push_back(std::minmax(f, g)); });
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
-  }
-
-  bool any() const { return any_among(m_mesh.faces()); }
-
-  template <class Faces>
-  bool any_among(const Faces& faces) const
-  {
-    struct Found {};
-    try {
-      find(faces, [](Face, Face) { throw Found(); });
-    } catch (const Found&) {
-      return true;
-    }
-    return false;
-  }
+  std::vector<Face_pair> all() const { return find(m_mesh.faces()); }
 
   /// Those of `pairs`, all that there were before the faces with `has_changed[f]` changed, as they
   /// are now, sorted.
@@ -84,9 +64,9 @@ public:
                                  return has_changed[p.first] || has_changed[p.second];
                                }),
                 pairs.end());
-    find_where(
-        m_mesh.faces(), [&](Face f) { return bool(has_changed[f]); },
-        [&](Face f, Face g) { pairs.push_back(std::minmax(f, g)); });
+    const std::vector<Face_pair> fresh =
+        find_where(m_mesh.faces(), [&](Face f) { return bool(has_changed[f]); });
+    pairs.insert(pairs.end(), fresh.begin(), fresh.end());
     std::sort(pairs.begin(), pairs.end());
     return pairs;
   }

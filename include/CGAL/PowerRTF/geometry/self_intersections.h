@@ -40,12 +40,12 @@ private:
 /// The number of pairs of facets of the soup that meet in more than a shared vertex or edge; a
 /// facet without area counts as a pair with itself. `points` must be finite.
 inline std::size_t self_intersections(const std::vector<Vec3d>& points,
-                                      const std::vector<Triangle>& triangles)
+                                      const std::vector<Triangle>& triangles,
+                                      internal::Concurrency concurrency = Sequential_tag())
 {
-  std::size_t count = 0;
-  internal::Intersecting_pairs<internal::Soup_triangles>({points, triangles})
-      .find(boost::irange(0, static_cast<int>(triangles.size())), [&](int, int) { ++count; });
-  return count;
+  return internal::Intersecting_pairs<internal::Soup_triangles>({points, triangles}, concurrency)
+      .find(boost::irange(0, static_cast<int>(triangles.size())))
+      .size();
 }
 
 } // namespace CGAL::PowerRTF

@@ -41,9 +41,10 @@ void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
   report.lost_feature_edges = internal::lost_feature_edges(mesh);
-  report.self_intersections = self_intersections(mesh.points, mesh.triangles);
+  report.self_intersections = self_intersections(mesh.points, mesh.triangles, ConcurrencyTag());
   if (report.self_intersections > 0)
-    report.input_self_intersections = self_intersections(surface.points, surface.triangles);
+    report.input_self_intersections =
+        self_intersections(surface.points, surface.triangles, ConcurrencyTag());
   report.quality = triangle_quality(mesh.points, mesh.triangles);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles);
