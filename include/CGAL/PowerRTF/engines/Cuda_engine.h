@@ -8,6 +8,8 @@
 #include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
 
+#include <CGAL/tags.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@ namespace CGAL::PowerRTF {
 /// Engines on a GPU that compute their cells in `Real`: `float` or `double`.
 template <class Real>
 struct Make_cuda_engine {
+  using Concurrency_tag = Parallel_if_available_tag;
   static void check(const Remeshing_options& options)
   {
     const std::vector<Cuda_device> devices = cuda_devices();

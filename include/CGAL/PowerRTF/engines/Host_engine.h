@@ -14,6 +14,7 @@ namespace CGAL::PowerRTF {
 /// `make()` is defined in Host_engine_impl.h: only who instantiates it needs that.
 template <class Real, class Construction, class ConcurrencyTag>
 struct Make_host_engine {
+  using Concurrency_tag = ConcurrencyTag;
   static void check(const Remeshing_options&) {}
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
                                            const Remeshing_options& options);

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <cstddef>
 #include <memory>
@@ -49,7 +50,9 @@ protected:
   using Make = std::unique_ptr<Engine_base> (*)(const Packed_surface&, const Remeshing_options&);
 
   /// Keeps a reference to `surface`.
-  Surface_engine_base(const Surface& surface, const Remeshing_options& options, Make make);
+  /// `concurrency`: of the construction of what stays on the host.
+  Surface_engine_base(const Surface& surface, const Remeshing_options& options, Make make,
+                      internal::Concurrency concurrency);
   ~Surface_engine_base();
 
 private:
@@ -58,6 +61,7 @@ private:
   Remeshing_options m_options;
   const Surface& m_surface;
   Make m_make;
+  internal::Concurrency m_concurrency;
   std::unique_ptr<Facet_tree> m_tree;
   std::unique_ptr<Engine_base> m_engine;
   std::size_t m_size = 0, m_sites = 0; // cells; and with the feature samples' sites
@@ -66,13 +70,14 @@ private:
 /// \cgalModels `PowerRTFEngine`
 ///
 /// \tparam Maker `Maker::check(options)` throws what keeps the engine from working;
-/// `Maker::make(packed_surface, options)` returns a `std::unique_ptr<Engine_base>`.
+/// `Maker::make(packed_surface, options)` returns a `std::unique_ptr<Engine_base>`;
+/// `Maker::Concurrency_tag` is that of the host's work.
 template <class Maker>
 class Surface_engine : public Surface_engine_base {
 public:
   /// Keeps a reference to `surface`.
   Surface_engine(const Surface& surface, const Remeshing_options& options)
-      : Surface_engine_base(surface, options, &Maker::make)
+      : Surface_engine_base(surface, options, &Maker::make, typename Maker::Concurrency_tag())
   {
     Maker::check(options);
   }

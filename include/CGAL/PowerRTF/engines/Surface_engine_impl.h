@@ -17,10 +17,10 @@
 
 namespace CGAL::PowerRTF {
 
-CGAL_POWER_RTF_INLINE Surface_engine_base::Surface_engine_base(const Surface& surface,
-                                                               const Remeshing_options& options,
-                                                               Make make)
-    : m_options(options), m_surface(surface), m_make(make)
+CGAL_POWER_RTF_INLINE
+Surface_engine_base::Surface_engine_base(const Surface& surface, const Remeshing_options& options,
+                                         Make make, internal::Concurrency concurrency)
+    : m_options(options), m_surface(surface), m_make(make), m_concurrency(concurrency)
 {}
 
 CGAL_POWER_RTF_INLINE Surface_engine_base::~Surface_engine_base() = default;
@@ -46,7 +46,7 @@ CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
 {
   if (!m_tree)
     m_tree = std::make_unique<Facet_tree>(m_surface.points, m_surface.triangles,
-                                          m_surface.facet_patches);
+                                          m_surface.facet_patches, m_concurrency);
   return *m_tree;
 }
 
@@ -54,7 +54,8 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
                                                             const Feature_samples& features)
 {
   if (!m_engine) // only now the surface's normals and density are what they will be
-    m_engine = m_make(internal::packed_surface(m_surface, facet_tree(), m_options), m_options);
+    m_engine = m_make(internal::packed_surface(m_surface, facet_tree(), m_options, m_concurrency),
+                      m_options);
   m_size = samples.size();
   const Samples sites = joined(samples, features.sites);
   m_sites = sites.size();

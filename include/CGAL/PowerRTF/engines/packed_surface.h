@@ -39,11 +39,12 @@ inline void add_vertex_tree(const Surface& surface, const Facet_tree& tree,
 
 /// The surface in the order of its trees; `tree`: of its facets.
 inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& tree,
-                                     const Remeshing_options& options)
+                                     const Remeshing_options& options,
+                                     Concurrency concurrency = Sequential_tag())
 {
   Packed_surface result;
   std::vector<int> places(surface.points.size()); // of the vertices
-  for (const int v : spatial_order(surface.points)) {
+  for (const int v : spatial_order(surface.points, concurrency)) {
     places[v] = static_cast<int>(result.vertices.size());
     result.vertices.push_back(
         {surface.points[v], surface.vertex_normals[v], surface.vertex_density[v]});

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Single_lane.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 namespace CGAL::PowerRTF {
 
@@ -16,40 +17,47 @@ namespace CGAL::PowerRTF {
 class Facet_tree {
 public:
   /// `points` and `triangles`: the mesh (#V by 3, #F by 3), in coordinates of size at most 1;
-  /// `patches`: of the facets, or empty.
+  /// `patches`: of the facets, or empty. `concurrency`: of the construction.
   Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
-             const std::vector<int>& patches = {})
-      : m_tree(static_cast<int>(triangles.size()))
+             const std::vector<int>& patches = {},
+             internal::Concurrency concurrency = Sequential_tag())
+      : m_concurrency(concurrency), m_tree(static_cast<int>(triangles.size())),
+        m_facets(triangles.size()), m_patches(patches.size()), m_places(triangles.size())
   {
-    std::vector<Vec3d> centers;
-    centers.reserve(triangles.size());
-    for (const Triangle& t : triangles)
-      centers.push_back((points[t[0]] + points[t[1]] + points[t[2]]) * (1.0 / 3));
-    m_places.resize(triangles.size());
-    m_facets.resize(triangles.size());
-    m_order = internal::spatial_order(centers);
-    for (std::size_t place = 0; place < m_order.size(); ++place) {
-      m_places[m_order[place]] = static_cast<int>(place);
-      if (!patches.empty()) m_patches.push_back(patches[m_order[place]]);
-    }
+    std::vector<Vec3d> centers(triangles.size());
+    internal::for_each_index(concurrency, m_tree.items, [&](int f) {
+      const Triangle& t = triangles[f];
+      centers[f] = (points[t[0]] + points[t[1]] + points[t[2]]) * (1.0 / 3);
+    });
+    m_order = internal::spatial_order(centers, concurrency);
+    internal::for_each_index(concurrency, m_tree.items, [&](int place) {
+      m_places[m_order[place]] = place;
+      if (!patches.empty()) m_patches[place] = patches[m_order[place]];
+    });
     refit(points, triangles);
   }
 
   /// The same facets, moved; queries are fast as long as most are near where they were.
   void refit(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
   {
-    for (std::size_t place = 0; place < m_order.size(); ++place) {
+    internal::for_each_index(m_concurrency, m_tree.items, [&](int place) {
       const Triangle& t = triangles[m_order[place]];
       const Vec3d &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
       m_facets[place] = {a, b, c, normalized(cross(b - a, c - a))};
-    }
-    m_nodes = child_boxes(m_tree, [&](int place) {
+    });
+    const auto box_of = [&](int place) {
       const Facet_corners<double>& f = m_facets[place];
       Box3<double> box{f.a, f.a};
       box.add(f.b);
       box.add(f.c);
       return box;
-    });
+    };
+    std::vector<Box3<double>> boxes(m_tree.nodes());
+    m_nodes.resize(m_tree.nodes());
+    for (int level = 0; level < m_tree.levels; ++level)
+      internal::for_each_index(m_concurrency, m_tree.nodes(level), [&](int k) {
+        fit_child_boxes(m_tree, level, k, box_of, boxes.data(), m_nodes.data());
+      });
   }
 
   /// The facets alone.
@@ -81,13 +89,24 @@ public:
     if (result.facet >= 0) result.facet = m_order[result.facet];
     return result;
   }
-  /// The same on all facets of the patch.
+  /// The same on all facets of the patch of `hint`.
   Surface_point<double> nearest(const Vec3d& p, int hint = -1) const
   {
     return nearest(p, Vec3d{0, 0, 0}, -2.0, hint);
   }
+  /// The same on all facets of all patches.
+  Surface_point<double> nearest_anywhere(const Vec3d& p, int hint = -1) const
+  {
+    Surface_view<double> all = view();
+    all.patches = nullptr;
+    Surface_point<double> result = project_to_nearest_facet(
+        all, p, Vec3d{0, 0, 0}, -2.0, hint >= 0 ? m_places[hint] : -1, Single_lane());
+    result.facet = m_order[result.facet];
+    return result;
+  }
 
 private:
+  internal::Concurrency m_concurrency;
   Packed_tree_layout m_tree;
   std::vector<Facet_corners<double>> m_facets; // in the order of the tree, as what follows
   std::vector<int> m_order, m_patches;

@@ -6,31 +6,36 @@
 #define CGAL_POWER_RTF_GEOMETRY_SPATIAL_ORDER_H
 
 #include <CGAL/PowerRTF/geometry/vector.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/hilbert_sort.h>
 #include <CGAL/property_map.h>
 
-#include <numeric>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
 /// The indices of `points` along a Hilbert curve with median cuts.
-inline std::vector<int> spatial_order(const std::vector<Vec3d>& points)
+inline std::vector<int> spatial_order(const std::vector<Vec3d>& points,
+                                      Concurrency concurrency = Sequential_tag())
 {
   using Kernel = Exact_predicates_inexact_constructions_kernel;
   using Point_map = Pointer_property_map<Kernel::Point_3>::type;
-  std::vector<Kernel::Point_3> copies;
-  copies.reserve(points.size());
-  for (const Vec3d& p : points) copies.emplace_back(p.x, p.y, p.z);
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
   using Sort_traits = Spatial_sort_traits_adapter_3<Kernel, Point_map>;
-  Hilbert_sort_3<Sort_traits, Hilbert_sort_median_policy> sort{
-      Sort_traits(make_property_map(copies))};
-  sort(order.begin(), order.end());
+  std::vector<Kernel::Point_3> copies(points.size());
+  std::vector<int> order(points.size());
+  for_each_index(concurrency, int(points.size()), [&](int i) {
+    copies[i] = Kernel::Point_3(points[i].x, points[i].y, points[i].z);
+    order[i] = i;
+  });
+  const Sort_traits traits(make_property_map(copies));
+  if (concurrency.is_parallel())
+    Hilbert_sort_3<Sort_traits, Hilbert_sort_median_policy, Parallel_if_available_tag>{traits}(
+        order.begin(), order.end());
+  else
+    Hilbert_sort_3<Sort_traits, Hilbert_sort_median_policy>{traits}(order.begin(), order.end());
   return order;
 }
 

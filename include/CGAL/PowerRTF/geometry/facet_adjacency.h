@@ -7,11 +7,14 @@
 #define CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <boost/range/iterator_range.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -37,48 +40,71 @@ inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 /// Finds the facets that share each edge of `triangles`, whose indices are in
 /// `[0, number_of_vertices)` and differ within a triangle.
 inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
-                                       std::size_t number_of_vertices)
+                                       std::size_t number_of_vertices,
+                                       internal::Concurrency concurrency = Sequential_tag())
 {
+  using Entry = std::pair<int, int>; // larger vertex, halfedge
+  using Entries = std::vector<Entry>::iterator;
   const int halfedges = static_cast<int>(3 * triangles.size());
+  const int vertices = static_cast<int>(number_of_vertices);
   Facet_adjacency result;
   result.opposite.assign(halfedges, Facet_adjacency::none);
 
+  const auto smaller_vertex = [&](int h) {
+    return (std::min)(halfedge_source(triangles, h), halfedge_target(triangles, h));
+  };
+  const auto next = [&](int& counter) {
+    return concurrency.is_parallel() ? atomic_add(&counter, 1) : counter++;
+  };
   std::vector<int> first(number_of_vertices + 1, 0);
-  for (const Triangle& t : triangles)
-    for (int i = 0; i < 3; ++i) ++first[(std::min)(t[i], t[(i + 1) % 3]) + 1];
-  for (std::size_t v = 0; v < number_of_vertices; ++v) first[v + 1] += first[v];
-
-  std::vector<std::pair<int, int>> entries(halfedges); // larger vertex, halfedge
+  internal::for_each_index(concurrency, halfedges,
+                           [&](int h) { next(first[smaller_vertex(h) + 1]); });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Entry> entries(halfedges);
   std::vector<int> end(first.begin(), first.end() - 1);
-  for (int h = 0; h < halfedges; ++h) {
+  internal::for_each_index(concurrency, halfedges, [&](int h) {
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    entries[end[(std::min)(a, b)]++] = {(std::max)(a, b), h};
-  }
+    entries[next(end[smaller_vertex(h)])] = {(std::max)(a, b), h};
+  });
 
-  for (std::size_t v = 0; v < number_of_vertices; ++v) {
-    const auto bucket_end = entries.begin() + first[v + 1];
-    std::sort(entries.begin() + first[v], bucket_end);
-    for (auto e = entries.begin() + first[v]; e != bucket_end;) {
-      auto f = e + 1;
-      while (f != bucket_end && f->first == e->first) {
-        for (auto g = e; g != f; ++g)
-          if (opposite_vertex(triangles, g->second) == opposite_vertex(triangles, f->second))
-            result.repeated_facets = true;
-        ++f;
-      }
-      if (f - e == 1)
-        ++result.border_edges;
-      else if (f - e == 2) {
-        const int h = e->second, o = (e + 1)->second;
-        result.opposite[h] = o;
-        result.opposite[o] = h;
-        if (halfedge_source(triangles, h) == halfedge_source(triangles, o))
-          result.same_direction = true;
-      } else
-        ++result.non_manifold_edges;
-      e = f;
+  // The facets at one edge.
+  const auto join = [&](Facet_adjacency& found, Entries begin, Entries stop) {
+    for (auto f = begin; f != stop; ++f)
+      for (auto g = begin; g != f; ++g)
+        if (opposite_vertex(triangles, g->second) == opposite_vertex(triangles, f->second))
+          found.repeated_facets = true;
+    if (stop - begin == 1) {
+      ++found.border_edges;
+    } else if (stop - begin == 2) {
+      const int h = begin->second, o = (begin + 1)->second;
+      result.opposite[h] = o;
+      result.opposite[o] = h;
+      if (halfedge_source(triangles, h) == halfedge_source(triangles, o))
+        found.same_direction = true;
+    } else {
+      ++found.non_manifold_edges;
     }
-  }
+  };
+  const Facet_adjacency all = internal::reduce(
+      concurrency, vertices, Facet_adjacency(),
+      [&](Facet_adjacency& found, int v) {
+        const Entries bucket_end = entries.begin() + first[v + 1];
+        std::sort(entries.begin() + first[v], bucket_end);
+        for (Entries e = entries.begin() + first[v], f = e; e != bucket_end; e = f) {
+          while (f != bucket_end && f->first == e->first) ++f;
+          join(found, e, f);
+        }
+      },
+      [](Facet_adjacency& sum, const Facet_adjacency& part) {
+        sum.border_edges += part.border_edges;
+        sum.non_manifold_edges += part.non_manifold_edges;
+        sum.same_direction |= part.same_direction;
+        sum.repeated_facets |= part.repeated_facets;
+      });
+  result.border_edges = all.border_edges;
+  result.non_manifold_edges = all.non_manifold_edges;
+  result.same_direction = all.same_direction;
+  result.repeated_facets = all.repeated_facets;
   return result;
 }
 
@@ -141,17 +167,33 @@ void for_each_fan(std::size_t halfedges, const Opposite& opposite, const At_fan&
 /// The number of vertices whose facets form more than one fan. Needs consistent orientations.
 inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& triangles,
                                                const Facet_adjacency& adjacency,
-                                               std::size_t number_of_vertices)
+                                               std::size_t number_of_vertices,
+                                               internal::Concurrency concurrency = Sequential_tag())
 {
-  std::vector<char> fans(number_of_vertices, 0);
-  std::size_t count = 0;
-  const auto opposite = [&](int h) { return adjacency.opposite[h]; };
-  for_each_fan(adjacency.opposite.size(), opposite, [&](const std::vector<int>& fan) {
-    char& n = fans[halfedge_source(triangles, fan[0])];
-    if (n == 1) ++count;
-    n = static_cast<char>((std::min)(n + 1, 2));
+  const std::vector<int>& opposite = adjacency.opposite;
+  const int vertices = static_cast<int>(number_of_vertices);
+  std::vector<int> leaving(number_of_vertices, -1), degrees(number_of_vertices, 0);
+  internal::for_each_index(concurrency, static_cast<int>(opposite.size()), [&](int h) {
+    atomic_store(&leaving[halfedge_source(triangles, h)], h); // any of them
+    atomic_add(&degrees[halfedge_source(triangles, h)], 1);
   });
-  return count;
+  // Whether the fan of one facet is not all that there is.
+  const auto has_more = [&](int v) {
+    int facets = 0, h = leaving[v];
+    if (h < 0) return false;
+    do { // counter-clockwise, then clockwise if a border stopped it
+      ++facets;
+      h = opposite[previous_halfedge(h)];
+    } while (h != Facet_adjacency::none && h != leaving[v]);
+    if (h == Facet_adjacency::none)
+      for (h = opposite[leaving[v]]; h != Facet_adjacency::none; h = opposite[next_halfedge(h)])
+        ++facets;
+    return facets < degrees[v];
+  };
+  return internal::reduce(
+      concurrency, vertices, std::size_t(0),
+      [&](std::size_t& count, int v) { count += has_more(v); },
+      [](std::size_t& count, std::size_t part) { count += part; });
 }
 
 /// Turns facets so that neighbors agree; in each component as few as possible.

@@ -225,7 +225,7 @@ private:
     const std::vector<Triangle> triangles = m_mesh->working().triangles();
     for (const Vertex v : topology().vertices()) points.push_back(m_mesh->point(v));
     if (!m_tree)
-      m_tree.emplace(points, triangles);
+      m_tree.emplace(points, triangles, std::vector<int>(), m_mesh->concurrency());
     else
       m_tree->refit(points, triangles);
     for_each_chunk(m_mesh->concurrency(), int(some.size()), 16, [&](int begin, int end) {

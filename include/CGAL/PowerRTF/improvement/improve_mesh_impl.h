@@ -240,8 +240,9 @@ CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,
                                         internal::Concurrency concurrency)
 {
-  return improve_mesh(surface, Facet_tree(surface.points, surface.triangles, surface.facet_patches),
-                      mesh, concurrency);
+  return improve_mesh(
+      surface, Facet_tree(surface.points, surface.triangles, surface.facet_patches, concurrency),
+      mesh, concurrency);
 }
 
 } // namespace CGAL::PowerRTF
