@@ -161,7 +161,8 @@ private:
     }
     visitor.on_stage("quality");
     PowerRTF::internal::Stopwatch watch(m_report.seconds.quality);
-    PowerRTF::assess<typename Traits::Concurrency_tag>(m_surface, mesh, m_report);
+    PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
+                     typename Traits::Concurrency_tag());
     return mesh;
   }
 

@@ -90,8 +90,9 @@ TEST_CASE("distance: spheres, and invariance")
   CHECK(after.mean == Approx(before.mean * change).epsilon(0.02));
   CHECK(after.rms == Approx(before.rms * change).epsilon(0.02));
 
-  const Distance_statistics parallel = surface_distance<CGAL::Parallel_if_available_tag>(
-      fine.points, fine.triangles, coarse.points, coarse.triangles);
+  const Distance_statistics parallel =
+      surface_distance(fine.points, fine.triangles, coarse.points, coarse.triangles,
+                       CGAL::Parallel_if_available_tag());
   CHECK(parallel.mean == before.mean);
   CHECK(parallel.rms == before.rms);
   CHECK(parallel.max == before.max);

@@ -180,7 +180,7 @@ TEST_CASE("the extraction keeps creases and borders, wherever the other samples 
       CHECK(mesh.feature_edges.size() == patches.features().edges.size());
       Remeshing_report report;
       report.samples_asked = 400;
-      assess<CGAL::Sequential_tag>(surface, mesh, report);
+      assess(surface, mesh, report);
       CHECK(report.missed_guarantees().empty());
       CHECK(report.lost_feature_edges == 0);
       CHECK(report.topology.border_loops == report.input_topology.border_loops);
@@ -214,7 +214,7 @@ TEST_CASE("a crease that is one edge keeps all its samples")
         extract_by_insertion(surface, joined(patches.on_whole(free), features.samples), features);
     Remeshing_report report;
     report.samples_asked = n;
-    assess<CGAL::Sequential_tag>(surface, mesh, report);
+    assess(surface, mesh, report);
     CHECK(report.missed_guarantees().empty());
   }
 }

@@ -25,7 +25,7 @@ namespace {
 Remeshing_report judge(const Surface& surface, const Extracted_mesh& mesh)
 {
   Remeshing_report report;
-  assess<CGAL::Sequential_tag>(surface, mesh, report);
+  assess(surface, mesh, report);
   return report;
 }
 

@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -177,6 +178,59 @@ TEST_CASE("topology: borders")
   CHECK(topology({}).components == 0);
 }
 
+TEST_CASE("the same numbers in all threads")
+{
+  std::mt19937 random(3);
+  std::vector<std::vector<Triangle>> soups{
+      {}, shapes::permuted(shapes::torus(60, 40, 3, 1), 1).triangles, annulus(999).triangles};
+  for (const int vertices : {5, 60, 3000}) { // with all sorts of defects
+    std::vector<Triangle> soup;
+    while (soup.size() < 4000) {
+      Triangle t;
+      for (int& v : t) v = int(random() % vertices);
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) soup.push_back(t);
+    }
+    soups.push_back(soup);
+  }
+  const CGAL::Parallel_if_available_tag at_once;
+  for (const std::vector<Triangle>& triangles : soups) {
+    const Topology_statistics s = topology(triangles), p = topology(triangles, at_once);
+    CHECK(p.vertices == s.vertices);
+    CHECK(p.edges == s.edges);
+    CHECK(p.faces == s.faces);
+    CHECK(p.components == s.components);
+    CHECK(p.border_edges == s.border_edges);
+    CHECK(p.border_loops == s.border_loops);
+    CHECK(p.non_manifold_edges == s.non_manifold_edges);
+    CHECK(p.non_manifold_vertices == s.non_manifold_vertices);
+    CHECK(p.euler_characteristic == s.euler_characteristic);
+    CHECK(p.oriented == s.oriented);
+    const Facet_adjacency a = facet_adjacency(triangles, 4000),
+                          b = facet_adjacency(triangles, 4000, at_once);
+    CHECK(a.opposite == b.opposite);
+    CHECK(a.border_edges == b.border_edges);
+    CHECK(a.non_manifold_edges == b.non_manifold_edges);
+    CHECK(a.same_direction == b.same_direction);
+    CHECK(a.repeated_facets == b.repeated_facets);
+    if (!a.same_direction)
+      CHECK(count_non_manifold_vertices(triangles, a, 4000) ==
+            count_non_manifold_vertices(triangles, b, 4000, at_once));
+  }
+
+  const Soup soup = shapes::permuted(shapes::ellipsoid(1, 0.7, 0.4, 4), 2);
+  const Quality_statistics q = triangle_quality(soup.points, soup.triangles),
+                           r = triangle_quality(soup.points, soup.triangles, at_once);
+  CHECK(r.q_avg == q.q_avg);
+  CHECK(r.q_min == q.q_min);
+  CHECK(r.theta_min_avg == q.theta_min_avg);
+  CHECK(r.below_30 == q.below_30);
+  const Edge_length_statistics l = edge_lengths(soup.points, soup.triangles),
+                               k = edge_lengths(soup.points, soup.triangles, at_once);
+  CHECK(k.mean == l.mean);
+  CHECK(k.min == l.min);
+  CHECK(k.max == l.max);
+}
+
 TEST_CASE("topology: defects")
 {
   SUBCASE("a bow-tie: two facets at a vertex")
@@ -235,7 +289,7 @@ TEST_CASE("assess: a surface against itself has no distance, and its own topolog
   const Surface surface = shapes::make_surface(shapes::torus(40, 20, 3, 1));
   Remeshing_report report;
   report.samples_asked = surface.points.size();
-  assess<CGAL::Sequential_tag>(surface, {surface.points, surface.triangles, {}}, report);
+  assess(surface, {surface.points, surface.triangles, {}}, report);
   CHECK(report.distance.max < 1e-6);
   CHECK(report.topology.euler_characteristic == 0);
   CHECK(report.diagonal == Approx(std::sqrt(8. * 8 + 8 * 8 + 2 * 2))); // in the torus's own unit
@@ -244,6 +298,6 @@ TEST_CASE("assess: a surface against itself has no distance, and its own topolog
   CHECK(report.missed_guarantees().empty());
 
   const Soup open = without_last({surface.points, surface.triangles});
-  assess<CGAL::Sequential_tag>(surface, {open.points, open.triangles, {}}, report);
+  assess(surface, {open.points, open.triangles, {}}, report);
   CHECK(report.missed_guarantees().size() == 2); // Euler characteristic, borders
 }

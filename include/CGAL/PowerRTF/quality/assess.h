@@ -9,13 +9,24 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 namespace CGAL::PowerRTF {
 
+class Facet_tree;
+
 /// Fills the parts of `report` that describe the result: topology of both, self-intersections,
-/// features, triangle quality and distance.
-template <class ConcurrencyTag>
-void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report);
+/// features, triangle quality and distance. The numbers are the same for every `concurrency`.
+///
+/// \param patches the surface as it is, or cut along its creases
+/// \param tree of the facets of `patches`
+void assess(const Surface& surface, const Surface& patches, const Facet_tree& tree,
+            const Extracted_mesh& mesh, Remeshing_report& report,
+            internal::Concurrency concurrency = Sequential_tag());
+
+/// The same with a tree of its own.
+void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report,
+            internal::Concurrency concurrency = Sequential_tag());
 
 } // namespace CGAL::PowerRTF
 

@@ -21,10 +21,11 @@ namespace CGAL::PowerRTF {
 namespace internal {
 
 /// How many of the mesh's feature edges are no edges of its triangles.
-inline std::size_t lost_feature_edges(const Extracted_mesh& mesh)
+inline std::size_t lost_feature_edges(const Extracted_mesh& mesh,
+                                      Concurrency concurrency = Sequential_tag())
 {
   if (mesh.feature_edges.empty()) return 0;
-  const std::vector<Edge> edges = edges_of(mesh.triangles);
+  const std::vector<Edge> edges = edges_of(mesh.triangles, concurrency);
   std::size_t lost = 0;
   for (const Edge& e : mesh.feature_edges)
     lost += !std::binary_search(edges.begin(), edges.end(), sorted_edge(e[0], e[1]));
@@ -33,26 +34,34 @@ inline std::size_t lost_feature_edges(const Extracted_mesh& mesh)
 
 } // namespace internal
 
-template <class ConcurrencyTag>
-void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report)
+CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches,
+                                  const Facet_tree& tree, const Extracted_mesh& mesh,
+                                  Remeshing_report& report, internal::Concurrency concurrency)
 {
-  report.input_topology = topology(surface.triangles);
-  report.topology = topology(mesh.triangles);
+  report.input_topology = topology(surface.triangles, concurrency);
+  report.topology = topology(mesh.triangles, concurrency);
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
-  report.lost_feature_edges = internal::lost_feature_edges(mesh);
-  report.self_intersections = self_intersections(mesh.points, mesh.triangles, ConcurrencyTag());
+  report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
+  report.self_intersections = self_intersections(mesh.points, mesh.triangles, concurrency);
   if (report.self_intersections > 0)
     report.input_self_intersections =
-        self_intersections(surface.points, surface.triangles, ConcurrencyTag());
-  report.quality = triangle_quality(mesh.points, mesh.triangles);
+        self_intersections(surface.points, surface.triangles, concurrency);
+  report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
-  const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles);
+  const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles, concurrency);
   report.edge_length = {unit * lengths.mean, unit * lengths.min, unit * lengths.max};
   const Box3<double> box = internal::bounding_box(surface.points, surface.triangles);
   report.diagonal = unit * length(box.hi - box.lo);
-  report.distance = surface_distance<ConcurrencyTag>(surface.points, surface.triangles, mesh.points,
-                                                     mesh.triangles);
+  report.distance = surface_distance(patches.points, patches.triangles, tree, mesh.points,
+                                     mesh.triangles, concurrency);
+}
+
+CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Extracted_mesh& mesh,
+                                  Remeshing_report& report, internal::Concurrency concurrency)
+{
+  assess(surface, surface, Facet_tree(surface.points, surface.triangles, {}, concurrency), mesh,
+         report, concurrency);
 }
 
 } // namespace CGAL::PowerRTF

@@ -33,6 +33,7 @@ inline Box3<double> bounding_box(const std::vector<Vec3d>& points,
 /// Walks over a triangulated surface in spatial order: its vertices, and points spread over it.
 class Surface_samples {
 public:
+  /// `tree`: of the triangles.
   Surface_samples(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                   const Facet_tree& tree)
       : m_facets(tree.view().facets)
@@ -76,16 +77,16 @@ struct Squared_distances {
 };
 
 /// Distances from `from` to `to`: sums over `n` samples; the maximum over them and the vertices.
-template <class ConcurrencyTag>
-Squared_distances one_sided_distance(const Surface_samples& from, const Facet_tree& to, int n)
+inline Squared_distances one_sided_distance(const Surface_samples& from, const Facet_tree& to,
+                                            int n, Concurrency concurrency)
 {
   const int vertices = static_cast<int>(from.vertices().size());
-  return reduce<ConcurrencyTag>(
-      vertices + n, Squared_distances(),
+  return reduce(
+      concurrency, vertices + n, Squared_distances(),
       [&](Squared_distances& s, int i) {
         const bool is_sample = i >= vertices;
         const Vec3d p = is_sample ? from.sample(i - vertices, n) : from.vertices()[i];
-        const auto nearest = to.nearest(p, s.hint);
+        const auto nearest = to.nearest_anywhere(p, s.hint);
         const double d2 = nearest.squared_distance;
         s.hint = nearest.facet;
         s.max_squared = std::max(s.max_squared, d2);
@@ -106,11 +107,14 @@ Squared_distances one_sided_distance(const Surface_samples& from, const Facet_tr
 /// cent of the diagonal of the input's bounding box. Mean and RMS are those of the worse direction,
 /// from 20000 samples each way; the maximum takes in all vertices of both. All zero when one of the
 /// surfaces has no facet or the input no extent.
-template <class ConcurrencyTag = Sequential_tag>
-Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
-                                     const std::vector<Triangle>& input_triangles,
-                                     const std::vector<Vec3d>& output_points,
-                                     const std::vector<Triangle>& output_triangles)
+///
+/// \param input_tree of the input's triangles
+inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
+                                            const std::vector<Triangle>& input_triangles,
+                                            const Facet_tree& input_tree,
+                                            const std::vector<Vec3d>& output_points,
+                                            const std::vector<Triangle>& output_triangles,
+                                            internal::Concurrency concurrency = Sequential_tag())
 {
   Distance_statistics result;
   if (input_triangles.empty() || output_triangles.empty()) return result;
@@ -119,16 +123,30 @@ Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
   if (!(diagonal > 0)) return result;
 
   const int n = 20000;
-  const Facet_tree input(input_points, input_triangles), output(output_points, output_triangles);
-  const auto a = internal::one_sided_distance<ConcurrencyTag>(
-      internal::Surface_samples(input_points, input_triangles, input), output, n);
-  const auto b = internal::one_sided_distance<ConcurrencyTag>(
-      internal::Surface_samples(output_points, output_triangles, output), input, n);
+  const Facet_tree output_tree(output_points, output_triangles, {}, concurrency);
+  const auto a = internal::one_sided_distance(
+      internal::Surface_samples(input_points, input_triangles, input_tree), output_tree, n,
+      concurrency);
+  const auto b = internal::one_sided_distance(
+      internal::Surface_samples(output_points, output_triangles, output_tree), input_tree, n,
+      concurrency);
   const double percent = 100 / diagonal;
   result.mean = percent * std::max(a.sum, b.sum) / n;
   result.rms = percent * std::sqrt(std::max(a.sum_of_squares, b.sum_of_squares) / n);
   result.max = percent * std::sqrt(std::max(a.max_squared, b.max_squared));
   return result;
+}
+
+/// The same with a tree of its own.
+inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
+                                            const std::vector<Triangle>& input_triangles,
+                                            const std::vector<Vec3d>& output_points,
+                                            const std::vector<Triangle>& output_triangles,
+                                            internal::Concurrency concurrency = Sequential_tag())
+{
+  return surface_distance(input_points, input_triangles,
+                          Facet_tree(input_points, input_triangles, {}, concurrency), output_points,
+                          output_triangles, concurrency);
 }
 
 } // namespace CGAL::PowerRTF

@@ -9,11 +9,12 @@
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
-
-#include <boost/pending/disjoint_sets.hpp>
+#include <CGAL/PowerRTF/internal/label_trees.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -65,7 +66,8 @@ private:
 /// Topology of the soup `triangles` (#F vertex indices >= 0). `vertices` counts the used ones. A
 /// vertex is non-manifold when its facets do not form one fan or one disk. A facet with a repeated
 /// vertex is counted in `faces` and otherwise ignored.
-inline Topology_statistics topology(std::vector<Triangle> triangles)
+inline Topology_statistics topology(std::vector<Triangle> triangles,
+                                    internal::Concurrency concurrency = Sequential_tag())
 {
   using internal::Soup_edges;
   Topology_statistics result;
@@ -73,7 +75,7 @@ inline Topology_statistics topology(std::vector<Triangle> triangles)
   internal::drop_collapsed(triangles);
   int size = 0; // of the vertices' numbers
   for (const Triangle& t : triangles) size = std::max({size, t[0] + 1, t[1] + 1, t[2] + 1});
-  const Facet_adjacency adjacency = facet_adjacency(triangles, size);
+  const Facet_adjacency adjacency = facet_adjacency(triangles, size, concurrency);
   const Soup_edges edges(triangles, adjacency);
   result.border_edges = adjacency.border_edges;
   result.non_manifold_edges = adjacency.non_manifold_edges;
@@ -81,44 +83,45 @@ inline Topology_statistics topology(std::vector<Triangle> triangles)
   result.oriented = !adjacency.same_direction && result.non_manifold_edges == 0;
 
   const int halfedges = static_cast<int>(adjacency.opposite.size());
-  boost::disjoint_sets_with_storage<> component(size), loop(halfedges);
-  const auto join = [](auto& sets, int a, int b) { // whether they were two sets
-    const int x = sets.find_set(a), y = sets.find_set(b);
-    if (x != y) sets.link(x, y);
-    return x != y;
-  };
-  std::vector<int> corner(size, -1), degree(size, 0); // a halfedge from each vertex
-  std::vector<char> bad(size, 0);
-  std::size_t joins = 0, loop_joins = 0;
-  for (int h = 0; h < halfedges; ++h) {
+  std::vector<int> component(size), loop(halfedges);          // trees of labels
+  std::vector<int> corner(size, -1), degree(size), bad(size); // a halfedge from each vertex
+  std::iota(component.begin(), component.end(), 0);
+  std::iota(loop.begin(), loop.end(), 0);
+  internal::for_each_index(concurrency, halfedges, [&](int h) {
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    corner[a] = h;
-    joins += join(component, a, b);
-    ++degree[a];
-    result.edges += edges.opposite(h) > h;
-    if (edges.opposite(h) == Soup_edges::non_manifold) bad[a] = bad[b] = 1;
-    if (edges.opposite(h) != Soup_edges::border) continue;
+    atomic_store(&corner[a], h);
+    atomic_add(&degree[a], 1);
+    join_trees(component.data(), a, b);
+    if (edges.opposite(h) == Soup_edges::non_manifold)
+      for (const int v : {a, b}) atomic_store(&bad[v], 1);
+    if (edges.opposite(h) != Soup_edges::border) return;
     for (const int v : {a, b}) {
       int facets = 0;
       const int next = edges.turn(v, h, facets);
-      if (edges.opposite(next) == Soup_edges::border) loop_joins += join(loop, h, next);
+      if (edges.opposite(next) == Soup_edges::border) join_trees(loop.data(), h, next);
     }
-  }
-  for (int v = 0; v < size; ++v) {
-    if (corner[v] < 0) continue;
-    ++result.vertices;
-    if (!bad[v]) {
-      // one way from the first facet; the other way too when that ended at a border
-      int facets = 0, rest = 0;
-      const int stop = edges.turn(v, corner[v], facets);
-      if (stop != corner[v] && edges.opposite(corner[v]) >= 0)
-        edges.turn(v, edges.opposite(corner[v]), rest);
-      bad[v] = facets + rest != degree[v];
-    }
-    result.non_manifold_vertices += bad[v];
-  }
-  result.components = result.vertices - joins;
-  result.border_loops = result.border_edges - loop_joins;
+  });
+  const auto is_bad = [&](int v) {
+    if (bad[v]) return true;
+    // one way from the first facet; the other way too when that ended at a border
+    int facets = 0, rest = 0;
+    const int stop = edges.turn(v, corner[v], facets);
+    if (stop != corner[v] && edges.opposite(corner[v]) >= 0)
+      edges.turn(v, edges.opposite(corner[v]), rest);
+    return facets + rest != degree[v];
+  };
+  const auto count = [&](int n, const auto& is_counted) {
+    return internal::reduce(
+        concurrency, n, std::size_t(0), [&](std::size_t& sum, int i) { sum += is_counted(i); },
+        [](std::size_t& sum, std::size_t part) { sum += part; });
+  };
+  result.edges += count(halfedges, [&](int h) { return edges.opposite(h) > h; });
+  result.border_loops = count(
+      halfedges, [&](int h) { return edges.opposite(h) == Soup_edges::border && loop[h] == h; });
+  const auto is_used = [&](int v) { return corner[v] >= 0; };
+  result.vertices = count(size, is_used);
+  result.components = count(size, [&](int v) { return is_used(v) && component[v] == v; });
+  result.non_manifold_vertices = count(size, [&](int v) { return is_used(v) && is_bad(v); });
   result.euler_characteristic = static_cast<long>(result.vertices) -
                                 static_cast<long>(result.edges) + static_cast<long>(result.faces);
   return result;

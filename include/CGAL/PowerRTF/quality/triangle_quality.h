@@ -11,87 +11,112 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
+namespace internal {
+
+struct Triangle_shape {
+  double q = 0, smallest = 0, largest = 180; ///< quality, and angles in degrees
+};
+
+inline Triangle_shape triangle_shape(const std::array<Vec3d, 3>& p)
+{
+  const double degrees = 45 / std::atan(1.0);
+  const Vec3d e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]}; // opposite to the corners
+  const double l[3] = {length(e[0]), length(e[1]), length(e[2])};
+  const double twice_area = length(cross(e[0], e[1]));
+  if (!(twice_area > 0)) return {};
+  const double half_perimeter = (l[0] + l[1] + l[2]) / 2, longest = std::max({l[0], l[1], l[2]});
+  Triangle_shape shape{std::sqrt(3.0) * twice_area / (half_perimeter * longest), 180, 0};
+  for (int k = 0; k < 3; ++k) {
+    const double angle = std::atan2(twice_area, -dot(e[(k + 1) % 3], e[(k + 2) % 3])) * degrees;
+    shape.smallest = std::min(shape.smallest, angle);
+    shape.largest = std::max(shape.largest, angle);
+  }
+  return shape;
+}
+
+} // namespace internal
+
 /// Quality of the `triangles` (#F indices into `points`). Per triangle
 /// Q_t = 6/sqrt(3) * A_t / (S_t E_t) (area, half-perimeter, longest edge; 1: equilateral, 0: flat).
 /// A triangle without area has quality 0, smallest angle 0 and largest angle 180, which does not
 /// count as above 90. All zero when there is no triangle.
 inline Quality_statistics triangle_quality(const std::vector<Vec3d>& points,
-                                           const std::vector<Triangle>& triangles)
+                                           const std::vector<Triangle>& triangles,
+                                           internal::Concurrency concurrency = Sequential_tag())
 {
-  Quality_statistics result;
-  if (triangles.empty()) return result;
-  const double degrees = 45 / std::atan(1.0);
-  double q_sum = 0, theta_sum = 0, q_min = 1, theta_min = 60, theta_max = 60;
-  std::size_t below_30 = 0, above_90 = 0;
-  for (const Triangle& t : triangles) {
-    // e[k]: edge opposite to corner k
-    const Vec3d e[3] = {points[t[2]] - points[t[1]], points[t[0]] - points[t[2]],
-                        points[t[1]] - points[t[0]]};
-    const double l[3] = {length(e[0]), length(e[1]), length(e[2])};
-    const double twice_area = length(cross(e[0], e[1]));
-    const double half_perimeter = (l[0] + l[1] + l[2]) / 2, longest = std::max({l[0], l[1], l[2]});
-    double q = 0, theta = 0, largest = 180;
-    if (twice_area > 0) {
-      q = std::sqrt(3.0) * twice_area / (half_perimeter * longest);
-      largest = 0;
-      theta = 180;
-      for (int k = 0; k < 3; ++k) {
-        const double angle = std::atan2(twice_area, -dot(e[(k + 1) % 3], e[(k + 2) % 3])) * degrees;
-        theta = std::min(theta, angle);
-        largest = std::max(largest, angle);
-      }
-      above_90 += largest > 90;
-    }
-    below_30 += theta < 30;
-    q_min = std::min(q_min, q);
-    theta_min = std::min(theta_min, theta);
-    theta_max = std::max(theta_max, largest);
-    q_sum += q;
-    theta_sum += theta;
-  }
-  const double n = static_cast<double>(triangles.size());
-  result.q_min = q_min;
-  result.q_avg = q_sum / n;
-  result.theta_min = theta_min;
-  result.theta_min_avg = theta_sum / n;
-  result.theta_max = theta_max;
-  result.below_30 = static_cast<double>(below_30) / n;
-  result.above_90 = static_cast<double>(above_90) / n;
+  if (triangles.empty()) return {};
+  // The means are sums, and the shares numbers, until all have been seen.
+  Quality_statistics start;
+  start.q_min = 1;
+  start.theta_min = start.theta_max = 60;
+  const auto add = [&](Quality_statistics& s, int f) {
+    const internal::Triangle_shape shape = internal::triangle_shape(
+        {points[triangles[f][0]], points[triangles[f][1]], points[triangles[f][2]]});
+    s.q_min = std::min(s.q_min, shape.q);
+    s.q_avg += shape.q;
+    s.theta_min = std::min(s.theta_min, shape.smallest);
+    s.theta_min_avg += shape.smallest;
+    s.theta_max = std::max(s.theta_max, shape.largest);
+    s.below_30 += shape.smallest < 30;
+    s.above_90 += shape.q > 0 && shape.largest > 90;
+  };
+  Quality_statistics result =
+      internal::reduce(concurrency, static_cast<int>(triangles.size()), start, add,
+                       [](Quality_statistics& s, const Quality_statistics& part) {
+                         s.q_min = std::min(s.q_min, part.q_min);
+                         s.q_avg += part.q_avg;
+                         s.theta_min = std::min(s.theta_min, part.theta_min);
+                         s.theta_min_avg += part.theta_min_avg;
+                         s.theta_max = std::max(s.theta_max, part.theta_max);
+                         s.below_30 += part.below_30;
+                         s.above_90 += part.above_90;
+                       });
+  for (double* sum : {&result.q_avg, &result.theta_min_avg, &result.below_30, &result.above_90})
+    *sum /= static_cast<double>(triangles.size());
   return result;
 }
 
 /// The edges of the triangles, each once, sorted.
-inline std::vector<Edge> edges_of(const std::vector<Triangle>& triangles)
+inline std::vector<Edge> edges_of(const std::vector<Triangle>& triangles,
+                                  internal::Concurrency concurrency = Sequential_tag())
 {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) edges.push_back(sorted_edge(t[k], t[(k + 1) % 3]));
-  sort_uniquely(edges);
+  std::vector<Edge> edges(3 * triangles.size());
+  internal::for_each_index(concurrency, static_cast<int>(triangles.size()), [&](int f) {
+    const Triangle& t = triangles[f];
+    for (int k = 0; k < 3; ++k) edges[3 * f + k] = sorted_edge(t[k], t[(k + 1) % 3]);
+  });
+  internal::sort(concurrency, edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
 /// Lengths of the edges of the `triangles`, in the unit of the `points`. All zero when there is no
 /// triangle.
 inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
-                                           const std::vector<Triangle>& triangles)
+                                           const std::vector<Triangle>& triangles,
+                                           internal::Concurrency concurrency = Sequential_tag())
 {
-  const std::vector<Edge> edges = edges_of(triangles);
+  const std::vector<Edge> edges = edges_of(triangles, concurrency);
   if (edges.empty()) return {};
-  double sum = 0, min = std::numeric_limits<double>::max(), max = 0;
-  for (const Edge& e : edges) {
-    const double l = length(points[e[1]] - points[e[0]]);
-    sum += l;
-    min = std::min(min, l);
-    max = std::max(max, l);
-  }
-  return {sum / static_cast<double>(edges.size()), min, max};
+  Edge_length_statistics sum = internal::reduce(
+      concurrency, static_cast<int>(edges.size()),
+      Edge_length_statistics{0, std::numeric_limits<double>::max(), 0},
+      [&](Edge_length_statistics& s, int e) {
+        const double l = length(points[edges[e][1]] - points[edges[e][0]]);
+        s = {s.mean + l, std::min(s.min, l), std::max(s.max, l)};
+      },
+      [](Edge_length_statistics& s, const Edge_length_statistics& part) {
+        s = {s.mean + part.mean, std::min(s.min, part.min), std::max(s.max, part.max)};
+      });
+  sum.mean /= static_cast<double>(edges.size());
+  return sum;
 }
 
 } // namespace CGAL::PowerRTF
