@@ -4,3 +4,21 @@
 // Part of PowerRTF::core: from samples to triangles.
 #include <CGAL/PowerRTF/extraction/Opened_surface_impl.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion_impl.h>
+#include <CGAL/PowerRTF/extraction/extract_from_cells_impl.h>
+
+#include <CGAL/tags.h>
+
+namespace CGAL::PowerRTF {
+
+template Extracted_mesh extract_from_cells<Sequential_tag>(const Surface&, const Samples&,
+                                                           const Feature_samples&,
+                                                           std::vector<std::vector<int>>&&,
+                                                           Cell_extraction_statistics*);
+#ifdef CGAL_LINKED_WITH_TBB
+template Extracted_mesh extract_from_cells<Parallel_tag>(const Surface&, const Samples&,
+                                                         const Feature_samples&,
+                                                         std::vector<std::vector<int>>&&,
+                                                         Cell_extraction_statistics*);
+#endif
+
+} // namespace CGAL::PowerRTF

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/Remeshing_visitor.h>
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/extraction/extract_from_cells.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
@@ -223,10 +224,7 @@ private:
     PowerRTF::Extracted_mesh mesh;
     {
       PowerRTF::internal::Stopwatch watch(m_report.seconds.extraction);
-      mesh =
-          m_options.extraction == PowerRTF::Extraction_method::insertion
-              ? PowerRTF::extract_by_insertion(surface, samples, features, !m_surface.seams.empty())
-              : PowerRTF::extract_restricted_delaunay(surface, samples, features);
+      mesh = triangles(surface, samples, features);
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       visitor.on_stage("improvement");
@@ -235,6 +233,20 @@ private:
                              typename Traits::Concurrency_tag());
     }
     return mesh;
+  }
+
+  PowerRTF::Extracted_mesh triangles(const PowerRTF::Surface& surface,
+                                     const PowerRTF::Samples& samples,
+                                     const PowerRTF::Feature_samples& features)
+  {
+    using Method = PowerRTF::Extraction_method;
+    if (m_options.extraction == Method::restricted_delaunay)
+      return PowerRTF::extract_restricted_delaunay(surface, samples, features);
+    const bool is_opened = !m_surface.seams.empty(); // its cells are those of the surface as it was
+    if (m_options.extraction == Method::insertion || is_opened || all_fixed())
+      return PowerRTF::extract_by_insertion(surface, samples, features, is_opened);
+    return PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
+        surface, samples, features, m_engine.neighbors());
   }
 
   template <class Visitor>

@@ -30,7 +30,7 @@ enum class Weight_method { none, multiplicative, newton };
 /// Rounding of \f$\alpha\f$ in the paper's rule; `floor`: as printed.
 enum class Weight_operator { ceiling, floor };
 /// How the samples are triangulated.
-enum class Extraction_method { insertion, restricted_delaunay };
+enum class Extraction_method { cells, insertion, restricted_delaunay };
 /// Of the triangles after the extraction (not in the paper).
 enum class Improvement { no, yes };
 /// Of an input that is no oriented 2-manifold and can be made one without a change of its shape;
@@ -106,7 +106,7 @@ struct Remeshing_options {
   int device = 0; ///< CUDA traits: the number of the GPU
 
   // Extraction
-  Extraction_method extraction = Extraction_method::insertion; ///< of the triangles
+  Extraction_method extraction = Extraction_method::cells; ///< of the triangles
   Improvement improvement = Improvement::yes; ///< of the triangles; `no`: they stay on the samples
   /// What will hold the result's points: its guarantees are those of the rounded points.
   Coordinates coordinates = Coordinates::double_precision;
@@ -133,6 +133,7 @@ struct Remeshing_options {
     o.centroid_density_power = 0;
     o.centroid_tolerance = 0;
     o.weight_method = Weight_method::multiplicative;
+    o.extraction = Extraction_method::insertion;
     o.improvement = Improvement::no;
     return o;
   }

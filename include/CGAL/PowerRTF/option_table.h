@@ -36,7 +36,10 @@ inline Value_names value_names(Projection) { return {"nearest-facet", "nearest-v
 inline Value_names value_names(Position_method) { return {"lbfgs", "lloyd"}; }
 inline Value_names value_names(Weight_method) { return {"none", "multiplicative", "newton"}; }
 inline Value_names value_names(Weight_operator) { return {"ceiling", "floor"}; }
-inline Value_names value_names(Extraction_method) { return {"insertion", "restricted-delaunay"}; }
+inline Value_names value_names(Extraction_method)
+{
+  return {"cells", "insertion", "restricted-delaunay"};
+}
 inline Value_names value_names(Improvement) { return {"no", "yes"}; }
 inline Value_names value_names(Repair) { return {"no", "yes"}; }
 inline Value_names value_names(Coordinates) { return {"double", "single"}; }

@@ -67,6 +67,7 @@ public:
   virtual std::size_t constructions() const = 0;
   virtual Engine_samples samples() = 0;
   virtual std::vector<Cell_polygon> cells() = 0;
+  virtual std::vector<std::vector<int>> neighbors() = 0;
   virtual double epsilon() const = 0;
   virtual Device_report device_report() = 0;
 };

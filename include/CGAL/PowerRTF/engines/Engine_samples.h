@@ -30,6 +30,12 @@ void find_hilbert_codes(Backend& backend, int n, const Site<Real>* sites, const 
 }
 
 template <class Real, class Backend>
+void copy_without_weights(Backend& backend, int n, const Site<Real>* from, Site<Real>* to)
+{
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { to[i] = {from[i].point, Real(0)}; });
+}
+
+template <class Real, class Backend>
 void find_density_roots(Backend& backend, int n, const Attribute_rule<Real>& rule)
 {
   backend.for_each(
@@ -198,6 +204,23 @@ std::vector<Cell_polygon> Engine<R, B, C>::cells()
     cell.status = status;
   });
   return cells;
+}
+
+template <class R, class B, class C>
+std::vector<std::vector<int>> Engine<R, B, C>::neighbors()
+{
+  Buffer<Site<R>> plain;
+  plain.allocate(m_backend, m_size);
+  copy_without_weights(m_backend, m_size, m_sites.data(), plain.data());
+  Sites_arrays<R> in = sites();
+  in.sites = plain.data();
+  m_builder->set_weights(in);
+  std::vector<std::vector<int>> neighbors(m_cells);
+  m_builder->for_each_cell([&](int i, Cell_status, const auto& polygon, const auto&) {
+    for (int k = 0; k < polygon.size; ++k) neighbors[i].push_back(polygon.neighbor[k]);
+  });
+  m_builder->set_weights(sites());
+  return neighbors;
 }
 
 } // namespace CGAL::PowerRTF

@@ -6,12 +6,10 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_IMPL_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/extraction/decimate.h>
-#include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_guarded.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
-#include <CGAL/PowerRTF/extraction/remove_intersections.h>
+#include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 
 namespace CGAL::PowerRTF {
@@ -49,19 +47,9 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
                                                           bool may_touch_itself)
 {
   internal::Working_mesh mesh(internal::insert_samples(surface, samples, features.places));
-  // While the mesh is fine, normals that differ by more than 84 degrees are a fold; among the
-  // samples alone even 134 degrees occur on thin parts, and refusing more costs good triangles.
-  internal::Edge_flipper careful_flipper(mesh, 0.1);
-  careful_flipper.push_around_samples();
-  careful_flipper.run(20 * mesh.mesh.number_of_edges());
-  std::size_t defects = internal::Decimator(mesh, careful_flipper).run();
-  internal::Edge_flipper flipper(mesh, -0.7);
-  for (const auto e : mesh.mesh.edges()) flipper.push(e);
-  flipper.run(20 * mesh.mesh.number_of_edges());
-  if (may_touch_itself) return internal::to_extracted_mesh(mesh, samples);
-  defects += internal::Intersection_remover(mesh, flipper).run();
+  const std::size_t defects = internal::reduce_to_samples(mesh, may_touch_itself);
   Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
-  if (defects == 0) return result;
+  if (defects == 0 || may_touch_itself) return result;
 
   // Where the samples are too sparse: more carefully there, and more widely if that does not help.
   internal::Sparse_places sparse = internal::sparse_places(mesh);

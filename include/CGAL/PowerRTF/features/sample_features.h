@@ -139,7 +139,7 @@ private:
     sites.weights.push_back(0);
     sites.patches.push_back(cut.facet_patches[h / 3]);
     m_result.shares.push_back(turn);
-    m_sample_of_site.push_back(sample);
+    m_result.samples_of_sites.push_back(sample);
   }
 
   /// The samples' facets, patches and normals from those of their sites.
@@ -150,8 +150,8 @@ private:
     samples.patches.assign(samples.points.size(), -1);
     samples.normals.assign(samples.points.size(), {0, 0, 0});
     samples.weights.assign(samples.points.size(), 0);
-    for (std::size_t k = 0; k < m_sample_of_site.size(); ++k) {
-      const int s = m_sample_of_site[k];
+    for (std::size_t k = 0; k < m_result.samples_of_sites.size(); ++k) {
+      const int s = m_result.samples_of_sites[k];
       samples.normals[s] += m_result.sites.normals[k];
       if (samples.facets[s] >= 0) continue;
       samples.facets[s] = m_result.sites.facets[k];
@@ -181,7 +181,6 @@ private:
   const Surface& m_surface;
   const Cut_surface& m_cut;
   Feature_samples m_result;
-  std::vector<int> m_sample_of_site;
 };
 
 } // namespace internal

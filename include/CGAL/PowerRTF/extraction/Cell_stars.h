@@ -1,0 +1,158 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The triangles on which the cells of all their corners agree. Two neighbors that follow each other
+// around a cell make a triangle with its sample; it stands where the cells of the other two have
+// it, too. Samples on creases and borders have no cell, and no opinion. Nearly all triangles of a
+// well distributed sampling are found so, each sample for itself. (An addition to the paper.)
+#ifndef CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
+#define CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
+
+#include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+/// The other two vertices of a triangle at a vertex, counter-clockwise.
+using Corner = std::array<int, 2>;
+/// Triangles at a vertex.
+using Star = boost::container::small_vector<Corner, 12>;
+/// A triangle at a vertex: that and its corner there.
+using Triangle_at = std::array<int, 3>;
+
+/// Brings the triangles of a star into their order around the vertex, from a border on if there is
+/// one. Returns whether they are one fan, open or closed.
+inline bool sort_around(Star& star)
+{
+  const auto starts_at = [&star](int v, std::size_t from) {
+    for (std::size_t k = from; k < star.size(); ++k)
+      if (star[k][0] == v) return k;
+    return star.size();
+  };
+  if (star.empty()) return false;
+  for (std::size_t k = 0; k < star.size(); ++k)
+    if (std::none_of(star.begin(), star.end(),
+                     [&](const Corner& c) { return c[1] == star[k][0]; })) {
+      std::swap(star[0], star[k]);
+      break;
+    }
+  for (std::size_t k = 1; k < star.size(); ++k) {
+    const std::size_t next = starts_at(star[k - 1][1], k);
+    if (next == star.size()) return false;
+    std::swap(star[k], star[next]);
+  }
+  for (std::size_t k = 0; k < star.size(); ++k)
+    if (starts_at(star[k][0], k + 1) < star.size()) return false;
+  return std::none_of(star.begin(), star.end() - 1,
+                      [&](const Corner& c) { return c[1] == star.back()[1]; });
+}
+
+/// Of a star in the order around the vertex.
+inline bool is_closed(const Star& star) { return star.back()[1] == star.front()[0]; }
+
+template <class ConcurrencyTag>
+class Cell_stars {
+public:
+  /// `neighbors`: of each cell, as `PowerRTFEngine::neighbors()` has them.
+  Cell_stars(std::vector<std::vector<int>>&& neighbors, const Feature_samples& features)
+      : m_cells(static_cast<int>(neighbors.size())), m_neighbors(std::move(neighbors)),
+        m_is_agreed(m_cells, 1)
+  {
+    for_each_index<ConcurrencyTag>(m_cells, [&](int i) {
+      for (int& j : m_neighbors[i])
+        if (j >= m_cells) j = m_cells + features.samples_of_sites[j - m_cells];
+    });
+    for_each_index<ConcurrencyTag>(m_cells, [&](int i) {
+      for (std::size_t k = 0; k < m_neighbors[i].size(); ++k)
+        if (!is_agreed(i, corner(i, k))) m_is_agreed[i] = 0;
+    });
+    if (features.size() > 0) find_feature_stars();
+  }
+
+  /// The number of samples with cells, which come first.
+  int cells() const { return m_cells; }
+
+  /// Whether all triangles of a cell are agreed.
+  bool is_agreed(int i) const { return m_is_agreed[i]; }
+
+  /// The neighbors of a cell.
+  const std::vector<int>& neighbors(int i) const { return m_neighbors[i]; }
+
+  /// Calls `f(corner)` for the agreed triangles at `v`.
+  template <class F>
+  void for_each_at(int v, F&& f) const
+  {
+    if (v >= m_cells) {
+      for_each_of(m_at_features, v, f);
+      return;
+    }
+    for (std::size_t k = 0; k < m_neighbors[v].size(); ++k) {
+      const Corner c = corner(v, k);
+      if (m_is_agreed[v] || is_agreed(v, c)) f(c);
+    }
+  }
+
+  /// The same of `triangles`, sorted.
+  template <class F>
+  static void for_each_of(const std::vector<Triangle_at>& triangles, int v, F&& f)
+  {
+    for (auto it = std::lower_bound(triangles.begin(), triangles.end(), Triangle_at{v, -1, -1});
+         it != triangles.end() && (*it)[0] == v; ++it)
+      f(Corner{(*it)[1], (*it)[2]});
+  }
+
+private:
+  Corner corner(int i, std::size_t k) const
+  {
+    const std::vector<int>& around = m_neighbors[i];
+    return {around[k], around[k + 1 < around.size() ? k + 1 : 0]};
+  }
+
+  // Whether `a` is followed by `b` around the cell; one without a cell agrees.
+  bool has(int i, int a, int b) const
+  {
+    if (i >= m_cells) return true;
+    for (std::size_t k = 0; k < m_neighbors[i].size(); ++k)
+      if (m_neighbors[i][k] == a && corner(i, k)[1] == b) return true;
+    return false;
+  }
+
+  bool is_agreed(int i, const Corner& c) const
+  {
+    return c[0] >= 0 && c[1] >= 0 && c[0] != c[1] && has(c[0], c[1], i) && has(c[1], i, c[0]);
+  }
+
+  void find_feature_stars()
+  {
+    constexpr int chunk = 1024;
+    std::vector<std::vector<Triangle_at>> parts((m_cells + chunk - 1) / chunk);
+    for_each_chunk<ConcurrencyTag>(m_cells, chunk, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i)
+        for_each_at(i, [&](const Corner& c) {
+          if (c[0] >= m_cells) parts[begin / chunk].push_back({c[0], c[1], i});
+          if (c[1] >= m_cells) parts[begin / chunk].push_back({c[1], i, c[0]});
+        });
+    });
+    for (const auto& part : parts)
+      m_at_features.insert(m_at_features.end(), part.begin(), part.end());
+    // Found from each of the cells at it.
+    sort_uniquely(m_at_features);
+  }
+
+  int m_cells;
+  std::vector<std::vector<int>> m_neighbors; // samples
+  std::vector<char> m_is_agreed;
+  std::vector<Triangle_at> m_at_features; // the agreed triangles there, sorted
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H

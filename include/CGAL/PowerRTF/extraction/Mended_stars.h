@@ -1,0 +1,331 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The triangles on which the cells agree, mended where they do not make a 2-manifold: a sample
+// whose triangles form no disk is open, and all its triangles are made anew on the piece of the
+// surface around it. Where these do not fit to the others, more samples are opened, and the pieces
+// grow.
+#ifndef CGAL_POWER_RTF_EXTRACTION_MENDED_STARS_H
+#define CGAL_POWER_RTF_EXTRACTION_MENDED_STARS_H
+
+#include <CGAL/PowerRTF/extraction/Cell_stars.h>
+#include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/extraction/Surface_piece.h>
+#include <CGAL/PowerRTF/extraction/component_topology.h>
+#include <CGAL/PowerRTF/extraction/insert_samples.h>
+#include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+template <class ConcurrencyTag>
+class Mended_stars {
+public:
+  /// Keeps references to all but `neighbors`; see `extract_from_cells()`.
+  Mended_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
+               std::vector<std::vector<int>>&& neighbors)
+      : m_surface(surface), m_samples(samples), m_features(features), m_places(samples, features),
+        m_stars(std::move(neighbors), features), m_size(static_cast<int>(samples.size())),
+        m_openings(samples.size(), 0), m_has_made(samples.size(), 0), m_on_curves(features.size())
+  {
+    for (const Edge& e : features.edges)
+      for (const int i : {0, 1}) m_on_curves[e[i]].push_back(m_stars.cells() + e[1 - i]);
+    find_spacing();
+  }
+
+  /// Returns whether the mesh has come to have all that is promised of it.
+  bool mend()
+  {
+    if (!close(find_where([this](int v) { return !is_whole(v) || !lies_well(v); }))) return false;
+    make_mesh();
+    for (int round = 0; round < max_rounds; ++round) {
+      if (!is_homeomorphic(m_surface, m_samples, m_mesh.triangles)) return false;
+      const std::vector<int> crossed = samples_at_intersections();
+      if (crossed.empty()) return true;
+      if (!close(crossed)) return false;
+      make_mesh();
+    }
+    return false;
+  }
+
+  Extracted_mesh& mesh() { return m_mesh; }
+  std::size_t open_samples() const
+  {
+    return std::count_if(m_openings.begin(), m_openings.end(), [](int k) { return k > 0; });
+  }
+  std::size_t pieces() const { return m_pieces.size(); }
+
+private:
+  // A part of the surface where triangles are made anew.
+  struct Piece {
+    std::vector<int> facets;         // sorted
+    std::vector<int> open;           // samples, sorted
+    std::vector<Triangle> triangles; // at these
+  };
+
+  static constexpr int max_rounds = 6;
+  static constexpr double first_reach = 3, growth = 1.6;      // of a piece, in units of the spacing
+  static constexpr double worst_agreement = 0.1, fold = -0.7; // cosines; see `Edge_flipper`
+
+  bool is_open(int v) const { return m_openings[v] > 0; }
+
+  // The side of a square that has the area of a sample's cell.
+  double spacing(int v) const
+  {
+    return m_samples.density.empty() ? m_unit : m_unit / std::sqrt(m_samples.density[v]);
+  }
+  void find_spacing()
+  {
+    double shares = 0;
+    for (int v = 0; v < m_size; ++v)
+      shares += m_samples.density.empty() ? 1 : 1 / m_samples.density[v];
+    m_unit = std::sqrt(m_surface.area / std::max(shares, 1.));
+  }
+
+  template <class Is_wanted>
+  std::vector<int> find_where(const Is_wanted& is_wanted) const
+  {
+    std::vector<char> marks(m_size, 0);
+    for_each_index<ConcurrencyTag>(m_size, [&](int v) { marks[v] = is_wanted(v); });
+    std::vector<int> found;
+    for (int v = 0; v < m_size; ++v)
+      if (marks[v]) found.push_back(v);
+    return found;
+  }
+
+  // The triangles at a sample as they are now.
+  Star star(int v) const
+  {
+    Star star;
+    if (!is_open(v))
+      m_stars.for_each_at(v, [&](const Corner& c) {
+        if (!is_open(c[0]) && !is_open(c[1])) star.push_back(c);
+      });
+    m_stars.for_each_of(m_made, v, [&](const Corner& c) { star.push_back(c); });
+    return star;
+  }
+
+  // Whether the triangles at a sample are a disk, with it on the border if it is on the surface's,
+  // and the pieces of its creases and borders are there.
+  bool is_whole(int v) const
+  {
+    const bool has_cell = v < m_stars.cells();
+    if (has_cell && m_stars.is_agreed(v) && !is_open(v) && !m_has_made[v]) {
+      const std::vector<int>& around = m_stars.neighbors(v);
+      return around.size() >= 3 && are_distinct(around) &&
+             std::none_of(around.begin(), around.end(), [this](int w) { return is_open(w); });
+    }
+    Star s = star(v);
+    if (!sort_around(s)) return false;
+    if (has_cell) return is_closed(s) && s.size() >= 3;
+    const std::vector<int>& curve = m_on_curves[v - m_stars.cells()];
+    const auto is_on_curve = [&](int w) {
+      return std::find(curve.begin(), curve.end(), w) != curve.end();
+    };
+    if (is_closed(s) ? s.size() < 3 : !is_on_curve(s.front()[0]) || !is_on_curve(s.back()[1]))
+      return false;
+    return std::all_of(curve.begin(), curve.end(), [&](int w) {
+      return w == s.back()[1] ||
+             std::any_of(s.begin(), s.end(), [w](const Corner& c) { return c[0] == w; });
+    });
+  }
+
+  static bool are_distinct(const std::vector<int>& items)
+  {
+    for (auto it = items.begin(); it != items.end(); ++it)
+      if (std::find(it + 1, items.end(), *it) != items.end()) return false;
+    return true;
+  }
+
+  // Whether the triangles of a cell agree with the normals at their corners, and none is folded
+  // onto the next one.
+  bool lies_well(int v) const
+  {
+    if (v >= m_stars.cells()) return true;
+    Vec3d first{0, 0, 0}, last{0, 0, 0};
+    bool good = true;
+    m_stars.for_each_at(v, [&](const Corner& c) {
+      const Vec3d& p = m_samples.points[v];
+      const Vec3d n = normalized(cross(m_samples.points[c[0]] - p, m_samples.points[c[1]] - p));
+      for (const int w : {v, c[0], c[1]})
+        if (w < m_stars.cells()) good = good && dot(n, m_samples.normals[w]) > worst_agreement;
+      good = good && squared_length(n) > 0 && dot(n, last) > fold;
+      if (squared_length(last) == 0) first = n;
+      last = n;
+    });
+    return good && dot(first, last) > fold;
+  }
+
+  // Makes the triangles at the samples anew, and at more of them until all fit.
+  bool close(std::vector<int> faulty)
+  {
+    for (int round = 0; round < max_rounds && !faulty.empty(); ++round) {
+      for (const int v : faulty) ++m_openings[v];
+      if (!add_pieces(faulty)) return false;
+      gather_made();
+      faulty = find_where([this](int v) { return !is_whole(v); });
+    }
+    return faulty.empty();
+  }
+
+  // Pieces around the samples, joined with those that they touch. Returns `false` if they are much
+  // of the surface.
+  bool add_pieces(const std::vector<int>& samples)
+  {
+    const std::size_t old = m_pieces.size();
+    m_pieces.resize(old + samples.size());
+    for_each_chunk<ConcurrencyTag>(static_cast<int>(samples.size()), 1, [&](int k, int) {
+      const int v = samples[k];
+      const double reach = first_reach * std::pow(growth, m_openings[v] - 1) * spacing(v);
+      m_pieces[old + k] = {
+          facets_near(m_surface, m_samples.points[v], m_samples.facets[v], reach), {v}, {}};
+    });
+    join_touching();
+    std::size_t facets = 0;
+    for (const Piece& piece : m_pieces) facets += piece.facets.size();
+    if (2 * facets > m_surface.triangles.size()) return false;
+    std::vector<int> due;
+    for (int k = 0; k < static_cast<int>(m_pieces.size()); ++k)
+      if (m_pieces[k].triangles.empty()) due.push_back(k);
+    for_each_chunk<ConcurrencyTag>(static_cast<int>(due.size()), 1,
+                                   [&](int k, int) { triangulate(m_pieces[due[k]]); });
+    return true;
+  }
+
+  void join_touching()
+  {
+    std::vector<std::pair<int, int>> facets; // and their pieces
+    for (std::size_t k = 0; k < m_pieces.size(); ++k)
+      for (const int f : m_pieces[k].facets) facets.emplace_back(f, static_cast<int>(k));
+    std::sort(facets.begin(), facets.end());
+    boost::disjoint_sets_with_storage<> sets(m_pieces.size());
+    for (std::size_t k = 1; k < facets.size(); ++k)
+      if (facets[k].first == facets[k - 1].first)
+        sets.union_set(facets[k].second, facets[k - 1].second);
+    std::vector<Piece> joined;
+    std::vector<int> place(m_pieces.size(), -1); // by root
+    for (std::size_t k = 0; k < m_pieces.size(); ++k) {
+      int& at = place[sets.find_set(k)];
+      if (at < 0) {
+        at = static_cast<int>(joined.size());
+        joined.push_back(std::move(m_pieces[k]));
+        continue;
+      }
+      Piece& piece = joined[at];
+      piece.facets.insert(piece.facets.end(), m_pieces[k].facets.begin(), m_pieces[k].facets.end());
+      piece.open.insert(piece.open.end(), m_pieces[k].open.begin(), m_pieces[k].open.end());
+      piece.triangles.clear();
+    }
+    for (Piece& piece : joined) {
+      sort_uniquely(piece.facets);
+      sort_uniquely(piece.open);
+    }
+    m_pieces = std::move(joined);
+  }
+
+  // The triangles at the piece's open samples whose corners are samples.
+  void triangulate(Piece& piece) const
+  {
+    const Surface_piece part(m_surface, m_samples, m_places, piece.facets);
+    Working_mesh mesh(insert_samples(part.surface, part.samples, part.places));
+    reduce_to_samples(mesh, false);
+    for (Triangle t : mesh.triangles()) {
+      for (int& v : t) {
+        const int s = mesh.samples[Working_mesh::Vertex(v)];
+        v = s < 0 ? -1 : part.names[s];
+      }
+      const bool is_made = std::any_of(t.begin(), t.end(), [&](int v) {
+        return std::binary_search(piece.open.begin(), piece.open.end(), v);
+      });
+      if (is_made && *std::min_element(t.begin(), t.end()) >= 0) piece.triangles.push_back(t);
+    }
+  }
+
+  void gather_made()
+  {
+    m_made_triangles.clear();
+    for (const Piece& piece : m_pieces)
+      for (Triangle t : piece.triangles) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        m_made_triangles.push_back(t);
+      }
+    sort_uniquely(m_made_triangles); // those between two pieces are in both
+    m_made.clear();
+    for (const auto& [a, b, c] : m_made_triangles)
+      m_made.insert(m_made.end(), {{a, b, c}, {b, c, a}, {c, a, b}});
+    std::sort(m_made.begin(), m_made.end());
+    std::fill(m_has_made.begin(), m_has_made.end(), 0);
+    for (const Triangle_at& t : m_made) m_has_made[t[0]] = 1;
+  }
+
+  void make_mesh()
+  {
+    m_mesh.points.resize(m_size);
+    for_each_index<ConcurrencyTag>(m_size, [&](int v) {
+      m_mesh.points[v] = m_surface.normalization.snapped(m_samples.points[v]);
+    });
+    constexpr int chunk = 1024;
+    std::vector<std::vector<Triangle>> parts((m_stars.cells() + chunk - 1) / chunk);
+    for_each_chunk<ConcurrencyTag>(m_stars.cells(), chunk, [&](int begin, int end) {
+      std::vector<Triangle>& part = parts[begin / chunk];
+      for (int v = begin; v < end; ++v) {
+        if (is_open(v)) continue;
+        const std::size_t first = part.size();
+        m_stars.for_each_at(v, [&](const Corner& c) {
+          if (v < c[0] && v < c[1] && !is_open(c[0]) && !is_open(c[1]))
+            part.push_back({v, c[0], c[1]});
+        });
+        std::sort(part.begin() + first, part.end());
+      }
+    });
+    std::vector<Triangle> agreed;
+    for (const auto& part : parts) agreed.insert(agreed.end(), part.begin(), part.end());
+    m_mesh.triangles.resize(agreed.size() + m_made_triangles.size());
+    std::merge(agreed.begin(), agreed.end(), m_made_triangles.begin(), m_made_triangles.end(),
+               m_mesh.triangles.begin());
+    m_mesh.feature_edges.clear();
+    for (const Edge& e : m_features.edges)
+      m_mesh.feature_edges.push_back(sorted_edge(m_stars.cells() + e[0], m_stars.cells() + e[1]));
+    sort_uniquely(m_mesh.feature_edges);
+  }
+
+  std::vector<int> samples_at_intersections() const
+  {
+    std::vector<int> found;
+    const std::vector<Triangle>& triangles = m_mesh.triangles;
+    Intersecting_pairs<Soup_triangles>({m_mesh.points, triangles})
+        .find(boost::irange(0, static_cast<int>(triangles.size())), [&](int t, int u) {
+          found.insert(found.end(), triangles[t].begin(), triangles[t].end());
+          found.insert(found.end(), triangles[u].begin(), triangles[u].end());
+        });
+    sort_uniquely(found);
+    return found;
+  }
+
+  const Surface& m_surface;
+  const Samples& m_samples;
+  const Feature_samples& m_features;
+  Sample_places m_places;
+  Cell_stars<ConcurrencyTag> m_stars;
+  int m_size;
+  double m_unit = 0;                         // the spacing where the density is 1
+  std::vector<int> m_openings;               // by sample: how often its triangles were found wrong
+  std::vector<char> m_has_made;              // by sample: triangles of the pieces
+  std::vector<std::vector<int>> m_on_curves; // by sample on features: its neighbors along them
+  std::vector<Piece> m_pieces;
+  std::vector<Triangle> m_made_triangles; // of the pieces, sorted
+  std::vector<Triangle_at> m_made;        // the same at their corners, sorted
+  Extracted_mesh m_mesh;
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_EXTRACTION_MENDED_STARS_H

@@ -1,0 +1,32 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Definition for extract_from_cells.h.
+#ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_FROM_CELLS_IMPL_H
+#define CGAL_POWER_RTF_EXTRACTION_EXTRACT_FROM_CELLS_IMPL_H
+
+#include <CGAL/PowerRTF/extraction/Mended_stars.h>
+#include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
+#include <CGAL/PowerRTF/extraction/extract_from_cells.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+template <class ConcurrencyTag>
+Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples,
+                                  const Feature_samples& features,
+                                  std::vector<std::vector<int>>&& neighbors,
+                                  Cell_extraction_statistics* statistics)
+{
+  internal::Mended_stars<ConcurrencyTag> stars(surface, samples, features, std::move(neighbors));
+  const bool is_mended = stars.mend();
+  if (statistics) *statistics = {stars.open_samples(), stars.pieces(), !is_mended};
+  return is_mended ? stars.mesh() : extract_by_insertion(surface, samples, features);
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_EXTRACTION_EXTRACT_FROM_CELLS_IMPL_H
