@@ -72,7 +72,9 @@ private:
   };
 
   static constexpr int max_rounds = 6;
-  static constexpr double first_reach = 3, growth = 1.6;      // of a piece, in units of the spacing
+  static constexpr double first_reach = 3, growth = 1.6; // of a piece, in units of the spacing
+  static constexpr double max_cover = 4; // of the surface, by pieces before they are joined
+  static constexpr double pi = 3.14159265358979323846;
   static constexpr double worst_agreement = 0.1, fold = -0.7; // cosines; see `Edge_flipper`
 
   bool is_open(int v) const { return m_openings[v] > 0; }
@@ -88,6 +90,12 @@ private:
     for (int v = 0; v < m_size; ++v)
       shares += m_samples.density.empty() ? 1 : 1 / m_samples.density[v];
     m_unit = std::sqrt(m_surface.area / std::max(shares, 1.));
+  }
+
+  // Of a piece around an open sample.
+  double reach(int v) const
+  {
+    return first_reach * std::pow(growth, m_openings[v] - 1) * spacing(v);
   }
 
   template <class Is_wanted>
@@ -180,13 +188,15 @@ private:
   // of the surface.
   bool add_pieces(const std::vector<int>& samples)
   {
+    double area = 0;
+    for (const int v : samples) area += pi * reach(v) * reach(v);
+    if (area > max_cover * m_surface.area) return false;
     const std::size_t old = m_pieces.size();
     m_pieces.resize(old + samples.size());
     for_each_chunk<ConcurrencyTag>(static_cast<int>(samples.size()), 1, [&](int k, int) {
       const int v = samples[k];
-      const double reach = first_reach * std::pow(growth, m_openings[v] - 1) * spacing(v);
       m_pieces[old + k] = {
-          facets_near(m_surface, m_samples.points[v], m_samples.facets[v], reach), {v}, {}};
+          facets_near(m_surface, m_samples.points[v], m_samples.facets[v], reach(v)), {v}, {}};
     });
     join_touching();
     std::size_t facets = 0;
