@@ -273,17 +273,28 @@ TEST_CASE("two samples at one place stay two vertices")
 TEST_CASE("the topology of components is compared one by one")
 {
   const auto is_homeomorphic = [](const shapes::Soup& surface, const shapes::Soup& mesh) {
-    Samples samples;
     const Surface s = shapes::make_surface(surface);
-    samples.points = mesh.points;
-    for (const Vec3d& p : mesh.points) { // the component by the side of x = 1.5
+    std::vector<int> facets; // the component by the side of x = 1.5
+    for (const Vec3d& p : mesh.points) {
       int facet = 0;
       while (facet + 1 < int(s.triangles.size()) &&
              (surface.points[surface.triangles[facet][0]].x > 1.5) != (p.x > 1.5))
         ++facet;
-      samples.facets.push_back(facet);
+      facets.push_back(facet);
     }
-    return internal::is_homeomorphic(s, samples, mesh.triangles);
+    const auto star = [&](int v) {
+      internal::Star star;
+      for (const auto& [a, b, c] : mesh.triangles) {
+        if (v == a) star.push_back({b, c});
+        if (v == b) star.push_back({c, a});
+        if (v == c) star.push_back({a, b});
+      }
+      CHECK(internal::sort_around(star));
+      return star;
+    };
+    return internal::are_homeomorphic(
+        internal::surface_topology<Parallel_if_available_tag>(s),
+        internal::star_topology<Sequential_tag>(int(mesh.points.size()), star), facets);
   };
   using namespace shapes;
   const Soup ball = icosphere(1), ring = torus(12, 8, 1, .4), tube = open_cylinder(8, 4, .5, 2);
@@ -298,6 +309,23 @@ TEST_CASE("the topology of components is compared one by one")
   CHECK_FALSE(is_homeomorphic(joined(ball, far(ring)), joined(ring, far(ball))));
   CHECK_FALSE(is_homeomorphic(joined(ball, far(ball)), ball));
   CHECK_FALSE(is_homeomorphic(joined(ball, far(ball)), joined(ball, translated(ball, {0, 3, 0}))));
+}
+
+TEST_CASE("the topology of a surface is the known one")
+{
+  for (const Shape& shape : plain_shapes()) {
+    CAPTURE(shape.name);
+    const Topology_statistics expected = topology(shape.surface.triangles);
+    const auto found = internal::surface_topology<Parallel_if_available_tag>(shape.surface);
+    CHECK(found.size() == int(expected.components));
+    CHECK(found.component == facet_components(shape.surface.adjacency).first);
+    long sum = 0, loops = 0;
+    for (const long c : found.six_euler_characteristics) sum += c;
+    for (const long l : found.border_loops) loops += l;
+    CHECK(sum == 6 * expected.euler_characteristic);
+    CHECK(loops == long(expected.border_loops));
+  }
+  CHECK(internal::surface_topology<Sequential_tag>(Surface()).size() == 0);
 }
 
 TEST_CASE("a piece of a surface is a 2-manifold with the samples on it")

@@ -8,10 +8,9 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 #define CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 
+#include <CGAL/PowerRTF/extraction/Star.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
-
-#include <boost/container/small_vector.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,42 +20,8 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// The other two vertices of a triangle at a vertex, counter-clockwise.
-using Corner = std::array<int, 2>;
-/// Triangles at a vertex.
-using Star = boost::container::small_vector<Corner, 12>;
 /// A triangle at a vertex: that and its corner there.
 using Triangle_at = std::array<int, 3>;
-
-/// Brings the triangles of a star into their order around the vertex, from a border on if there is
-/// one. Returns whether they are one fan, open or closed.
-inline bool sort_around(Star& star)
-{
-  const auto starts_at = [&star](int v, std::size_t from) {
-    for (std::size_t k = from; k < star.size(); ++k)
-      if (star[k][0] == v) return k;
-    return star.size();
-  };
-  if (star.empty()) return false;
-  for (std::size_t k = 0; k < star.size(); ++k)
-    if (std::none_of(star.begin(), star.end(),
-                     [&](const Corner& c) { return c[1] == star[k][0]; })) {
-      std::swap(star[0], star[k]);
-      break;
-    }
-  for (std::size_t k = 1; k < star.size(); ++k) {
-    const std::size_t next = starts_at(star[k - 1][1], k);
-    if (next == star.size()) return false;
-    std::swap(star[k], star[next]);
-  }
-  for (std::size_t k = 0; k < star.size(); ++k)
-    if (starts_at(star[k][0], k + 1) < star.size()) return false;
-  return std::none_of(star.begin(), star.end() - 1,
-                      [&](const Corner& c) { return c[1] == star.back()[1]; });
-}
-
-/// Of a star in the order around the vertex.
-inline bool is_closed(const Star& star) { return star.back()[1] == star.front()[0]; }
 
 template <class ConcurrencyTag>
 class Cell_stars {

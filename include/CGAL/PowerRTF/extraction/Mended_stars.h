@@ -47,7 +47,7 @@ public:
     if (!close(find_where([this](int v) { return !is_whole(v) || !lies_well(v); }))) return false;
     make_mesh();
     for (int round = 0; round < max_rounds; ++round) {
-      if (!is_homeomorphic(m_surface, m_samples, m_mesh.triangles)) return false;
+      if (!has_topology_of_surface()) return false;
       const std::vector<int> crossed = samples_at_intersections();
       if (crossed.empty()) return true;
       if (!close(crossed)) return false;
@@ -72,7 +72,7 @@ private:
   };
 
   static constexpr int max_rounds = 6;
-  static constexpr double first_reach = 3, growth = 1.6; // of a piece, in units of the spacing
+  static constexpr double first_reach = 2, growth = 1.6; // of a piece, in units of the spacing
   static constexpr double max_cover = 4; // of the surface, by pieces before they are joined
   static constexpr double pi = 3.14159265358979323846;
   static constexpr double worst_agreement = 0.1, fold = -0.7; // cosines; see `Edge_flipper`
@@ -307,6 +307,18 @@ private:
     sort_uniquely(m_mesh.feature_edges);
   }
 
+  bool has_topology_of_surface()
+  {
+    if (m_topology.component.empty()) m_topology = surface_topology<ConcurrencyTag>(m_surface);
+    const auto ordered_star = [this](int v) {
+      Star s = star(v);
+      sort_around(s);
+      return s;
+    };
+    return are_homeomorphic(m_topology, star_topology<ConcurrencyTag>(m_size, ordered_star),
+                            m_samples.facets);
+  }
+
   std::vector<int> samples_at_intersections() const
   {
     std::vector<int> found;
@@ -334,6 +346,7 @@ private:
   std::vector<Triangle> m_made_triangles; // of the pieces, sorted
   std::vector<Triangle_at> m_made;        // the same at their corners, sorted
   Extracted_mesh m_mesh;
+  Component_topology m_topology; // of the surface, once it was needed
 };
 
 } // namespace CGAL::PowerRTF::internal
