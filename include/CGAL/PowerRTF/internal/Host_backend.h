@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/internal/Single_lane.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -25,18 +26,23 @@ template <class ConcurrencyTag>
 class Host_backend {
 public:
   static constexpr bool works_by_warps = false;
+  static internal::Concurrency concurrency() { return ConcurrencyTag(); }
 
   /// Memory that is freed with it. Its contents are lost when it grows.
   template <class T>
   class Buffer {
   public:
-    void allocate(Host_backend&, std::size_t n) { m_items.resize(n); }
+    void allocate(Host_backend&, std::size_t n)
+    {
+      if (n > m_items.capacity()) m_items = {};
+      m_items.resize(n);
+    }
     T* data() { return m_items.data(); }
     const T* data() const { return m_items.data(); }
     std::size_t size() const { return m_items.size(); }
 
   private:
-    std::vector<T> m_items;
+    internal::Unset_vector<T> m_items;
   };
 
   /// One item that both sides see.
@@ -112,17 +118,20 @@ public:
   template <class T>
   void upload(T* to, const T* from, std::size_t n)
   {
-    std::copy(from, from + n, to);
+    for_each_part(n, [=](std::size_t begin, std::size_t end) {
+      std::copy(from + begin, from + end, to + begin);
+    });
   }
   template <class T>
   void download(T* to, const T* from, std::size_t n)
   {
-    std::copy(from, from + n, to);
+    upload(to, from, n);
   }
   template <class T>
   void fill(T* to, T value, std::size_t n)
   {
-    std::fill(to, to + n, value);
+    for_each_part(
+        n, [=](std::size_t begin, std::size_t end) { std::fill(to + begin, to + end, value); });
   }
 
   void synchronize() {}
@@ -133,6 +142,15 @@ public:
   std::string name() const { return {}; }
 
 private:
+  template <class F>
+  static void for_each_part(std::size_t n, F f)
+  {
+    constexpr std::size_t part = 1 << 14;
+    internal::for_each_chunk<ConcurrencyTag>(int((n + part - 1) / part), 1, [&](int k, int) {
+      f(k * part, (std::min)(n, (k + 1) * part));
+    });
+  }
+
   template <class T, class F>
   static T total(int n, F f)
   {

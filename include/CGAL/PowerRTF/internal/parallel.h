@@ -17,6 +17,7 @@
 #endif
 
 #include <algorithm>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -123,6 +124,28 @@ template <class ConcurrencyTag, class T, class Accumulate, class Join>
 T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
 {
   return reduce(ConcurrencyTag(), n, zero, accumulate, join);
+}
+
+/// Replaces each of n values, none negative, by the sum of those before it. The sums never fall.
+/// \returns the sum of all
+template <class T>
+T exclusive_scan(Concurrency concurrency, int n, T* values)
+{
+  constexpr int chunk = 4096;
+  std::vector<T> first((n + chunk - 1) / chunk + 1, T(0)); // of each chunk, and the end
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    first[begin / chunk + 1] = std::accumulate(values + begin, values + end, T(0));
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    T sum = first[begin / chunk];
+    for (int i = begin; i < end; ++i) {
+      const T value = values[i];
+      values[i] = std::min(sum, first[begin / chunk + 1]); // rounding leads no further
+      sum += value;
+    }
+  });
+  return first.back();
 }
 
 /// Sorts items that all differ.

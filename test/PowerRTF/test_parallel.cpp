@@ -1,0 +1,82 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
+
+#include <CGAL/tags.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+using namespace CGAL::PowerRTF::internal;
+
+namespace {
+
+const Concurrency both[] = {CGAL::Sequential_tag(), CGAL::Parallel_if_available_tag()};
+const int sizes[] = {0, 1, 2, 4095, 4096, 4097, 100000};
+
+} // namespace
+
+TEST_CASE("a scan has the sums of what is before")
+{
+  for (const int n : sizes)
+    for (const Concurrency& concurrency : both) {
+      std::vector<int> values(n), expected(n);
+      for (int i = 0; i < n; ++i) values[i] = i % 7;
+      for (int i = 1; i < n; ++i) expected[i] = expected[i - 1] + values[i - 1];
+      const int sum = std::accumulate(values.begin(), values.end(), 0);
+      CHECK(exclusive_scan(concurrency, n, values.data()) == sum);
+      CHECK(values == expected);
+    }
+}
+
+TEST_CASE("rounded sums never fall, and are the same for any concurrency")
+{
+  for (const int n : sizes) {
+    Random_source random(1);
+    std::vector<double> values(n);
+    for (double& x : values) x = random() < 0.5 ? 0 : std::pow(random(), 20);
+    const double exact = std::accumulate(values.begin(), values.end(), 0.L);
+    std::vector<double> other = values;
+    const double sum = exclusive_scan(both[0], n, values.data());
+    CHECK(exclusive_scan(both[1], n, other.data()) == sum);
+    CHECK(other == values);
+    CHECK(std::is_sorted(values.begin(), values.end()));
+    CHECK(sum == doctest::Approx(exact).epsilon(1e-12));
+    if (n > 0) CHECK(values.back() <= sum);
+  }
+}
+
+TEST_CASE("what is selected keeps its order")
+{
+  for (const int n : sizes)
+    for (const Concurrency& concurrency : both) {
+      std::vector<int> expected;
+      for (int i = 0; i < n; i += 3) expected.push_back(i);
+      CHECK(select(concurrency, n, [](int i) { return i % 3 == 0; }) == expected);
+    }
+}
+
+TEST_CASE("copies and fills of any length")
+{
+  Host_backend<CGAL::Parallel_if_available_tag> backend;
+  for (const int n : sizes) {
+    std::vector<int> from(n), to(n, -1);
+    std::iota(from.begin(), from.end(), 0);
+    Host_backend<CGAL::Parallel_if_available_tag>::Buffer<int> buffer;
+    buffer.allocate(backend, n);
+    CHECK(buffer.size() == std::size_t(n));
+    backend.upload(buffer.data(), from.data(), n);
+    backend.download(to.data(), buffer.data(), n);
+    CHECK(to == from);
+    backend.fill(buffer.data(), 7, n);
+    CHECK(std::count(buffer.data(), buffer.data() + n, 7) == n);
+  }
+}
