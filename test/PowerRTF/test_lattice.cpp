@@ -101,7 +101,8 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
     flat.points[i].x += 1; // away from the pole
     flat.spacing[i] = float(0.1 * length(flat.points[i]));
   }
-  const Point_tree tree(flat.points);
+  Host_backend<CGAL::Sequential_tag> backend;
+  const Point_tree tree(backend, flat.points.data(), static_cast<int>(flat.points.size()));
   Lattice_view view = flat.view();
   view.edges = edges.data();
   for (int i = 0; i < view.size; ++i) Find_lattice_neighbors{view, tree.view(), 0, 0.85f}(i);
@@ -121,7 +122,8 @@ TEST_CASE("a flat piece gets one lattice, whatever it begins from")
 {
   const Surface surface = shapes::make_surface(shapes::plane_patch(7, 7));
   const Component_share share{450, surface.area, surface.area / 450};
-  const Surface_strata strata(surface, std::vector<int>(surface.triangles.size(), 0), {share});
+  const Surface_strata strata(surface, std::vector<int>(surface.triangles.size(), 0), {share},
+                              CGAL::Sequential_tag());
   std::vector<Lattice_nodes> levels;
   for (int count = 2700; count > 32; count /= 2) {
     Lattice_nodes nodes;

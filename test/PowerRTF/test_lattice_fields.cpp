@@ -5,6 +5,7 @@
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/sampling/lattice_defects.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
@@ -31,7 +32,8 @@ struct Flat_defects {
 Flat_defects flat_defects(Flat_lattice& flat, int index, int dislocations)
 {
   std::vector<Lattice_edge> edges(flat.points.size() * Lattice_view::degree);
-  const Point_tree tree(flat.points);
+  Host_backend<CGAL::Sequential_tag> backend;
+  const Point_tree tree(backend, flat.points.data(), static_cast<int>(flat.points.size()));
   Lattice_view view = flat.view();
   view.edges = edges.data();
   Flat_defects result;

@@ -318,31 +318,68 @@ TEST_CASE("grid: points within a radius, compared with all pairs")
   empty.for_each_near({0, 0, 0}, 1, [](int, double) { FAIL("there is no point"); });
 }
 
+namespace {
+
+using Candidates = std::vector<internal::Elimination_candidate>;
+
+/// The heaviest candidate goes, of equal ones the last, until n are left.
+std::vector<int> eliminated_in_turn(const Candidates& candidates, std::size_t n)
+{
+  const auto weight = [&](int i, const std::vector<int>& alive) {
+    double w = 0;
+    for (const int j : alive) {
+      const auto &a = candidates[i], &b = candidates[j];
+      const double x = 1 - length(a.point - b.point) / (a.radius + b.radius);
+      if (j != i && x > 0 && dot(a.normal, b.normal) > 0) w += std::pow(x, 8);
+    }
+    return w;
+  };
+  std::vector<int> alive(candidates.size());
+  std::iota(alive.begin(), alive.end(), 0);
+  while (alive.size() > n)
+    alive.erase(std::max_element(alive.begin(), alive.end(), [&](int a, int b) {
+      return std::pair(weight(a, alive), a) < std::pair(weight(b, alive), b);
+    }));
+  return alive;
+}
+
+} // namespace
+
 TEST_CASE("elimination against its definition")
 {
   for (unsigned seed = 0; seed < 3; ++seed) {
     Random_source random(seed);
-    std::vector<Vec3d> points, normals;
-    std::vector<double> radii;
+    Candidates candidates;
     for (int i = 0; i < 200; ++i) {
-      points.push_back({random(), random(), 0});
-      normals.push_back({0, 0, i % 5 == 0 ? -1. : 1.});
-      radii.push_back(0.02 * (1 + 9 * random())); // four levels of grids
+      const Vec3d point{random(), random(), 0};
+      candidates.push_back({point, {0, 0, i % 5 == 0 ? -1. : 1.}, 0.02 * (1 + 9 * random())});
     }
-    const auto weight = [&](int i, const std::vector<int>& alive) {
-      double w = 0;
-      for (const int j : alive) {
-        const double x = 1 - length(points[i] - points[j]) / (radii[i] + radii[j]);
-        if (j != i && x > 0 && dot(normals[i], normals[j]) > 0) w += std::pow(x, 8);
-      }
-      return w;
-    };
-    std::vector<int> alive(points.size());
-    std::iota(alive.begin(), alive.end(), 0);
-    while (alive.size() > 60)
-      alive.erase(std::max_element(alive.begin(), alive.end(), [&](int a, int b) {
-        return std::pair(weight(a, alive), a) < std::pair(weight(b, alive), b);
-      }));
-    CHECK(eliminate_samples(points, normals, radii, 0.5, 60) == alive);
+    for (const std::size_t n : {0, 1, 60, 190, 199, 200, 300}) {
+      const std::vector<int> expected = eliminated_in_turn(candidates, n);
+      CHECK(eliminate_samples(candidates, 0.5, n) == expected);
+      CHECK(eliminate_samples(candidates, 0.5, n, 0, CGAL::Parallel_if_available_tag()) ==
+            expected);
+    }
   }
+  CHECK(eliminate_samples({}, 0.5, 0).empty());
+}
+
+TEST_CASE("elimination where each candidate waits for the next one")
+{
+  Candidates line; // closer and closer together
+  for (int i = 0; i < 300; ++i) line.push_back({{-1 + std::pow(0.99, i), 0, 0}, {0, 0, 1}, 0.1});
+  for (const std::size_t n : {5, 100, 250})
+    CHECK(eliminate_samples(line, 0.5, n) == eliminated_in_turn(line, n));
+}
+
+TEST_CASE("fixed candidates crowd the others, and stay")
+{
+  Random_source random(1);
+  Candidates candidates;
+  for (int i = 0; i < 400; ++i) candidates.push_back({{random(), random(), 0}, {0, 0, 1}, 0.05});
+  for (int i = 0; i < 100; ++i) candidates.push_back({{0.01 * i, 0.5, 0}, {0, 0, 1}, 0.05});
+  const std::vector<int> chosen = eliminate_samples(candidates, 0.5, 60, 100);
+  CHECK(chosen.size() == 60);
+  CHECK(chosen.back() < 400);
+  for (const int i : chosen) CHECK(std::fabs(candidates[i].point.y - 0.5) > 0.02);
 }

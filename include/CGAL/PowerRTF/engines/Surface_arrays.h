@@ -13,17 +13,6 @@
 
 namespace CGAL::PowerRTF {
 
-template <class Real>
-inline Vec3<Real> to_real(const Vec3d& p)
-{
-  return {Real(p.x), Real(p.y), Real(p.z)};
-}
-template <class Real>
-inline Vec3d to_double(const Vec3<Real>& p)
-{
-  return {double(p.x), double(p.y), double(p.z)};
-}
-
 template <class Real, class Backend>
 class Surface_arrays {
 public:

@@ -7,8 +7,6 @@
 
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 
-#include <vector>
-
 namespace CGAL::PowerRTF {
 
 /// The box of a point of an array.
@@ -54,21 +52,40 @@ struct Point_tree_view {
   }
 };
 
-/// Owns what is behind a `Point_tree_view`.
+/// Computes the node `k` of a level; the levels are done in ascending order.
+struct Fit_point_node {
+  Packed_tree_layout tree;
+  int level;
+  const Vec3d* points;
+  Box3<double>* boxes;
+  Child_boxes* nodes;
+  CGAL_POWER_RTF_HD void operator()(int k) const
+  {
+    fit_child_boxes(tree, level, k, Box_of_point{points}, boxes, nodes);
+  }
+};
+
+/// Owns what is behind a `Point_tree_view`, but for the points.
+template <class Backend>
 class Point_tree {
 public:
-  /// Keeps a reference to `points`, of coordinates of size at most 1.
-  explicit Point_tree(const std::vector<Vec3d>& points)
-      : m_points(points), m_tree(static_cast<int>(points.size())),
-        m_nodes(child_boxes(m_tree, Box_of_point{points.data()}))
-  {}
+  /// Of `n` points with coordinates of size at most 1, where the backend sees them.
+  Point_tree(Backend& backend, const Vec3d* points, int n) : m_points(points), m_tree(n)
+  {
+    typename Backend::template Buffer<Box3<double>> boxes;
+    boxes.allocate(backend, m_tree.nodes());
+    m_nodes.allocate(backend, m_tree.nodes());
+    for (int level = 0; level < m_tree.levels; ++level)
+      backend.for_each(m_tree.nodes(level),
+                       Fit_point_node{m_tree, level, m_points, boxes.data(), m_nodes.data()});
+  }
 
-  Point_tree_view view() const { return {m_points.data(), m_tree, m_nodes.data()}; }
+  Point_tree_view view() const { return {m_points, m_tree, m_nodes.data()}; }
 
 private:
-  const std::vector<Vec3d>& m_points;
+  const Vec3d* m_points;
   Packed_tree_layout m_tree;
-  std::vector<Child_boxes> m_nodes;
+  typename Backend::template Buffer<Child_boxes> m_nodes;
 };
 
 } // namespace CGAL::PowerRTF

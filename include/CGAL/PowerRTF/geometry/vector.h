@@ -100,6 +100,17 @@ CGAL_POWER_RTF_HD constexpr float epsilon<float>()
 }
 } // namespace internal
 
+template <class Real>
+inline Vec3<Real> to_real(const Vec3d& p)
+{
+  return {Real(p.x), Real(p.y), Real(p.z)};
+}
+template <class Real>
+inline Vec3d to_double(const Vec3<Real>& p)
+{
+  return {double(p.x), double(p.y), double(p.z)};
+}
+
 } // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_GEOMETRY_VECTOR_H

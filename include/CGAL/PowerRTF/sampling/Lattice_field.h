@@ -20,14 +20,23 @@ namespace CGAL::PowerRTF {
 /// borders, which are points of the lattice.
 struct Lattice_nodes {
   int free = 0;
-  std::vector<Vec3d> points;
-  std::vector<Vec3f> normals;             ///< unit
-  std::vector<int> components;            ///< of the surface
-  std::vector<float> spacing;             ///< h
-  std::vector<Phasor> directions;         ///< of sites along a curve, six times the angle
-  std::vector<unsigned char> is_directed; ///< the direction stays
+  internal::Unset_vector<Vec3d> points;
+  internal::Unset_vector<Vec3f> normals;     ///< unit
+  internal::Unset_vector<int> components;    ///< of the surface
+  internal::Unset_vector<float> spacing;     ///< h
+  internal::Unset_vector<Phasor> directions; ///< of sites along a curve, six times the angle
+  internal::Unset_vector<unsigned char> is_directed; ///< the direction stays
 
   int size() const { return static_cast<int>(points.size()); }
+  void resize(std::size_t n)
+  {
+    points.resize(n);
+    normals.resize(n);
+    components.resize(n);
+    spacing.resize(n);
+    directions.resize(n);
+    is_directed.resize(n);
+  }
 };
 
 /// Each level is solved from the next coarser one's result by Jacobi's sweeps, so the fields are
@@ -78,7 +87,7 @@ public:
       m_backend.for_each(view.size,
                          Scale_spacing{level.nodes_spacing.data(), factor, level.spacing.data()});
       if (l + 1 == m_levels.size())
-        m_backend.for_each(view.free, Set_crests{view});
+        m_backend.for_each(view.free, Set_crests{view.waves});
       else
         m_backend.for_each(view.free, Refine_waves{m_levels[l + 1].view(), view});
       m_backend.for_each(view.size, Set_wave_edges{view});
@@ -117,8 +126,8 @@ private:
   };
   /// The node is a point of the lattice.
   struct Set_crests {
-    Lattice_view view;
-    CGAL_POWER_RTF_HD void operator()(int i) const { view.waves[i] = {{{1, 0}, {1, 0}, {1, 0}}}; }
+    Waves* waves;
+    CGAL_POWER_RTF_HD void operator()(int i) const { waves[i] = {{{1, 0}, {1, 0}, {1, 0}}}; }
   };
   struct Scale_spacing {
     const float* from;
@@ -126,18 +135,6 @@ private:
     float* to;
     CGAL_POWER_RTF_HD void operator()(int i) const { to[i] = factor * from[i]; }
   };
-  struct Fit_node {
-    Packed_tree_layout tree;
-    int level;
-    const Vec3d* points;
-    Box3<double>* boxes;
-    Child_boxes* nodes;
-    CGAL_POWER_RTF_HD void operator()(int k) const
-    {
-      fit_child_boxes(tree, level, k, Box_of_point{points}, boxes, nodes);
-    }
-  };
-
   struct Level {
     int size = 0, free = 0;
     Buffer<Vec3d> points;
@@ -184,9 +181,10 @@ private:
       next_directions.allocate(backend, size);
       axes.allocate(backend, size);
       edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
-      const std::vector<Waves> crests(size, Waves{{{1, 0}, {1, 0}, {1, 0}}}); // what sites have
-      upload(waves, crests);
-      upload(next_waves, crests);
+      waves.allocate(backend, size);
+      next_waves.allocate(backend, size);
+      backend.for_each(size, Set_crests{waves.data()}); // what sites have
+      backend.for_each(size, Set_crests{next_waves.data()});
       turning.allocate(backend, size);
       next_turning.allocate(backend, size);
       find_neighbors(backend, reach);
@@ -199,17 +197,9 @@ private:
 
     void find_neighbors(Backend& backend, float reach)
     {
-      const Packed_tree_layout tree(size);
-      Buffer<Box3<double>> boxes;
-      Buffer<Child_boxes> nodes;
-      boxes.allocate(backend, tree.nodes());
-      nodes.allocate(backend, tree.nodes());
-      for (int l = 0; l < tree.levels; ++l)
-        backend.for_each(tree.nodes(l),
-                         Fit_node{tree, l, points.data(), boxes.data(), nodes.data()});
+      const Point_tree<Backend> tree(backend, points.data(), size);
       backend.for_each(size,
-                       Find_lattice_neighbors{
-                           view(), {points.data(), tree, nodes.data()}, cos_neighbor_angle, reach});
+                       Find_lattice_neighbors{view(), tree.view(), cos_neighbor_angle, reach});
     }
   };
 

@@ -108,7 +108,7 @@ private:
 
   void make_nodes()
   {
-    const Surface_strata strata(m_surface, m_component, m_shares);
+    const Surface_strata strata(m_surface, m_component, m_shares, m_backend.concurrency());
     double count = nodes_per_sample * static_cast<double>(m_size);
     for (int level = 0;; ++level, count /= coarsening) {
       m_levels.emplace_back();
@@ -120,21 +120,19 @@ private:
 
   void add_strata(const Surface_strata& strata, int count, Lattice_nodes& nodes)
   {
-    std::vector<Facet_place> places(count);
-    m_backend.for_each(
-        count, [&](int i) { places[i] = strata.place(i, count, m_seed + m_levels.size()); });
+    const std::size_t level = m_levels.size();
+    if (level == 1) m_facets.resize(count);
     nodes.free = count;
-    for (const Facet_place& place : places) {
-      const auto& [f, w] = place;
+    nodes.resize(count);
+    m_backend.for_each(count, [&](int i) {
+      const auto [f, w] = strata.place(i, count, m_seed + level);
       const Triangle& t = m_surface.triangles[f];
       const auto& p = m_surface.points;
-      add_node(w[0] * p[t[0]] + w[1] * p[t[1]] + w[2] * p[t[2]],
+      set_node(i, w[0] * p[t[0]] + w[1] * p[t[1]] + w[2] * p[t[2]],
                interpolated_normal(m_surface, f, w), interpolated_density(m_surface, f, w),
                m_component[f], nodes);
-      if (m_levels.size() == 1) m_facets.push_back(f);
-    }
-    nodes.directions.assign(count, Phasor{});
-    nodes.is_directed.assign(count, 0);
+      if (level == 1) m_facets[i] = f;
+    });
   }
 
   /// Every `stride`-th of the sites on creases and borders. The lattice's rows follow these where
@@ -146,35 +144,37 @@ private:
     std::vector<int> before(sites.size(), -1);
     for (std::size_t s = 0; s < sites.size(); ++s)
       if (m_features.next[s] >= 0) before[m_features.next[s]] = static_cast<int>(s);
-    for (std::size_t s = 0; s < sites.size(); s += stride) {
-      add_node(sites.points[s], sites.normals[s], sites.density[s], m_component[sites.facets[s]],
-               nodes);
+    nodes.resize(nodes.free + (sites.size() + stride - 1) / stride);
+    m_backend.for_each(nodes.size() - nodes.free, [&](int k) {
+      const int i = nodes.free + k, at = static_cast<int>(k * stride);
+      set_node(i, sites.points[at], sites.normals[at], sites.density[at],
+               m_component[sites.facets[at]], nodes);
       const auto way = [&](int from, int to) {
         return from < 0 || to < 0 ? Vec3d{0, 0, 0}
                                   : normalized(sites.points[to] - sites.points[from]);
       };
-      const int at = static_cast<int>(s);
-      const Vec3d in = way(before[s], at), out = way(at, m_features.next[s]);
-      const Tangent_frame<double> frame(sites.normals[s]);
+      const Vec3d in = way(before[at], at), out = way(at, m_features.next[at]);
+      if (!(dot(in, out) > straight)) return;
+      const Tangent_frame<double> frame(sites.normals[at]);
       const Vec3d along = in + out;
-      const bool is_directed = dot(in, out) > straight;
-      nodes.is_directed.push_back(is_directed);
-      nodes.directions.push_back(
-          is_directed ? unit(sixth_power(unit({static_cast<float>(dot(along, frame.u)),
-                                               static_cast<float>(dot(along, frame.v))})))
-                      : Phasor{});
-    }
+      nodes.is_directed[i] = 1;
+      nodes.directions[i] = unit(sixth_power(unit(
+          {static_cast<float>(dot(along, frame.u)), static_cast<float>(dot(along, frame.v))})));
+    });
   }
 
-  void add_node(const Vec3d& point, const Vec3d& normal, double density, int component,
+  /// A node that has no direction.
+  void set_node(int i, const Vec3d& point, const Vec3d& normal, double density, int component,
                 Lattice_nodes& nodes) const
   {
-    nodes.points.push_back(m_cube.to_inside(point));
-    nodes.normals.push_back(
-        {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)});
-    nodes.components.push_back(component);
+    nodes.points[i] = m_cube.to_inside(point);
+    nodes.normals[i] = {static_cast<float>(normal.x), static_cast<float>(normal.y),
+                        static_cast<float>(normal.z)};
+    nodes.components[i] = component;
     const double cell = m_shares[component].cell_mass / density; // sqrt(3) / 2 h^2
-    nodes.spacing.push_back(static_cast<float>(m_cube.scale * std::sqrt(2 / std::sqrt(3.) * cell)));
+    nodes.spacing[i] = static_cast<float>(m_cube.scale * std::sqrt(2 / std::sqrt(3.) * cell));
+    nodes.directions[i] = {};
+    nodes.is_directed[i] = 0;
   }
 
   void choose_points(const Lattice_view& view)
@@ -188,29 +188,33 @@ private:
     m_backend.for_each(view.size, See_points{view, seen.data()});
     m_backend.for_each(view.free,
                        Choose_points{view, seen.data(), is_chosen.data(), points.data()});
-    m_candidates.clear();
-    for (int i = 0; i < view.free; ++i)
-      if (is_chosen.data()[i] && has_lattice(i))
-        m_candidates.push_back({points.data()[i], i, seen.data()[i].distance});
+    const std::vector<int> chosen =
+        internal::select(m_backend.concurrency(), view.free,
+                         [&](int i) { return is_chosen.data()[i] && has_lattice(i); });
+    m_candidates.resize(chosen.size());
+    m_backend.for_each(static_cast<int>(chosen.size()), [&](int k) {
+      const int i = chosen[k];
+      m_candidates[k] = {points.data()[i], i, seen.data()[i].distance};
+    });
   }
 
   /// Where the field does not fit, points come twice.
   std::size_t distinct_points(const Lattice_view& view)
   {
-    std::vector<Vec3d> points;
-    for (const Sample_candidate& c : m_candidates) points.push_back(c.point);
-    const Point_tree tree(points);
-    std::vector<char> is_distinct(points.size());
-    m_backend.for_each(static_cast<int>(points.size()), [&](int c) {
+    const int size = static_cast<int>(m_candidates.size());
+    std::vector<Vec3d> points(size);
+    m_backend.for_each(size, [&](int c) { points[c] = m_candidates[c].point; });
+    const Point_tree<Backend> tree(m_backend, points.data(), size);
+    const auto is_twin = [&](int c) {
       const Sample_candidate& own = m_candidates[c];
-      is_distinct[c] = !tree.view().any_near(
+      return tree.view().any_near(
           own.point, twin_distance * double(view.spacing[own.node]), [&](int o) {
             const Sample_candidate& other = m_candidates[o];
             return o != c && sees(view, own.node, other.node) &&
                    (other.distance < own.distance || (other.distance == own.distance && o < c));
           });
-    });
-    return std::accumulate(is_distinct.begin(), is_distinct.end(), std::size_t(0));
+    };
+    return size - internal::select(m_backend.concurrency(), size, is_twin).size();
   }
 
   static bool sees(const Lattice_view& view, int i, int j)
@@ -225,25 +229,28 @@ private:
 
   void add_gaps(const Lattice_view& view)
   {
-    std::vector<Vec3d> points;
-    std::vector<int> nodes;
-    for (const Sample_candidate& c : m_candidates) {
-      points.push_back(c.point);
-      nodes.push_back(c.node);
-    }
-    for (int i = view.free; i < view.size; ++i) {
-      points.push_back(view.points[i]);
-      nodes.push_back(i);
-    }
-    const Point_tree tree(points);
-    std::vector<char> is_gap(view.free);
-    m_backend.for_each(view.free, [&](int i) {
-      is_gap[i] = !has_lattice(i) ||
-                  !tree.view().any_near(view.points[i], gap_radius * double(view.spacing[i]),
-                                        [&](int c) { return sees(view, i, nodes[c]); });
+    const int points = static_cast<int>(m_candidates.size()), sites = view.size - view.free;
+    std::vector<Vec3d> near(points + sites);
+    std::vector<int> nodes(near.size());
+    m_backend.for_each(points + sites, [&](int k) {
+      nodes[k] = k < points ? m_candidates[k].node : view.free + k - points;
+      near[k] = k < points ? m_candidates[k].point : view.points[nodes[k]];
     });
-    for (int i = 0; i < view.free; ++i)
-      if (is_gap[i]) m_candidates.push_back({view.points[i], i, -1});
+    const Point_tree<Backend> tree(m_backend, near.data(), points + sites);
+    add_nodes([&](int i) {
+      return !has_lattice(i) ||
+             !tree.view().any_near(view.points[i], gap_radius * double(view.spacing[i]),
+                                   [&](int c) { return sees(view, i, nodes[c]); });
+    });
+  }
+
+  /// Makes the free nodes that are wanted candidates.
+  template <class IsWanted>
+  void add_nodes(IsWanted is_wanted)
+  {
+    const Lattice_nodes& nodes = m_levels.front();
+    for (const int i : internal::select(m_backend.concurrency(), nodes.free, is_wanted))
+      m_candidates.push_back({nodes.points[i], i, -1});
   }
 
   /// The samples of each component from its candidates.
@@ -251,47 +258,63 @@ private:
   {
     const Lattice_nodes& nodes = m_levels.front();
     std::vector<std::vector<int>> candidates(m_shares.size()), sites(m_shares.size());
-    for (std::size_t k = 0; k < m_candidates.size(); ++k)
-      candidates[nodes.components[m_candidates[k].node]].push_back(static_cast<int>(k));
+    const auto add_candidates = [&](std::size_t begin) {
+      for (std::size_t k = begin; k < m_candidates.size(); ++k)
+        candidates[nodes.components[m_candidates[k].node]].push_back(static_cast<int>(k));
+    };
+    add_candidates(0);
+    const std::size_t before = m_candidates.size();
+    add_nodes([&](int i) { // no lattice fits
+      const int c = nodes.components[i];
+      return candidates[c].size() < m_shares[c].samples;
+    });
+    add_candidates(before);
     for (int i = nodes.free; i < nodes.size(); ++i) sites[nodes.components[i]].push_back(i);
+    std::vector<Sample_candidate> chosen;
+    for (std::size_t c = 0; c < m_shares.size(); ++c)
+      for (const int k : chosen_candidates(candidates[c], sites[c], m_shares[c].samples))
+        chosen.push_back(m_candidates[candidates[c][k]]);
+    m_off_lattice = std::count_if(chosen.begin(), chosen.end(),
+                                  [](const Sample_candidate& c) { return c.distance < 0; });
+    return on_surface(chosen);
+  }
+
+  /// The places of `n` of the candidates of a component.
+  std::vector<int> chosen_candidates(const std::vector<int>& candidates,
+                                     const std::vector<int>& sites, std::size_t n)
+  {
+    if (n == 0) return {};
+    const Lattice_nodes& nodes = m_levels.front();
+    const std::size_t free = candidates.size();
+    std::vector<internal::Elimination_candidate> all(free + sites.size());
+    m_backend.for_each(static_cast<int>(all.size()), [&](int k) {
+      const bool is_free = k < static_cast<int>(free);
+      const int i = is_free ? m_candidates[candidates[k]].node : sites[k - free];
+      all[k] = {is_free ? m_candidates[candidates[k]].point : nodes.points[i],
+                to_double(nodes.normals[i]), 0.5 * double(nodes.spacing[i])};
+    });
+    return eliminate_samples(all, 0, n, sites.size(), m_backend.concurrency());
+  }
+
+  Samples on_surface(const std::vector<Sample_candidate>& candidates) const
+  {
+    std::vector<Facet_place> places(candidates.size());
+    m_backend.for_each(static_cast<int>(places.size()),
+                       [&](int k) { places[k] = place_on_surface(candidates[k]); });
     Samples samples;
-    for (std::size_t c = 0; c < m_shares.size(); ++c) {
-      if (m_shares[c].samples == 0) continue;
-      if (candidates[c].size() < m_shares[c].samples) // no lattice fits
-        for (int i = 0; i < nodes.free; ++i) {
-          if (nodes.components[i] != static_cast<int>(c)) continue;
-          candidates[c].push_back(static_cast<int>(m_candidates.size()));
-          m_candidates.push_back({nodes.points[i], i, -1});
-        }
-      std::vector<Vec3d> points, normals;
-      std::vector<double> radii;
-      const auto add = [&](const Vec3d& point, int i) {
-        const Vec3f n = nodes.normals[i];
-        points.push_back(point);
-        normals.push_back({n.x, n.y, n.z});
-        radii.push_back(0.5 * double(nodes.spacing[i]));
-      };
-      for (const int k : candidates[c]) add(m_candidates[k].point, m_candidates[k].node);
-      for (const int i : sites[c]) add(nodes.points[i], i);
-      for (const int k :
-           eliminate_samples(points, normals, radii, 0, m_shares[c].samples, sites[c].size())) {
-        const Sample_candidate& chosen = m_candidates[candidates[c][k]];
-        m_off_lattice += chosen.distance < 0;
-        add_on_surface(chosen, samples);
-      }
-    }
+    internal::add_samples(m_surface, places, samples, m_backend.concurrency());
     return samples;
   }
 
   /// The candidate's nearest point of the surface, on the node's side of a sheet; the node itself
   /// for a point of the lattice beyond a border, whose nearest point is on it.
-  void add_on_surface(const Sample_candidate& candidate, Samples& samples) const
+  Facet_place place_on_surface(const Sample_candidate& candidate) const
   {
     const Lattice_nodes& nodes = m_levels.front();
-    const Vec3f n = nodes.normals[candidate.node];
+    const Vec3d normal = to_double(nodes.normals[candidate.node]);
     const int near = m_facets[candidate.node];
     Vec3d point = m_cube.to_outside(candidate.point);
-    int f = m_tree.nearest(point, Vec3d{n.x, n.y, n.z}, cos_same_side, near).facet;
+    int f = m_tree.nearest(point, normal, cos_same_side, near).facet;
     if (f < 0) f = near;
     const double h = double(nodes.spacing[candidate.node]) / m_cube.scale;
     if (beyond(point, f) > max_beyond * h) {
@@ -301,7 +324,7 @@ private:
     const auto [a, b, c] = corners(f);
     double beta, gamma;
     barycentric_coordinates(point, a, b, c, beta, gamma);
-    internal::add_sample(m_surface, f, {1 - beta - gamma, beta, gamma}, samples);
+    return {f, {1 - beta - gamma, beta, gamma}};
   }
 
   std::array<Vec3d, 3> corners(int f) const
@@ -323,10 +346,9 @@ private:
   {
     Lattice_fields fields;
     for (int i = 0; i < view.size; ++i) {
-      const Vec3f n = view.normals[i], axis = view.axes[i];
       fields.nodes.push_back(m_cube.to_outside(view.points[i]));
-      fields.normals.push_back({n.x, n.y, n.z});
-      fields.axes.push_back({axis.x, axis.y, axis.z});
+      fields.normals.push_back(to_double(view.normals[i]));
+      fields.axes.push_back(to_double(view.axes[i]));
       fields.spacing.push_back(view.spacing[i] / m_cube.scale);
     }
     fields.indices.resize(view.size);
@@ -336,12 +358,8 @@ private:
       fields.indices[i] = orientation_index(view, loop);
       fields.dislocations[i] = fields.indices[i] == 0 ? dislocation(view, loop) : 0;
     });
-    Samples samples;
-    for (const Sample_candidate& c : m_candidates) {
-      add_on_surface(c, samples);
-      fields.point_nodes.push_back(c.node);
-    }
-    fields.points = std::move(samples.points);
+    for (const Sample_candidate& c : m_candidates) fields.point_nodes.push_back(c.node);
+    fields.points = on_surface(m_candidates).points;
     return fields;
   }
 

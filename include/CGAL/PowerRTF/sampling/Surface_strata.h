@@ -42,12 +42,6 @@ struct Surface_cube {
   Vec3d to_outside(const Vec3d& p) const { return p * (1 / scale) + middle; }
 };
 
-/// A point of a surface.
-struct Facet_place {
-  int facet;
-  std::array<double, 3> weights; ///< barycentric coordinates
-};
-
 /// A surface unrolled: its facets component by component, in spatial order, and each facet along
 /// the curve that bisects it again and again (Sierpinski's). Where parts of equal mass follow each
 /// other along that curve, each is in one piece and about as wide as it is long.
@@ -57,26 +51,30 @@ public:
   /// of samples, spread like the density.
   /// \param component of each facet
   Surface_strata(const Surface& surface, const std::vector<int>& component,
-                 const std::vector<Component_share>& shares)
+                 const std::vector<Component_share>& shares, internal::Concurrency concurrency)
       : m_surface(surface)
   {
     const Surface_cube cube(surface);
-    std::vector<std::tuple<int, std::uint64_t, int>> order;
-    for (std::size_t f = 0; f < component.size(); ++f) {
+    m_facets = internal::select(concurrency, static_cast<int>(component.size()),
+                                [&](int f) { return shares[component[f]].samples > 0; });
+    const int size = static_cast<int>(m_facets.size());
+    std::vector<std::tuple<int, std::uint64_t, int>> order(size);
+    internal::for_each_index(concurrency, size, [&](int k) {
+      const int f = m_facets[k];
       const Triangle& t = surface.triangles[f];
       const auto& p = surface.points;
       const Vec3d center = (p[t[0]] + p[t[1]] + p[t[2]]) * (1. / 3);
-      if (shares[component[f]].samples > 0)
-        order.emplace_back(component[f], hilbert_code(cube.to_inside(center)), static_cast<int>(f));
-    }
-    std::sort(order.begin(), order.end());
-    for (const auto& [c, code, f] : order) m_facets.push_back(f);
-    m_sums.push_back(0);
-    for (const int f : m_facets) {
+      order[k] = {component[f], hilbert_code(cube.to_inside(center)), f};
+    });
+    internal::sort(concurrency, order.begin(), order.end());
+    m_sums.assign(size + 1, 0);
+    internal::for_each_index(concurrency, size, [&](int k) {
+      const int f = m_facets[k] = std::get<2>(order[k]);
       const Component_share& share = shares[component[f]];
       const double per_mass = static_cast<double>(share.samples) / share.mass;
-      m_sums.push_back(m_sums.back() + per_mass * internal::density_mass(surface, f));
-    }
+      m_sums[k] = per_mass * internal::density_mass(surface, f);
+    });
+    internal::exclusive_scan(concurrency, size + 1, m_sums.data());
   }
 
   double mass() const { return m_sums.back(); }
@@ -157,13 +155,12 @@ Samples stratified_samples(Backend& backend, const Surface& surface,
                            const std::vector<int>& component,
                            const std::vector<Component_share>& shares, std::uint64_t seed)
 {
-  const Surface_strata strata(surface, component, shares);
+  const Surface_strata strata(surface, component, shares, backend.concurrency());
   const int n = static_cast<int>(std::lround(strata.mass()));
   std::vector<Facet_place> places(n);
   backend.for_each(n, [&](int i) { places[i] = strata.place(i, n, seed); });
   Samples samples;
-  for (const Facet_place& place : places)
-    internal::add_sample(surface, place.facet, place.weights, samples);
+  internal::add_samples(surface, places, samples, backend.concurrency());
   return samples;
 }
 

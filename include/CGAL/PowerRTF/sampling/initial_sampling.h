@@ -22,41 +22,56 @@
 #include <vector>
 
 namespace CGAL::PowerRTF {
+
+/// A point of a surface.
+struct Facet_place {
+  int facet;
+  std::array<double, 3> weights; ///< barycentric coordinates
+};
+
 namespace internal {
 
-/// Appends the point of facet `f` with the barycentric coordinates `b`.
-inline void add_sample(const Surface& surface, int f, const std::array<double, 3>& b,
-                       Samples& samples)
+/// Appends the points at `places`.
+inline void add_samples(const Surface& surface, const std::vector<Facet_place>& places,
+                        Samples& samples, Concurrency concurrency = Sequential_tag())
 {
-  const Triangle& t = surface.triangles[f];
-  const auto& p = surface.points;
-  samples.points.push_back(b[0] * p[t[0]] + b[1] * p[t[1]] + b[2] * p[t[2]]);
-  samples.facets.push_back(f);
-  samples.normals.push_back(interpolated_normal(surface, f, b));
-  samples.density.push_back(interpolated_density(surface, f, b));
+  const std::size_t before = samples.size(), size = before + places.size();
+  samples.points.resize(size);
+  samples.facets.resize(size);
+  samples.normals.resize(size);
+  samples.density.resize(size);
+  for_each_index(concurrency, static_cast<int>(places.size()), [&](int k) {
+    const auto& [f, b] = places[k];
+    const Triangle& t = surface.triangles[f];
+    const auto& p = surface.points;
+    samples.points[before + k] = b[0] * p[t[0]] + b[1] * p[t[1]] + b[2] * p[t[2]];
+    samples.facets[before + k] = f;
+    samples.normals[before + k] = interpolated_normal(surface, f, b);
+    samples.density[before + k] = interpolated_density(surface, f, b);
+  });
 }
 
 /// `count` independent points of component `c`, uniform by area.
-inline Samples random_candidates(const Surface& surface, const Facet_distribution& d, std::size_t c,
-                                 std::size_t count, Random_source& random)
+inline std::vector<Facet_place> random_candidates(const Facet_distribution& d, std::size_t c,
+                                                  std::size_t count, Random_source& random)
 {
-  Samples candidates;
+  std::vector<Facet_place> candidates;
   for (std::size_t k = 0; k < count; ++k) {
     const double sum = d.sums[d.first[c]] + random() * d.mass(c);
     const auto above =
         std::upper_bound(d.sums.begin() + d.first[c] + 1, d.sums.begin() + d.first[c + 1], sum);
-    add_sample(surface, d.facets[above - d.sums.begin() - 1], random.barycentric({1, 1, 1}),
-               candidates);
+    candidates.push_back({d.facets[above - d.sums.begin() - 1], random.barycentric({1, 1, 1})});
   }
   return candidates;
 }
 
 /// `count` points of component `c` distributed like the density: one in each of `count` parts of
 /// equal mass of the sequence of its facets.
-inline Samples stratified_candidates(const Surface& surface, const Facet_distribution& d,
-                                     std::size_t c, std::size_t count, Random_source& random)
+inline std::vector<Facet_place> stratified_candidates(const Surface& surface,
+                                                      const Facet_distribution& d, std::size_t c,
+                                                      std::size_t count, Random_source& random)
 {
-  Samples candidates;
+  std::vector<Facet_place> candidates;
   std::size_t k = d.first[c];
   for (std::size_t s = 0; s < count; ++s) {
     const double share = (static_cast<double>(s) + random()) / static_cast<double>(count);
@@ -64,8 +79,7 @@ inline Samples stratified_candidates(const Surface& surface, const Facet_distrib
     while (k + 1 < d.first[c + 1] && d.sums[k + 1] <= sum) ++k;
     const Triangle& t = surface.triangles[d.facets[k]];
     const auto& rho = surface.vertex_density;
-    add_sample(surface, d.facets[k], random.barycentric({rho[t[0]], rho[t[1]], rho[t[2]]}),
-               candidates);
+    candidates.push_back({d.facets[k], random.barycentric({rho[t[0]], rho[t[1]], rho[t[2]]})});
   }
   return candidates;
 }
@@ -87,9 +101,10 @@ inline std::vector<int> draw_by_density(const Samples& candidates, std::size_t n
 
 /// `n` of the candidates of component `c`, by sample elimination among themselves and the sites of
 /// `features` on it. `cell_mass`: what each sample stands for.
-inline std::vector<int> draw_by_elimination(Samples candidates, const Feature_samples& features,
-                                            int c, double cell_mass, std::size_t n,
-                                            double normal_angle)
+inline std::vector<int> draw_by_elimination(const Samples& candidates,
+                                            const Feature_samples& features, int c,
+                                            double cell_mass, std::size_t n, double normal_angle,
+                                            Concurrency concurrency)
 {
   const std::size_t count = candidates.size();
   if (count <= n) { // none is to go
@@ -97,27 +112,24 @@ inline std::vector<int> draw_by_elimination(Samples candidates, const Feature_sa
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
-  const Samples& sites = features.sites;
-  for (std::size_t s = 0; s < sites.size(); ++s) {
-    if (sites.patches[s] != c) continue;
-    candidates.points.push_back(sites.points[s]);
-    candidates.normals.push_back(sites.normals[s]);
-    candidates.density.push_back(sites.density[s]);
-  }
   // Discs of radius r in hexagonal arrangement take 2 sqrt(3) r^2 each.
   const double per_sample = cell_mass / (2 * std::sqrt(3.));
-  std::vector<double> radii;
-  radii.reserve(candidates.size());
-  for (const double rho : candidates.density) radii.push_back(std::sqrt(per_sample / rho));
+  std::vector<Elimination_candidate> all;
+  const auto add = [&](const Samples& from, std::size_t i) {
+    all.push_back({from.points[i], from.normals[i], std::sqrt(per_sample / from.density[i])});
+  };
+  for (std::size_t i = 0; i < count; ++i) add(candidates, i);
+  for (std::size_t s = 0; s < features.sites.size(); ++s)
+    if (features.sites.patches[s] == c) add(features.sites, s);
   constexpr double radians = 3.14159265358979323846 / 180;
-  return eliminate_samples(candidates.points, candidates.normals, radii,
-                           std::cos(normal_angle * radians), n, candidates.size() - count);
+  return eliminate_samples(all, std::cos(normal_angle * radians), n, all.size() - count,
+                           concurrency);
 }
 
 /// By `Sampling::random` or `Sampling::elimination`, one component after another.
 inline Samples draw_samples(const Surface& surface, const Remeshing_options& options,
                             const Feature_samples& features, const std::vector<int>& component,
-                            const std::vector<Component_share>& shares)
+                            const std::vector<Component_share>& shares, Concurrency concurrency)
 {
   const bool eliminate = options.sampling == Sampling::elimination;
   const Facet_distribution distribution =
@@ -131,19 +143,18 @@ inline Samples draw_samples(const Surface& surface, const Remeshing_options& opt
     if (n == 0) continue;
     const auto count =
         static_cast<std::size_t>(std::ceil(static_cast<double>(n) * options.oversampling));
-    const Samples candidates = eliminate
-                                   ? stratified_candidates(surface, distribution, c, count, random)
-                                   : random_candidates(surface, distribution, c, count, random);
+    const std::vector<Facet_place> places =
+        eliminate ? stratified_candidates(surface, distribution, c, count, random)
+                  : random_candidates(distribution, c, count, random);
+    Samples candidates;
+    add_samples(surface, places, candidates, concurrency);
     const std::vector<int> chosen =
         eliminate ? draw_by_elimination(candidates, features, static_cast<int>(c),
-                                        shares[c].cell_mass, n, options.normal_angle)
+                                        shares[c].cell_mass, n, options.normal_angle, concurrency)
                   : draw_by_density(candidates, n, random);
-    for (const int i : chosen) {
-      samples.points.push_back(candidates.points[i]);
-      samples.facets.push_back(candidates.facets[i]);
-      samples.normals.push_back(candidates.normals[i]);
-      samples.density.push_back(candidates.density[i]);
-    }
+    std::vector<Facet_place> chosen_places;
+    for (const int i : chosen) chosen_places.push_back(places[i]);
+    add_samples(surface, chosen_places, samples, concurrency);
   }
   return samples;
 }

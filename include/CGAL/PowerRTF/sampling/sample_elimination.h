@@ -6,143 +6,177 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_SAMPLE_ELIMINATION_H
 #define CGAL_POWER_RTF_SAMPLING_SAMPLE_ELIMINATION_H
 
-#include <CGAL/PowerRTF/geometry/point_grid.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/sampling/candidate_graph.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 namespace internal {
 
-/// Which candidates see each other: closer than the sum of their radii, normals compatible.
-/// The neighbors of `i` are `neighbor[first[i]] .. neighbor[first[i + 1] - 1]`, with how much they
-/// crowd each other: Yuksel's weight, from 0 (radii touch) to 1 (same place).
-struct Candidate_graph {
-  std::vector<std::size_t> first;
-  std::vector<int> neighbor;
-  std::vector<double> crowding;
+/// The candidate with the largest weight goes first, of equal ones the last.
+///
+/// Weights only fall. So a candidate that comes before all its neighbors goes before them, with the
+/// weight that it has, whatever happens elsewhere: many go at once, and each with the weight that
+/// it has when one goes after the other. Down to a threshold, it is the same candidates that go.
+class Sample_elimination {
+  using Entry = std::pair<double, int>; ///< weight, candidate
+
+public:
+  /// The last `fixed` candidates stay.
+  Sample_elimination(Candidate_graph&& graph, std::size_t fixed, Concurrency concurrency)
+      : m_graph(std::move(graph)), m_concurrency(concurrency),
+        m_size(static_cast<int>(m_graph.order.size())), m_free(m_size - static_cast<int>(fixed)),
+        m_is_alive(m_size, 1), m_weight(m_size, 0)
+  {}
+
+  /// The `n` free candidates that are left, increasing.
+  std::vector<int> run(std::size_t n)
+  {
+    const std::size_t excess = m_free > static_cast<int>(n) ? m_free - n : 0;
+    while (m_gone.size() < excess) {
+      for_each_index(m_concurrency, m_size, [&](int k) { update_weight(k); });
+      eliminate_down_to(threshold(excess - m_gone.size()));
+    }
+    // The last ones stay, after all.
+    const auto end = m_gone.begin() + excess;
+    std::nth_element(m_gone.begin(), end, m_gone.end(),
+                     [&](int j, int k) { return comes_before(j, k); });
+    for (auto k = end; k != m_gone.end(); ++k) m_is_alive[*k] = 1;
+    std::vector<char> is_left(m_size);
+    for_each_index(m_concurrency, m_size,
+                   [&](int k) { is_left[m_graph.order[k]] = m_is_alive[k] && is_free(k); });
+    return select(m_concurrency, m_size, [&](int i) { return is_left[i]; });
+  }
+
+private:
+  bool is_free(int k) const { return m_graph.order[k] < m_free; }
+  Entry entry(int k) const { return {m_weight[k], m_graph.order[k]}; }
+  bool comes_before(int j, int k) const { return entry(j) > entry(k); }
+
+  template <class F>
+  void for_each_alive_neighbor(int k, F&& f) const
+  {
+    for (std::size_t e = m_graph.first[k]; e < m_graph.first[k + 1]; ++e)
+      if (m_is_alive[m_graph.neighbors[e].place]) f(m_graph.neighbors[e]);
+  }
+
+  /// Weights are summed anew, not updated by subtraction: the last two neighbors have the same
+  /// weight, and rounding must not choose between them.
+  void update_weight(int k)
+  {
+    if (!m_is_alive[k]) return;
+    double sum = 0;
+    for_each_alive_neighbor(k, [&](const auto& neighbor) { sum += neighbor.crowding; });
+    m_weight[k] = sum;
+  }
+
+  bool is_first(int k) const
+  {
+    bool result = true;
+    for_each_alive_neighbor(k, [&](const auto& neighbor) {
+      result = result && (!is_free(neighbor.place) || comes_before(k, neighbor.place));
+    });
+    return result;
+  }
+
+  void eliminate(int k)
+  {
+    m_is_alive[k] = 0;
+    m_gone.push_back(k);
+  }
+
+  /// A weight that some more than `count` of the candidates have, as far as a part of them shows.
+  double threshold(std::size_t count) const
+  {
+    constexpr int largest_part = 1 << 16;
+    const int stride = m_size / largest_part + 1;
+    std::vector<double> weights;
+    for (int k = 0; k < m_size; k += stride)
+      if (m_is_alive[k] && is_free(k)) weights.push_back(m_weight[k]);
+    if (weights.empty()) return 0;
+    const std::size_t rank = count / stride, rest = weights.size() - std::min(weights.size(), rank);
+    const std::size_t place =
+        std::min(rank + std::min(rank, rest / 2) + rest / 1024, weights.size() - 1);
+    std::nth_element(weights.begin(), weights.begin() + place, weights.end(),
+                     std::greater<double>());
+    return weights[place];
+  }
+
+  /// Eliminates the candidates that have at least the weight `least` when their turn comes.
+  void eliminate_down_to(double least)
+  {
+    constexpr int max_rounds = 32;
+    std::vector<int> active = select(m_concurrency, m_size, [&](int k) {
+      return m_is_alive[k] && is_free(k) && m_weight[k] >= least;
+    });
+    for (int round = 0; round < max_rounds && !active.empty(); ++round) {
+      const int size = static_cast<int>(active.size());
+      for (const int a : select(m_concurrency, size, [&](int a) { return is_first(active[a]); }))
+        eliminate(active[a]);
+      for_each_index(m_concurrency, size, [&](int a) { update_weight(active[a]); });
+      std::vector<int> left;
+      for (const int a : select(m_concurrency, size, [&](int a) {
+             return m_is_alive[active[a]] && m_weight[active[a]] >= least;
+           }))
+        left.push_back(active[a]);
+      active.swap(left);
+    }
+    eliminate_in_turn(active, least);
+  }
+
+  /// The same among `active`, one after the other: the first one is on top of a heap as soon as the
+  /// weight on top is up to date.
+  void eliminate_in_turn(const std::vector<int>& active, double least)
+  {
+    std::vector<std::pair<Entry, int>> heap; // with the place
+    for (const int k : active) heap.emplace_back(entry(k), k);
+    std::make_heap(heap.begin(), heap.end());
+    while (!heap.empty()) {
+      Cancellation::poll();
+      std::pop_heap(heap.begin(), heap.end());
+      const auto [before, k] = heap.back();
+      heap.pop_back();
+      update_weight(k);
+      if (m_weight[k] < least) continue;
+      if (entry(k) == before) {
+        eliminate(k);
+      } else {
+        heap.emplace_back(entry(k), k);
+        std::push_heap(heap.begin(), heap.end());
+      }
+    }
+  }
+
+  Candidate_graph m_graph;
+  Concurrency m_concurrency;
+  int m_size, m_free;
+  std::vector<char> m_is_alive;
+  std::vector<double> m_weight; // of those that have gone, the last one
+  std::vector<int> m_gone;
 };
-
-/// Candidates are sorted into one grid per power of two of their radius. Each looks for partners of
-/// its own level and of coarser ones, so its work does not grow with the contrast of the radii.
-inline Candidate_graph candidate_graph(const std::vector<Vec3d>& points,
-                                       const std::vector<Vec3d>& normals,
-                                       const std::vector<double>& radii, double cos_normal_angle)
-{
-  const int n = static_cast<int>(points.size());
-  const double smallest = *std::min_element(radii.begin(), radii.end());
-  std::vector<int> level(n);
-  std::vector<std::vector<int>> members;
-  std::vector<double> largest; // radius in a level
-  for (int i = 0; i < n; ++i) {
-    level[i] = std::ilogb(radii[i] / smallest);
-    if (level[i] >= static_cast<int>(members.size())) {
-      members.resize(level[i] + 1);
-      largest.resize(level[i] + 1, 0);
-    }
-    members[level[i]].push_back(i);
-    largest[level[i]] = (std::max)(largest[level[i]], radii[i]);
-  }
-  std::vector<Point_grid> grids;
-  for (std::size_t l = 0; l < members.size(); ++l)
-    grids.emplace_back(points, members[l], 2 * largest[l]);
-
-  std::vector<std::pair<int, int>> pairs;
-  pairs.reserve(8 * points.size());
-  for (int i = 0; i < n; ++i) {
-    Cancellation::poll();
-    for (int l = level[i]; l < static_cast<int>(grids.size()); ++l) {
-      if (members[l].empty()) continue;
-      grids[l].for_each_near(points[i], radii[i] + largest[l], [&](int j, double squared_distance) {
-        if (l == level[i] && j <= i) return; // every pair once
-        const double reach = radii[i] + radii[j];
-        if (squared_distance < reach * reach && dot(normals[i], normals[j]) >= cos_normal_angle)
-          pairs.emplace_back(i, j);
-      });
-    }
-  }
-
-  Candidate_graph graph;
-  graph.first.assign(n + 1, 0);
-  for (const auto& [i, j] : pairs) {
-    ++graph.first[i + 1];
-    ++graph.first[j + 1];
-  }
-  for (int i = 0; i < n; ++i) graph.first[i + 1] += graph.first[i];
-  graph.neighbor.resize(2 * pairs.size());
-  graph.crowding.resize(2 * pairs.size());
-  std::vector<std::size_t> end(graph.first.begin(), graph.first.end() - 1);
-  for (const auto& [i, j] : pairs) {
-    const double free = 1 - length(points[i] - points[j]) / (radii[i] + radii[j]);
-    const double free_2 = free * free, free_4 = free_2 * free_2;
-    const double crowding = free_4 * free_4; // alpha = 8
-    graph.neighbor[end[i]] = j;
-    graph.crowding[end[i]++] = crowding;
-    graph.neighbor[end[j]] = i;
-    graph.crowding[end[j]++] = crowding;
-  }
-  return graph;
-}
 
 } // namespace internal
 
 /// Chooses `n` of the candidates so that they lie far from each other: the candidate with the
 /// closest surroundings goes first, until `n` are left.
-/// \param radii half the distance that the chosen samples would have at each candidate if they were
-///   packed as densely as possible
 /// \param cos_normal_angle candidates whose normals' dot product is below it do not see each other
 ///   (NVISPC)
+/// \param fixed so many candidates, the last ones, crowd the others, but are not among the `n`
 /// \returns the indices of the chosen candidates, increasing
-inline std::vector<int> eliminate_samples(const std::vector<Vec3d>& points,
-                                          const std::vector<Vec3d>& normals,
-                                          const std::vector<double>& radii, double cos_normal_angle,
-                                          std::size_t n, std::size_t fixed = 0)
+inline std::vector<int>
+eliminate_samples(const std::vector<internal::Elimination_candidate>& candidates,
+                  double cos_normal_angle, std::size_t n, std::size_t fixed = 0,
+                  internal::Concurrency concurrency = Sequential_tag())
 {
-  const internal::Candidate_graph graph =
-      internal::candidate_graph(points, normals, radii, cos_normal_angle);
-  std::vector<char> is_alive(points.size(), 1);
-  const auto weight = [&](int i) {
-    double sum = 0;
-    for (std::size_t e = graph.first[i]; e < graph.first[i + 1]; ++e)
-      if (is_alive[graph.neighbor[e]]) sum += graph.crowding[e];
-    return sum;
-  };
-
-  // Weights only fall, so the right candidate is on top of the heap as soon as the weight on top is
-  // up to date. Weights are summed anew, not updated by subtraction: the last two neighbors have
-  // the same weight, and rounding must not choose between them.
-  using Entry = std::pair<double, int>; // weight, candidate; ties by index
-  const int candidates = static_cast<int>(points.size() - fixed);
-  std::vector<char> is_outdated(points.size(), 0);
-  std::vector<Entry> heap;
-  heap.reserve(points.size());
-  for (int i = 0; i < candidates; ++i) heap.emplace_back(weight(i), i);
-  std::make_heap(heap.begin(), heap.end());
-  while (heap.size() > n) {
-    internal::Cancellation::poll();
-    std::pop_heap(heap.begin(), heap.end());
-    const int i = heap.back().second;
-    if (is_outdated[i]) {
-      heap.back().first = weight(i);
-      is_outdated[i] = 0;
-      std::push_heap(heap.begin(), heap.end());
-      continue;
-    }
-    heap.pop_back();
-    is_alive[i] = 0;
-    for (std::size_t e = graph.first[i]; e < graph.first[i + 1]; ++e)
-      is_outdated[graph.neighbor[e]] = 1;
-  }
-
-  std::vector<int> chosen;
-  chosen.reserve(n);
-  for (int i = 0; i < candidates; ++i)
-    if (is_alive[i]) chosen.push_back(i);
-  return chosen;
+  return internal::Sample_elimination(
+             internal::candidate_graph(candidates, cos_normal_angle, concurrency), fixed,
+             concurrency)
+      .run(n);
 }
 
 } // namespace CGAL::PowerRTF

@@ -41,7 +41,8 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
   } else if (options.sampling == Sampling::stratified) {
     samples = stratified_samples(backend, surface, component, shares, options.random_seed);
   } else {
-    samples = internal::draw_samples(surface, options, features, component, shares);
+    samples = internal::draw_samples(surface, options, features, component, shares,
+                                     backend.concurrency());
   }
   if (components > 1)
     for (const int f : samples.facets) samples.patches.push_back(component[f]);
