@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/extraction/Cell_stars.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
+#include <CGAL/PowerRTF/extraction/Surface_walk.h>
 #include <CGAL/PowerRTF/extraction/component_topology.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_from_cells.h>
@@ -23,6 +24,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -137,21 +139,21 @@ std::vector<Shape> plain_shapes()
 
 TEST_CASE("a star is put in order exactly if it is one fan")
 {
+  using internal::Fan;
   using internal::is_closed;
   using internal::sort_around;
-  using internal::Star;
-  Star closed{{3, 1}, {1, 2}, {2, 3}};
+  Fan closed{{3, 1}, {1, 2}, {2, 3}};
   CHECK(sort_around(closed));
   CHECK(is_closed(closed));
-  Star open{{2, 3}, {1, 2}, {3, 4}};
+  Fan open{{2, 3}, {1, 2}, {3, 4}};
   CHECK(sort_around(open));
   CHECK_FALSE(is_closed(open));
-  CHECK(open == Star{{1, 2}, {2, 3}, {3, 4}});
-  Star single{{1, 2}};
+  CHECK(open == Fan{{1, 2}, {2, 3}, {3, 4}});
+  Fan single{{1, 2}};
   CHECK(sort_around(single));
-  for (Star bad : {Star{}, Star{{1, 2}, {3, 4}}, Star{{1, 2}, {1, 3}}, Star{{1, 3}, {2, 3}},
-                   Star{{1, 2}, {2, 3}, {3, 1}, {3, 4}}, Star{{1, 2}, {2, 3}, {3, 2}},
-                   Star{{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}}})
+  for (Fan bad : {Fan{}, Fan{{1, 2}, {3, 4}}, Fan{{1, 2}, {1, 3}}, Fan{{1, 3}, {2, 3}},
+                  Fan{{1, 2}, {2, 3}, {3, 1}, {3, 4}}, Fan{{1, 2}, {2, 3}, {3, 2}},
+                  Fan{{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}}})
     CHECK_FALSE(sort_around(bad));
 }
 
@@ -283,7 +285,7 @@ TEST_CASE("the topology of components is compared one by one")
       facets.push_back(facet);
     }
     const auto star = [&](int v) {
-      internal::Star star;
+      internal::Fan star;
       for (const auto& [a, b, c] : mesh.triangles) {
         if (v == a) star.push_back({b, c});
         if (v == b) star.push_back({c, a});
@@ -294,7 +296,7 @@ TEST_CASE("the topology of components is compared one by one")
     };
     return internal::are_homeomorphic(
         internal::surface_topology<Parallel_if_available_tag>(s),
-        internal::star_topology<Sequential_tag>(int(mesh.points.size()), star), facets);
+        internal::fan_topology<Sequential_tag>(int(mesh.points.size()), star), facets);
   };
   using namespace shapes;
   const Soup ball = icosphere(1), ring = torus(12, 8, 1, .4), tube = open_cylinder(8, 4, .5, 2);
@@ -333,7 +335,7 @@ TEST_CASE("a piece of a surface is a 2-manifold with the samples on it")
   for (const Shape& shape : plain_shapes()) {
     CAPTURE(shape.name);
     const Sampled s(shape.surface, 300, 2);
-    const internal::Sample_places places(s.samples, s.patches.features());
+    const internal::Sample_places places(s.samples, s.patches.features(), Sequential_tag());
     Random_source random(3);
     for (const double share : {.05, .5, 1.}) {
       std::vector<int> facets;
@@ -356,6 +358,67 @@ TEST_CASE("a piece of a surface is a 2-manifold with the samples on it")
       CHECK((kept > 0) == (share < 1 && !facets.empty()));
     }
   }
+}
+
+TEST_CASE("a walk along the surface comes to the points straight ahead, and to no other sheet")
+{
+  const Surface sheets = shapes::make_surface(shapes::accordion(10, .02));
+  Random_source random(5);
+  const auto pick = [&] {
+    return std::min(int(sheets.triangles.size()) - 1,
+                    int(random() * double(sheets.triangles.size())));
+  };
+  const auto point = [&](int f) {
+    const Triangle& t = sheets.triangles[f];
+    const double u = .1 + .2 * random(), v = .1 + .2 * random();
+    return u * sheets.points[t[0]] + v * sheets.points[t[1]] + (1 - u - v) * sheets.points[t[2]];
+  };
+  for (int k = 0; k < 1000; ++k) {
+    const int f = pick(), o = sheets.adjacency.opposite[3 * f + k % 3], far = pick();
+    const int g = o == Facet_adjacency::none ? f : o / 3;
+    const auto leads = [&](int from, int to) {
+      return internal::Surface_walk(sheets, point(from), point(to),
+                                    sheets.facet_normals[from] + sheets.facet_normals[to])
+          .leads_to(from, [&](int facet) { return facet == to; });
+    };
+    CHECK(leads(f, f));
+    // A point beside that of a facet on the same plane is seen, one on another sheet is not.
+    const double cosine = dot(sheets.facet_normals[f], sheets.facet_normals[g]);
+    if (cosine > .9999) {
+      const Vec3d a = point(f), b = point(g);
+      const internal::Surface_walk walk(sheets, a, b, sheets.facet_normals[f]);
+      const bool arrives = walk.leads_to(f, [&](int facet) { return facet == g; });
+      const int h = 3 * f + k % 3; // whether the straight way passes the edge between them
+      const Vec3d p = sheets.points[halfedge_source(sheets.triangles, h)],
+                  q = sheets.points[halfedge_target(sheets.triangles, h)];
+      const Vec3d n = sheets.facet_normals[f];
+      const bool passes = dot(cross(b - a, p - a), n) * dot(cross(b - a, q - a), n) < 0;
+      if (passes) CHECK(arrives);
+    }
+    const double height = dot(point(far) - point(f), sheets.facet_normals[f]);
+    if (dot(sheets.facet_normals[far], sheets.facet_normals[f]) > .9999 &&
+        std::abs(height) > 1e-6 && squared_length(point(far) - point(f)) < 4 * height * height)
+      CHECK_FALSE(leads(f, far));
+  }
+}
+
+TEST_CASE("stacked sheets that are nearer than the samples are not joined")
+{
+  for (const auto& soup : {shapes::accordion(10, .02), shapes::two_sheets(20, .01)})
+    for (const std::size_t n : {300, 1000}) {
+      CAPTURE(n);
+      const Sampled s(shapes::make_surface(soup), n, 10);
+      const auto area = [](const Extracted_mesh& mesh) {
+        double sum = 0;
+        for (const auto& [a, b, c] : mesh.triangles)
+          sum +=
+              length(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+        return sum;
+      };
+      const Extracted_mesh mesh = s.extract();
+      check_guarantees(s, mesh);
+      CHECK(area(mesh) == doctest::Approx(area(s.insert())).epsilon(.02));
+    }
 }
 
 TEST_CASE("the facets near a point hang together")

@@ -148,7 +148,9 @@ accept '"capacity-tolerance": 0.0' --capacity-tolerance 0
 accept '"position-method": "lloyd"' --position-method lloyd
 accept '"sampling": "random"' --sampling random
 accept '"oversampling": 3.5' --oversampling 3.5
+accept '"extraction": "cells"'
 accept '"extraction": "insertion"' --extraction insertion
+accept '"extraction": "insertion"' --preset paper
 accept '"lbfgs-memory": 3' --lbfgs-memory 3
 accept '"normal-smoothing": 0.0' --preset paper
 accept '"normal-smoothing": 1.5' --normal-smoothing 1.5

@@ -8,7 +8,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 #define CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 
-#include <CGAL/PowerRTF/extraction/Star.h>
+#include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -60,7 +60,7 @@ public:
       return;
     }
     for (std::size_t k = 0; k < m_neighbors[v].size(); ++k) {
-      const Corner c = corner(v, k);
+      const Fan_corner c = corner(v, k);
       if (m_is_agreed[v] || is_agreed(v, c)) f(c);
     }
   }
@@ -71,11 +71,11 @@ public:
   {
     for (auto it = std::lower_bound(triangles.begin(), triangles.end(), Triangle_at{v, -1, -1});
          it != triangles.end() && (*it)[0] == v; ++it)
-      f(Corner{(*it)[1], (*it)[2]});
+      f(Fan_corner{(*it)[1], (*it)[2]});
   }
 
 private:
-  Corner corner(int i, std::size_t k) const
+  Fan_corner corner(int i, std::size_t k) const
   {
     const std::vector<int>& around = m_neighbors[i];
     return {around[k], around[k + 1 < around.size() ? k + 1 : 0]};
@@ -90,7 +90,7 @@ private:
     return false;
   }
 
-  bool is_agreed(int i, const Corner& c) const
+  bool is_agreed(int i, const Fan_corner& c) const
   {
     return c[0] >= 0 && c[1] >= 0 && c[0] != c[1] && has(c[0], c[1], i) && has(c[1], i, c[0]);
   }
@@ -101,7 +101,7 @@ private:
     std::vector<std::vector<Triangle_at>> parts((m_cells + chunk - 1) / chunk);
     for_each_chunk<ConcurrencyTag>(m_cells, chunk, [&](int begin, int end) {
       for (int i = begin; i < end; ++i)
-        for_each_at(i, [&](const Corner& c) {
+        for_each_at(i, [&](const Fan_corner& c) {
           if (c[0] >= m_cells) parts[begin / chunk].push_back({c[0], c[1], i});
           if (c[1] >= m_cells) parts[begin / chunk].push_back({c[1], i, c[0]});
         });

@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/extraction/Cell_stars.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
+#include <CGAL/PowerRTF/extraction/Surface_walk.h>
 #include <CGAL/PowerRTF/extraction/component_topology.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,7 +34,7 @@ public:
   /// Keeps references to all but `neighbors`; see `extract_from_cells()`.
   Mended_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
                std::vector<std::vector<int>>&& neighbors)
-      : m_surface(surface), m_samples(samples), m_features(features), m_places(samples, features),
+      : m_surface(surface), m_samples(samples), m_features(features),
         m_stars(std::move(neighbors), features), m_size(static_cast<int>(samples.size())),
         m_openings(samples.size(), 0), m_has_made(samples.size(), 0), m_on_curves(features.size())
   {
@@ -110,14 +112,14 @@ private:
   }
 
   // The triangles at a sample as they are now.
-  Star star(int v) const
+  Fan star(int v) const
   {
-    Star star;
+    Fan star;
     if (!is_open(v))
-      m_stars.for_each_at(v, [&](const Corner& c) {
+      m_stars.for_each_at(v, [&](const Fan_corner& c) {
         if (!is_open(c[0]) && !is_open(c[1])) star.push_back(c);
       });
-    m_stars.for_each_of(m_made, v, [&](const Corner& c) { star.push_back(c); });
+    m_stars.for_each_of(m_made, v, [&](const Fan_corner& c) { star.push_back(c); });
     return star;
   }
 
@@ -131,7 +133,7 @@ private:
       return around.size() >= 3 && are_distinct(around) &&
              std::none_of(around.begin(), around.end(), [this](int w) { return is_open(w); });
     }
-    Star s = star(v);
+    Fan s = star(v);
     if (!sort_around(s)) return false;
     if (has_cell) return is_closed(s) && s.size() >= 3;
     const std::vector<int>& curve = m_on_curves[v - m_stars.cells()];
@@ -142,7 +144,7 @@ private:
       return false;
     return std::all_of(curve.begin(), curve.end(), [&](int w) {
       return w == s.back()[1] ||
-             std::any_of(s.begin(), s.end(), [w](const Corner& c) { return c[0] == w; });
+             std::any_of(s.begin(), s.end(), [w](const Fan_corner& c) { return c[0] == w; });
     });
   }
 
@@ -153,14 +155,14 @@ private:
     return true;
   }
 
-  // Whether the triangles of a cell agree with the normals at their corners, and none is folded
-  // onto the next one.
+  // Whether the triangles of a cell agree with the normals at their corners, none is folded onto
+  // the next one, and their edges join neighbors along the surface.
   bool lies_well(int v) const
   {
     if (v >= m_stars.cells()) return true;
     Vec3d first{0, 0, 0}, last{0, 0, 0};
     bool good = true;
-    m_stars.for_each_at(v, [&](const Corner& c) {
+    m_stars.for_each_at(v, [&](const Fan_corner& c) {
       const Vec3d& p = m_samples.points[v];
       const Vec3d n = normalized(cross(m_samples.points[c[0]] - p, m_samples.points[c[1]] - p));
       for (const int w : {v, c[0], c[1]})
@@ -168,8 +170,32 @@ private:
       good = good && squared_length(n) > 0 && dot(n, last) > fold;
       if (squared_length(last) == 0) first = n;
       last = n;
+      if (v < c[0]) good = good && are_neighbors(v, c[0]);
     });
     return good && dot(first, last) > fold;
+  }
+
+  // Whether a short way along the surface joins a sample and another one, perhaps on a feature.
+  bool are_neighbors(int v, int w) const
+  {
+    const Vec3d &p = m_samples.points[v], &q = m_samples.points[w];
+    const Vec3d up = m_samples.normals[v] + m_samples.normals[w];
+    const double scale = length(q - p);
+    const int f = m_samples.facets[v], g = m_samples.facets[w];
+    if (w >= m_stars.cells()) {
+      const Edge_place& place = m_features.places[w - m_stars.cells()];
+      return Surface_walk(m_surface, p, q, up).leads_to(f, [&](int facet) {
+        const Triangle& t = m_surface.triangles[facet];
+        return std::find(t.begin(), t.end(), place.from) != t.end() &&
+               std::find(t.begin(), t.end(), place.to) != t.end();
+      });
+    }
+    const auto joins = [&](const Vec3d& from, int start, const Vec3d& to, int end) {
+      return Surface_walk(m_surface, from, to, up).leads_to(start, [&](int facet) {
+        return holds_point(m_surface, facet, to, end, scale);
+      });
+    };
+    return joins(p, f, q, g) || joins(q, g, p, f);
   }
 
   // Makes the triangles at the samples anew, and at more of them until all fit.
@@ -202,6 +228,7 @@ private:
     std::size_t facets = 0;
     for (const Piece& piece : m_pieces) facets += piece.facets.size();
     if (2 * facets > m_surface.triangles.size()) return false;
+    if (!m_places) m_places.emplace(m_samples, m_features, ConcurrencyTag());
     std::vector<int> due;
     for (int k = 0; k < static_cast<int>(m_pieces.size()); ++k)
       if (m_pieces[k].triangles.empty()) due.push_back(k);
@@ -244,7 +271,7 @@ private:
   // The triangles at the piece's open samples whose corners are samples.
   void triangulate(Piece& piece) const
   {
-    const Surface_piece part(m_surface, m_samples, m_places, piece.facets);
+    const Surface_piece part(m_surface, m_samples, *m_places, piece.facets);
     Working_mesh mesh(insert_samples(part.surface, part.samples, part.places));
     reduce_to_samples(mesh, false);
     for (Triangle t : mesh.triangles()) {
@@ -289,7 +316,7 @@ private:
       for (int v = begin; v < end; ++v) {
         if (is_open(v)) continue;
         const std::size_t first = part.size();
-        m_stars.for_each_at(v, [&](const Corner& c) {
+        m_stars.for_each_at(v, [&](const Fan_corner& c) {
           if (v < c[0] && v < c[1] && !is_open(c[0]) && !is_open(c[1]))
             part.push_back({v, c[0], c[1]});
         });
@@ -311,11 +338,11 @@ private:
   {
     if (m_topology.component.empty()) m_topology = surface_topology<ConcurrencyTag>(m_surface);
     const auto ordered_star = [this](int v) {
-      Star s = star(v);
+      Fan s = star(v);
       sort_around(s);
       return s;
     };
-    return are_homeomorphic(m_topology, star_topology<ConcurrencyTag>(m_size, ordered_star),
+    return are_homeomorphic(m_topology, fan_topology<ConcurrencyTag>(m_size, ordered_star),
                             m_samples.facets);
   }
 
@@ -335,7 +362,7 @@ private:
   const Surface& m_surface;
   const Samples& m_samples;
   const Feature_samples& m_features;
-  Sample_places m_places;
+  std::optional<Sample_places> m_places; // once they are needed
   Cell_stars<ConcurrencyTag> m_stars;
   int m_size;
   double m_unit = 0;                         // the spacing where the density is 1

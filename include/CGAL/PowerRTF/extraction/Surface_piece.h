@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -21,7 +22,8 @@ namespace CGAL::PowerRTF::internal {
 /// The samples by where they lie. The last ones lie on features.
 class Sample_places {
 public:
-  Sample_places(const Samples& samples, const Feature_samples& features)
+  template <class ConcurrencyTag>
+  Sample_places(const Samples& samples, const Feature_samples& features, ConcurrencyTag)
       : m_first_feature(static_cast<int>(samples.size() - features.size())), m_features(features)
   {
     for (int s = 0; s < m_first_feature; ++s) m_on_facets.emplace_back(samples.facets[s], s);
@@ -29,7 +31,7 @@ public:
       m_on_edges.emplace_back(
           sorted_edge(place(m_first_feature + k).from, place(m_first_feature + k).to),
           m_first_feature + k);
-    std::sort(m_on_facets.begin(), m_on_facets.end());
+    internal::sort<ConcurrencyTag>(m_on_facets.begin(), m_on_facets.end());
     std::sort(m_on_edges.begin(), m_on_edges.end());
   }
 

@@ -6,7 +6,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_COMPONENT_TOPOLOGY_H
 #define CGAL_POWER_RTF_EXTRACTION_COMPONENT_TOPOLOGY_H
 
-#include <CGAL/PowerRTF/extraction/Star.h>
+#include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/optimization/component_trees.h>
@@ -115,13 +115,13 @@ Component_topology surface_topology(const Surface& surface)
 
 /// `star(v)`: the triangles at vertex v in their order around it, as `sort_around()` makes it.
 template <class ConcurrencyTag, class Star_at>
-Component_topology star_topology(int vertices, const Star_at& star)
+Component_topology fan_topology(int vertices, const Star_at& star)
 {
   Component_topology result;
   std::vector<int> next(vertices, -1);
   auto components = linked_components<ConcurrencyTag>(vertices, [&](int v, auto&& join) {
-    const Star s = star(v);
-    for (const Corner& c : s)
+    const Fan s = star(v);
+    for (const Fan_corner& c : s)
       if (c[0] < v) join(c[0]);
     if (!is_closed(s)) next[v] = s.front()[0];
   });
