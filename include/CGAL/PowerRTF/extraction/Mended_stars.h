@@ -350,11 +350,10 @@ private:
   {
     std::vector<int> found;
     const std::vector<Triangle>& triangles = m_mesh.triangles;
-    Intersecting_pairs<Soup_triangles>({m_mesh.points, triangles})
-        .find(boost::irange(0, static_cast<int>(triangles.size())), [&](int t, int u) {
-          found.insert(found.end(), triangles[t].begin(), triangles[t].end());
-          found.insert(found.end(), triangles[u].begin(), triangles[u].end());
-        });
+    const Intersecting_pairs<Soup_triangles> finder({m_mesh.points, triangles}, ConcurrencyTag());
+    for (const auto& [t, u] : finder.find(boost::irange(0, static_cast<int>(triangles.size()))))
+      for (const int face : {t, u})
+        found.insert(found.end(), triangles[face].begin(), triangles[face].end());
     sort_uniquely(found);
     return found;
   }
