@@ -58,8 +58,8 @@ int main(int argc, char** argv)
   }
   const Topology_statistics before = topology(input.triangles), after = topology(output.triangles);
   const Quality_statistics q = triangle_quality(output.points, output.triangles);
-  const Distance_statistics d = surface_distance(
-      input.points, input.triangles, output.points, output.triangles);
+  const Distance_statistics d =
+      surface_distance(input.points, input.triangles, output.points, output.triangles);
   const Edge_length_statistics edges = edge_lengths(output.points, output.triangles);
   const Box3<double> box = internal::bounding_box(input.points, input.triangles);
   const double absolute_distance_max = d.max / 100 * length(box.hi - box.lo);

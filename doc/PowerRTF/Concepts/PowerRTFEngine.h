@@ -81,8 +81,8 @@ public:
   /// neighbors are numbers of sites.
   std::vector<CGAL::PowerRTF::Cell_polygon> cells();
 
-  /// The neighbors of each sample's cell, were there no weights: numbers of sites, counter-clockwise
-  /// seen from outside; negative: a side of the guard square.
+  /// The neighbors of each sample's cell, were there no weights: numbers of sites,
+  /// counter-clockwise seen from outside; negative: a side of the guard square.
   std::vector<std::vector<int>> neighbors();
 
   /// The precision of the cells' numbers: the machine epsilon of `double`, or of `float`.
