@@ -37,35 +37,51 @@ inline int opposite_vertex(const std::vector<Triangle>& triangles, int h)
 inline int next_halfedge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-/// Finds the facets that share each edge of `triangles`, whose indices are in
-/// `[0, number_of_vertices)` and differ within a triangle.
-inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
-                                       std::size_t number_of_vertices,
-                                       internal::Concurrency concurrency = Sequential_tag())
-{
-  using Entry = std::pair<int, int>; // larger vertex, halfedge
-  using Entries = std::vector<Entry>::iterator;
-  const int halfedges = static_cast<int>(3 * triangles.size());
-  const int vertices = static_cast<int>(number_of_vertices);
-  Facet_adjacency result;
-  result.opposite.assign(halfedges, Facet_adjacency::none);
+namespace internal {
 
+/// Halfedges by their smaller vertex: those of vertex v, with the larger one, at the places from
+/// `first[v]` to `first[v + 1]`.
+struct Halfedge_buckets {
+  using Entry = std::pair<int, int>; // larger vertex, halfedge
+  std::vector<int> first;
+  std::vector<Entry> entries; ///< in any order within a bucket
+};
+
+inline Halfedge_buckets halfedge_buckets(const std::vector<Triangle>& triangles,
+                                         std::size_t number_of_vertices, Concurrency concurrency)
+{
+  const int halfedges = static_cast<int>(3 * triangles.size());
   const auto smaller_vertex = [&](int h) {
     return (std::min)(halfedge_source(triangles, h), halfedge_target(triangles, h));
   };
   const auto next = [&](int& counter) {
     return concurrency.is_parallel() ? atomic_add(&counter, 1) : counter++;
   };
-  std::vector<int> first(number_of_vertices + 1, 0);
-  internal::for_each_index(concurrency, halfedges,
-                           [&](int h) { next(first[smaller_vertex(h) + 1]); });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Entry> entries(halfedges);
-  std::vector<int> end(first.begin(), first.end() - 1);
-  internal::for_each_index(concurrency, halfedges, [&](int h) {
+  Halfedge_buckets result{std::vector<int>(number_of_vertices + 1, 0),
+                          std::vector<Halfedge_buckets::Entry>(halfedges)};
+  for_each_index(concurrency, halfedges, [&](int h) { next(result.first[smaller_vertex(h) + 1]); });
+  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+  std::vector<int> end(result.first.begin(), result.first.end() - 1);
+  for_each_index(concurrency, halfedges, [&](int h) {
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    entries[next(end[smaller_vertex(h)])] = {(std::max)(a, b), h};
+    result.entries[next(end[smaller_vertex(h)])] = {(std::max)(a, b), h};
   });
+  return result;
+}
+
+} // namespace internal
+
+/// Finds the facets that share each edge of `triangles`, whose indices are in
+/// `[0, number_of_vertices)` and differ within a triangle.
+inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
+                                       std::size_t number_of_vertices,
+                                       internal::Concurrency concurrency = Sequential_tag())
+{
+  using Entries = std::vector<internal::Halfedge_buckets::Entry>::iterator;
+  Facet_adjacency result;
+  result.opposite.assign(3 * triangles.size(), Facet_adjacency::none);
+  internal::Halfedge_buckets buckets =
+      internal::halfedge_buckets(triangles, number_of_vertices, concurrency);
 
   // The facets at one edge.
   const auto join = [&](Facet_adjacency& found, Entries begin, Entries stop) {
@@ -86,11 +102,12 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
     }
   };
   const Facet_adjacency all = internal::reduce(
-      concurrency, vertices, Facet_adjacency(),
+      concurrency, static_cast<int>(number_of_vertices), Facet_adjacency(),
       [&](Facet_adjacency& found, int v) {
-        const Entries bucket_end = entries.begin() + first[v + 1];
-        std::sort(entries.begin() + first[v], bucket_end);
-        for (Entries e = entries.begin() + first[v], f = e; e != bucket_end; e = f) {
+        const Entries begin = buckets.entries.begin() + buckets.first[v],
+                      bucket_end = buckets.entries.begin() + buckets.first[v + 1];
+        std::sort(begin, bucket_end);
+        for (Entries e = begin, f = e; e != bucket_end; e = f) {
           while (f != bucket_end && f->first == e->first) ++f;
           join(found, e, f);
         }
