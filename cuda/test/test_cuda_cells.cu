@@ -3,7 +3,6 @@
 //
 // The tuned cells on a GPU against the shared construction in double precision on the host. Without
 // a GPU: skipped (return code 77).
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include "device_case.h"

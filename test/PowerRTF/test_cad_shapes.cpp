@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The program on mechanical parts: flat faces stay flat, tips and corners stay where they are.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include "cad_shapes.h"
 #include "flat_faces.h"
 #include "judged_run.h"

@@ -3,7 +3,6 @@
 //
 // Triangles from cells: they are those of insertion and decimation, and the guarantees hold
 // whatever the cells are.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "creased_surface.h"
 #include "hard_shapes.h"
 

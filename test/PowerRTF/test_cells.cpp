@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The cells of the CPU against closed forms and brute force.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/cells/Tree_cells.h>

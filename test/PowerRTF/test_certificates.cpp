@@ -3,7 +3,6 @@
 //
 // Attacks on the completeness certificate of the fast cells, judged by the oracle; and the fast
 // cells with certified combinatorics. (A million cells: test_certificates_long.)
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "fast_cells.h"

@@ -4,7 +4,6 @@
 // The fast cells against the oracle on more than a million cells: the families of
 // test_certificates, and real models (environment variable POWER_RTF_DATA) at several stages of
 // the optimization.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "fast_cells.h"

@@ -3,7 +3,6 @@
 //
 // The CUDA engine on a GPU, against the CPU engine and the oracle. Skipped where there is no GPU or
 // the engine is not built.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include "engine_comparison.h"
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>

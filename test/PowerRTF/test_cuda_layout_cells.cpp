@@ -3,7 +3,6 @@
 //
 // The tuned cells of the GPU, their tree and their polygons in a ring, run on the host. (The
 // kernels themselves: cuda/test/test_cuda_cells.cu.)
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "host_groups.h"
 
 using namespace host_groups;

@@ -3,7 +3,6 @@
 //
 // The Verlet lists of the GPU, run on the host. (The kernels themselves:
 // cuda/test/test_cuda_cells.cu.)
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "host_groups.h"
 
 using namespace host_groups;

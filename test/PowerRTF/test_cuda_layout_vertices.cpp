@@ -3,7 +3,6 @@
 //
 // The paper's projection and attributes as a warp of the GPU finds them, run on the host, against
 // those of a single thread: by the vertices' lists, and in the tree where no list proves them.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "packed.h"
 #include "shapes.h"
 

@@ -4,7 +4,6 @@
 // The cells that a warp of the GPU makes together, run on the host, against the shared construction
 // in double precision: guarded and empty cells, duplicates, weights that change while the warp
 // keeps its sites. (The kernels themselves: cuda/test/test_cuda_cells.cu.)
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>

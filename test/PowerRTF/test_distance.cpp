@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The distance of two surfaces against closed forms.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/quality/surface_distance.h>

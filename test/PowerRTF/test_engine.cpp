@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The CPU engine as a whole.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "engine_comparison.h"
 
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>

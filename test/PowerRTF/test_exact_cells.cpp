@@ -3,7 +3,6 @@
 //
 // The exact cells and their predicates against brute force in rational arithmetic.
 // The long version (ten thousand clouds): --no-skip --test-suite=long
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "exact_brute_force.h"

@@ -3,7 +3,6 @@
 //
 // The exact extraction: where sampling is dense it is the restricted Delaunay triangulation; on
 // close sheets it keeps them apart.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "shapes.h"

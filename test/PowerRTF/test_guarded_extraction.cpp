@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where the samples are too sparse for the surface, the extraction goes on with more care.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>

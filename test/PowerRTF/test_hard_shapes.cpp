@@ -3,7 +3,6 @@
 //
 // The program on every hard shape: no failure is silent. `test_hard_shapes --write FOLDER` writes
 // the shapes as OFF files, to be looked at.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include "hard_shapes.h"
 #include "judged_run.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The program on every hard shape, from few samples to many: no failure is silent, none hangs.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include "hard_shapes.h"
 #include "judged_run.h"
 

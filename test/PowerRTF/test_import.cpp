@@ -3,7 +3,6 @@
 //
 // Soups as they become surfaces: cleaned, triangulated, oriented, scaled to the unit box, or
 // refused.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 #include "sound_surface.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Meshes of CGAL as they become surfaces: their types and point maps.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "mesh_of_shape.h"
 #include "sound_surface.h"
 

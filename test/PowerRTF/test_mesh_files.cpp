@@ -3,7 +3,6 @@
 //
 // The program's readers and writers of mesh files: STL, what all formats share, data that is
 // something else, and meshes that come back as they were written.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "dataset.h"
 #include "foreign_file.h"
 #include "mesh_data.h"

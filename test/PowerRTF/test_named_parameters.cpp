@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Chains of named parameters: any order, and chains of CGAL's own.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <CGAL/PowerRTF/named_parameters.h>
 
 #include <doctest/doctest.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Cells from neighbor lists that were made when sites and weights were others, against the oracle.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "fast_cells.h"
 
 #include <doctest/doctest.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Every option at, below and above its bounds, wherever options enter the library.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/features/sample_features.h>

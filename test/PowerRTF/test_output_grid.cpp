@@ -3,7 +3,6 @@
 //
 // What is judged is what is written: points on a grid that the output's numbers hold, so that
 // nothing is rounded after the result has been judged.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/geometry/output_grid.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The program's reader of PLY: every variant that there is, and data that is malformed.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "mesh_data.h"
 
 #include <doctest/doctest.h>

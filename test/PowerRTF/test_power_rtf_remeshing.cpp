@@ -3,7 +3,6 @@
 //
 // The free function from mesh to mesh: types, point maps, errors. The other files of this program
 // call it through one instantiation, that of remesh() below.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "mesh_of_shape.h"
 #include "remeshed_shape.h"
 

@@ -3,7 +3,6 @@
 //
 // Real models of CGAL's data, remeshed through the library. They are looked for in the folder that
 // the environment variable POWER_RTF_DATA names; without any of them the test is skipped.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <CGAL/power_rtf_remeshing.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The named parameters of the free function: seeds, options, densities, creases, visitors.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "mesh_of_shape.h"
 #include "remeshed_shape.h"
 

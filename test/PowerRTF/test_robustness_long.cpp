@@ -3,7 +3,6 @@
 //
 // Whole runs on what users bring: every guarantee must be met. Real models are run by
 // benchmark/PowerRTF/Robustness.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/features/sample_features.h>

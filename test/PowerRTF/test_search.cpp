@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Packed trees and the searches in them, against exact arithmetic and brute force.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Self-intersections against exact predicates and CGAL's own count.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "mesh_of_shape.h"
 
 #include <CGAL/PowerRTF/geometry/self_intersections.h>

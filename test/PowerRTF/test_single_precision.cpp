@@ -3,7 +3,6 @@
 //
 // The engine in single precision, as the CUDA traits have it, with its loops run on the host,
 // against the one in double precision.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "engine_comparison.h"
 
 #include <CGAL/PowerRTF/engines/Host_engine_impl.h>

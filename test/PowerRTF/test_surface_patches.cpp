@@ -3,7 +3,6 @@
 //
 // The surface as the samples see it: long facets whose corners' normals are far from their own are
 // split, and everything keeps its place.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/features/Surface_patches.h>
