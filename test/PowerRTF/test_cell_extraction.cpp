@@ -181,8 +181,19 @@ TEST_CASE("creases and borders stay")
       check_guarantees(s, mesh);
       CHECK(mesh.feature_edges.size() == s.patches.features().edges.size());
       CHECK(mesh.feature_edges == s.insert().feature_edges);
+      CHECK_FALSE(statistics.is_from_insertion);
       CHECK(self_intersections(mesh.points, mesh.triangles) == 0);
     }
+}
+
+TEST_CASE("a patch without cells is no hole")
+{
+  // Thin rods: each end is a square between four samples.
+  for (const std::size_t n : {400, 1000}) {
+    const Sampled s(shapes::with_creases(shapes::long_box(1, .02, .02), n), n, 5);
+    CHECK(s.patches.features().size() > 0);
+    check_guarantees(s, s.extract());
+  }
 }
 
 TEST_CASE("the same for any number of threads")

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
 #include <CGAL/PowerRTF/extraction/Surface_walk.h>
+#include <CGAL/PowerRTF/extraction/border_samples.h>
 #include <CGAL/PowerRTF/extraction/component_topology.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
@@ -36,7 +37,8 @@ public:
                std::vector<std::vector<int>>&& neighbors)
       : m_surface(surface), m_samples(samples), m_features(features),
         m_stars(std::move(neighbors), features), m_size(static_cast<int>(samples.size())),
-        m_openings(samples.size(), 0), m_has_made(samples.size(), 0), m_on_curves(features.size())
+        m_openings(samples.size(), 0), m_has_made(samples.size(), 0), m_on_curves(features.size()),
+        m_is_on_border(are_on_border(surface, features))
   {
     for (const Edge& e : features.edges)
       for (const int i : {0, 1}) m_on_curves[e[i]].push_back(m_stars.cells() + e[1 - i]);
@@ -136,7 +138,9 @@ private:
     Fan s = star(v);
     if (!sort_around(s)) return false;
     if (has_cell) return is_closed(s) && s.size() >= 3;
-    const std::vector<int>& curve = m_on_curves[v - m_stars.cells()];
+    const int k = v - m_stars.cells();
+    if (is_closed(s) == bool(m_is_on_border[k])) return false;
+    const std::vector<int>& curve = m_on_curves[k];
     const auto is_on_curve = [&](int w) {
       return std::find(curve.begin(), curve.end(), w) != curve.end();
     };
@@ -368,6 +372,7 @@ private:
   std::vector<int> m_openings;               // by sample: how often its triangles were found wrong
   std::vector<char> m_has_made;              // by sample: triangles of the pieces
   std::vector<std::vector<int>> m_on_curves; // by sample on features: its neighbors along them
+  std::vector<char> m_is_on_border;          // by sample on features
   std::vector<Piece> m_pieces;
   std::vector<Triangle> m_made_triangles; // of the pieces, sorted
   std::vector<Triangle_at> m_made;        // the same at their corners, sorted

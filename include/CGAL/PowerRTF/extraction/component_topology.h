@@ -122,7 +122,8 @@ Component_topology fan_topology(int vertices, const Star_at& star)
   auto components = linked_components<ConcurrencyTag>(vertices, [&](int v, auto&& join) {
     const Fan s = star(v);
     for (const Fan_corner& c : s)
-      if (c[0] < v) join(c[0]);
+      for (const int w : c)
+        if (w < v) join(w);
     if (!is_closed(s)) next[v] = s.front()[0];
   });
   result.component = std::move(components.first);
