@@ -121,7 +121,8 @@ Surface load(Run& run)
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   stop_if_interrupted();
   Surface surface = about_input(options, [&] {
-    return prepare_surface(mesh.points, mesh.polygons, options.remeshing, run.report);
+    return prepare_surface(mesh.points, mesh.polygons, options.remeshing, run.report,
+                           Concurrency());
   });
   check_precision(surface, options);
   return surface;

@@ -44,7 +44,8 @@ public:
   /// for the surface.
   PowerRTF_remesher(PowerRTF::Surface surface, const Options& options, const Report& report = {})
       : m_surface(std::move(surface)), m_options(PowerRTF::validate(options)),
-        m_patches(m_surface, m_options), m_engine(m_patches.surface(), m_options), m_report(report)
+        m_patches(m_surface, m_options, typename Traits::Concurrency_tag()),
+        m_engine(m_patches.surface(), m_options), m_report(report)
   {
     m_report.samples_asked = options.number_of_samples;
     m_report.feature_samples = m_patches.features().size();

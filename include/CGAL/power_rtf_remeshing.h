@@ -219,7 +219,8 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
   const auto run = [&] {
     const PowerRTF::internal::Stopwatch total(report.seconds.total);
     visitor.on_stage("surface");
-    PowerRTF::Surface surface = PowerRTF::prepare_surface(input, options, np_in, report);
+    PowerRTF::Surface surface =
+        PowerRTF::prepare_surface(input, options, np_in, report, ConcurrencyTag());
     PowerRTF_remesher<typename Types::Traits> remesher(std::move(surface), options, report);
     PowerRTF::Extracted_mesh mesh;
     if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);

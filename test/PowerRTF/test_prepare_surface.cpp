@@ -3,7 +3,11 @@
 #include "dirty_shapes.h"
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -47,6 +51,88 @@ TEST_CASE("a mesh and the soup of it become the same surface, with creases and d
   const auto [least, largest] =
       std::minmax_element(a.vertex_density.begin(), a.vertex_density.end());
   CHECK(*largest > 2 * *least);
+}
+
+TEST_CASE("the surface is the same with and without threads")
+{
+  const shapes::Soup shapes_[] = {shapes::box(12), shapes::torus(90, 60, 2, 1),
+                                  shapes::joined(shapes::plane_patch(30, 20), shapes::icosphere(3)),
+                                  shapes::open_cylinder(40, 30, 1, 3)};
+  for (const shapes::Soup& soup : shapes_) {
+    Remeshing_options options;
+    options.density = Density::curvature;
+    options.density_smoothing = 1;
+    options.number_of_samples = 400;
+    Remeshing_report report;
+    Surface a = prepare_surface(soup.points, soup.triangles, options, report);
+    Surface b = prepare_surface(soup.points, soup.triangles, options, report,
+                                CGAL::Parallel_if_available_tag());
+    const auto check = [&] {
+      CHECK(a.triangles == b.triangles);
+      CHECK(a.adjacency.opposite == b.adjacency.opposite);
+      CHECK(a.facet_normals == b.facet_normals);
+      CHECK(a.vertex_normals == b.vertex_normals);
+      CHECK(a.area == b.area);
+      CHECK(a.creases == b.creases);
+      CHECK(a.vertex_density == b.vertex_density);
+    };
+    check();
+    const Surface_patches pa(a, options), pb(b, options, CGAL::Parallel_if_available_tag());
+    check();
+    CHECK(pa.surface().vertex_normals == pb.surface().vertex_normals);
+    CHECK(pa.features().samples.points == pb.features().samples.points);
+  }
+}
+
+TEST_CASE("components by threads, compared with a search from facet to facet")
+{
+  shapes::Soup soup = shapes::icosphere(3);
+  for (int k = 1; k < 6; ++k)
+    soup = shapes::joined(
+        soup, shapes::translated(k % 2 ? shapes::plane_patch(k, 9) : shapes::torus(12, 8, 2, 1),
+                                 {10. * k, 0, 0}));
+  Random_source random(1); // facets in any order
+  for (std::size_t f = soup.triangles.size(); f-- > 1;)
+    std::swap(soup.triangles[f], soup.triangles[std::size_t(random() * double(f + 1))]);
+  const Facet_adjacency adjacency = facet_adjacency(soup.triangles, soup.points.size());
+  std::vector<int> expected(soup.triangles.size(), -1), stack;
+  int count = 0;
+  for (std::size_t seed = 0; seed < expected.size(); ++seed) {
+    if (expected[seed] >= 0) continue;
+    for (stack.push_back(int(seed)); !stack.empty();) {
+      const int f = stack.back();
+      stack.pop_back();
+      if (expected[f] >= 0) continue;
+      expected[f] = count;
+      for (int h = 3 * f; h < 3 * f + 3; ++h)
+        if (adjacency.opposite[h] != Facet_adjacency::none)
+          stack.push_back(adjacency.opposite[h] / 3);
+    }
+    ++count;
+  }
+  CHECK(count == 6);
+  CHECK(facet_components(adjacency) == std::pair(expected, count));
+  CHECK(facet_components(adjacency, CGAL::Parallel_if_available_tag()) ==
+        std::pair(expected, count));
+  CHECK(facet_components({}).second == 0);
+}
+
+TEST_CASE("corners at vertices: each once, increasing")
+{
+  const shapes::Soup soup = shapes::torus(90, 60, 2, 1);
+  const std::size_t vertices = soup.points.size() + 1; // the last one is not used
+  const auto a = vertex_corners(soup.triangles, vertices);
+  const auto b = vertex_corners(soup.triangles, vertices, CGAL::Parallel_if_available_tag());
+  CHECK(a.first == b.first);
+  CHECK(a.entries == b.entries);
+  REQUIRE(a.first.size() == vertices + 1);
+  CHECK(a.first.back() == int(3 * soup.triangles.size()));
+  for (std::size_t v = 0; v < vertices; ++v)
+    for (int k = a.first[v]; k < a.first[v + 1]; ++k) {
+      const int c = a.entries[k];
+      CHECK(soup.triangles[c / 3][c % 3] == int(v));
+      if (k > a.first[v]) CHECK(a.entries[k - 1] < c);
+    }
 }
 
 TEST_CASE("repairs and seconds are added to the report, or the input is refused")

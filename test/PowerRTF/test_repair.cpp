@@ -255,7 +255,8 @@ TEST_CASE("topology of the components; too few samples for it are refused with t
                      shapes::translated(shapes::open_cylinder(8, 3, 1, 1), {0, 9, 0}));
   Repair_counts repairs;
   const Surface s = check(soup, {3, 2, 2}, repairs);
-  const auto components = PRTF::component_topologies(s);
+  const auto [component, count] = PRTF::facet_components(s.adjacency);
+  const auto components = PRTF::component_topologies(s, component, count);
   REQUIRE(components.size() == 3);
   CHECK(components[0].euler_characteristic == 2);
   CHECK(components[1].euler_characteristic == 0);

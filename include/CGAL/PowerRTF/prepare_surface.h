@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/input/read_mesh.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/named_parameters.h>
 
 #include <CGAL/number_utils.h>
@@ -68,10 +69,12 @@ std::optional<std::vector<double>> vertex_densities(const FaceGraph& mesh,
 ///   asks for
 /// \param densities one per point of the soup; none: those that `options` asks for
 /// \param report gets the repairs and the seconds
+/// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
 /// \throws Invalid_input_error as `import_surface()` and `set_density()`
 Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edge>>& creases,
                         const std::optional<std::vector<double>>& densities,
-                        const Remeshing_options& options, Remeshing_report& report);
+                        const Remeshing_options& options, Remeshing_report& report,
+                        internal::Concurrency concurrency = Sequential_tag());
 
 /// \ingroup PkgPowerRTFSurface
 /// The surface of any model of `FaceListGraph` as the remesher wants it: imported by
@@ -80,10 +83,12 @@ Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edg
 /// \param np may contain `vertex_point_map` (default: the mesh's own), `edge_is_constrained_map`
 ///   (default: what `set_creases()` finds) and `density_map` (default: what `set_density()` sets)
 /// \param report gets the repairs and the seconds
+/// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
 /// \throws Invalid_input_error as `import_surface()` and `set_density()`
 template <class FaceGraph, class NamedParameters>
 Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
-                        const NamedParameters& np, Remeshing_report& report)
+                        const NamedParameters& np, Remeshing_report& report,
+                        internal::Concurrency concurrency = Sequential_tag())
 {
   Polygon_soup soup;
   std::optional<std::vector<Edge>> creases;
@@ -94,7 +99,7 @@ Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
     creases = internal::constrained_edges(mesh, np);
     densities = internal::vertex_densities(mesh, np);
   }
-  return prepare_surface(std::move(soup), creases, densities, options, report);
+  return prepare_surface(std::move(soup), creases, densities, options, report, concurrency);
 }
 
 /// \ingroup PkgPowerRTFSurface
@@ -105,14 +110,15 @@ Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
 /// \throws Invalid_input_error as `import_soup()` and `set_density()`
 template <class PointRange, class PolygonRange>
 Surface prepare_surface(const PointRange& points, const PolygonRange& polygons,
-                        const Remeshing_options& options, Remeshing_report& report)
+                        const Remeshing_options& options, Remeshing_report& report,
+                        internal::Concurrency concurrency = Sequential_tag())
 {
   Polygon_soup soup;
   {
     const internal::Stopwatch watch(report.seconds.surface);
     soup = internal::soup_of_ranges(points, polygons);
   }
-  return prepare_surface(std::move(soup), {}, {}, options, report);
+  return prepare_surface(std::move(soup), {}, {}, options, report, concurrency);
 }
 
 } // namespace CGAL::PowerRTF

@@ -19,13 +19,15 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup,
                                               const std::optional<std::vector<Edge>>& creases,
                                               const std::optional<std::vector<double>>& densities,
                                               const Remeshing_options& options,
-                                              Remeshing_report& report)
+                                              Remeshing_report& report,
+                                              internal::Concurrency concurrency)
 {
   const internal::Stopwatch watch(report.seconds.surface);
-  Surface surface = internal::clean_surface(soup, options.repair, report.repairs);
+  Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
   soup = {}; // its memory
-  creases ? set_creases(surface, *creases) : set_creases(surface, options);
-  densities ? set_density(surface, options, *densities) : set_density(surface, options);
+  creases ? set_creases(surface, *creases) : set_creases(surface, options, concurrency);
+  densities ? set_density(surface, options, *densities)
+            : set_density(surface, options, concurrency);
   return surface;
 }
 

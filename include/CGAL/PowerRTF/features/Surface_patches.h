@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <optional>
 #include <utility>
@@ -22,7 +23,8 @@ public:
   /// normals by the smoothed ones (the means over the patches at each vertex).
   /// \throws Invalid_input_error when there are too few samples for the topology, or for the
   ///   creases and borders, or too many for the output's coordinates
-  Surface_patches(Surface& surface, const Remeshing_options& options);
+  Surface_patches(Surface& surface, const Remeshing_options& options,
+                  internal::Concurrency concurrency = Sequential_tag());
 
   Surface_patches(const Surface_patches&) = delete;
   Surface_patches& operator=(const Surface_patches&) = delete;

@@ -22,18 +22,19 @@
 namespace CGAL::PowerRTF {
 
 CGAL_POWER_RTF_INLINE
-Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& options)
+Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& options,
+                                 internal::Concurrency concurrency)
     : m_whole(surface)
 {
   const std::size_t n = options.number_of_samples;
-  require_enough_samples(surface, n);
+  require_enough_samples(surface, n, concurrency);
   set_output_grid(surface, options);
   const bool is_one_patch = surface.creases.empty() && surface.adjacency.border_edges == 0 &&
-                            facet_components(surface.adjacency).second == 1;
+                            facet_components(surface.adjacency, concurrency).second == 1;
   // Means over the nearest vertices would depend on how finely a facet is split.
   const bool splits = options.attributes == Attributes::facet;
   if (is_one_patch && !(splits && has_long_bent_facets(surface, n))) {
-    smooth_normals(surface, n, options.normal_smoothing);
+    smooth_normals(surface, n, options.normal_smoothing, concurrency);
     return;
   }
   std::vector<int> originals; // of the vertices of the patches
@@ -49,7 +50,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
   }
   if (splits) m_parents = split_bent_facets(*m_own, n);
   place_features();
-  smooth_normals(*m_own, n, options.normal_smoothing);
+  smooth_normals(*m_own, n, options.normal_smoothing, concurrency);
   surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
   for (std::size_t v = 0; v < originals.size(); ++v)
     surface.vertex_normals[originals[v]] += m_own->vertex_normals[v];

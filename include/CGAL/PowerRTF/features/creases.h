@@ -100,26 +100,30 @@ inline void prune_creases(const Surface& surface, const std::vector<char>& on_bo
 /// Measured on the models of CGAL's data: mechanical parts have less than one dangling end in 30
 /// crease edges and noisy ones up to one in 6.7, scans and figures from one in 5.7 up; but for two
 /// bones, whose edges of 20 to 40 degrees are longer in all than the sharper ones.
-inline std::vector<Edge> find_creases(const Surface& surface, double angle, std::size_t n)
+inline std::vector<Edge> find_creases(const Surface& surface, double angle, std::size_t n,
+                                      internal::Concurrency concurrency = Sequential_tag())
 {
   constexpr double degrees = 3.14159265358979323846 / 180, soft_angle = 20;
   const double cos_sharp = std::cos(angle * degrees);
   const double cos_soft = std::cos((std::min)(angle, soft_angle) * degrees);
   const auto& triangles = surface.triangles;
+  const auto cosine = [&](int h) {
+    const int o = surface.adjacency.opposite[h];
+    const bool is_seam = std::binary_search(
+        surface.seams.begin(), surface.seams.end(),
+        sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h)));
+    return dot(surface.facet_normals[h / 3], surface.facet_normals[o / 3]) * (is_seam ? -1 : 1);
+  };
   std::vector<Edge> creases;
   double sharp = 0, soft = 0;
-  for (int h = 0; h < static_cast<int>(3 * triangles.size()); ++h) {
-    const int o = surface.adjacency.opposite[h];
-    if (o < h) continue; // border, or seen
+  for (const int h :
+       internal::select(concurrency, static_cast<int>(3 * triangles.size()), [&](int h) {
+         return surface.adjacency.opposite[h] > h && cosine(h) <= cos_soft; // once, no border
+       })) {
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    const bool is_seam =
-        std::binary_search(surface.seams.begin(), surface.seams.end(), sorted_edge(a, b));
-    const double cosine =
-        dot(surface.facet_normals[h / 3], surface.facet_normals[o / 3]) * (is_seam ? -1 : 1);
-    if (cosine > cos_soft) continue;
-    const double l = length(surface.points[b] - surface.points[a]);
-    (cosine <= cos_sharp ? sharp : soft) += l;
-    if (cosine <= cos_sharp) creases.push_back(sorted_edge(a, b));
+    const bool is_sharp = cosine(h) <= cos_sharp;
+    (is_sharp ? sharp : soft) += length(surface.points[b] - surface.points[a]);
+    if (is_sharp) creases.push_back(sorted_edge(a, b));
   }
   const std::vector<char> on_border = internal::border_vertices(surface);
   const internal::Edge_graph graph(creases, surface.points.size());

@@ -237,13 +237,14 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
 /// half of the samples: so few samples show the shape better without; but not where nothing else is
 /// needed, as all that they bound is flat.
 /// \throws Invalid_input_error an option has a value that is not allowed
-inline void set_creases(Surface& surface, const Remeshing_options& options)
+inline void set_creases(Surface& surface, const Remeshing_options& options,
+                        internal::Concurrency concurrency = Sequential_tag())
 {
   validate(options);
   surface.creases = surface.seams;
   if (options.feature_angle == 180) return;
   const std::vector<Edge> found =
-      find_creases(surface, options.feature_angle, options.number_of_samples);
+      find_creases(surface, options.feature_angle, options.number_of_samples, concurrency);
   surface.creases.insert(surface.creases.end(), found.begin(), found.end());
   sort_uniquely(surface.creases);
   const double h = std::sqrt(surface.area / static_cast<double>(options.number_of_samples));

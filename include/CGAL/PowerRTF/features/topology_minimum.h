@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -37,41 +38,60 @@ struct Component_topology {
 };
 
 /// Of each component, numbered as by `facet_components()`.
-inline std::vector<Component_topology> component_topologies(const Surface& surface)
+inline std::vector<Component_topology>
+component_topologies(const Surface& surface, const std::vector<int>& component, int components,
+                     internal::Concurrency concurrency = Sequential_tag())
 {
   const auto& triangles = surface.triangles;
-  const Facet_adjacency& adjacency = surface.adjacency;
-  const std::size_t number_of_vertices = surface.points.size();
-  const auto [component, components] = facet_components(adjacency);
+  const std::vector<int>& opposite = surface.adjacency.opposite;
+  const int halfedges = static_cast<int>(opposite.size());
+  const int vertices = static_cast<int>(surface.points.size());
+  std::vector<int> leaving(vertices, -1), next_on_border(vertices, -1); // any halfedge that does
+  internal::for_each_index(concurrency, halfedges, [&](int h) {
+    const int v = halfedge_source(triangles, h);
+    atomic_store(&leaving[v], h);
+    if (opposite[h] == Facet_adjacency::none) next_on_border[v] = halfedge_target(triangles, h);
+  });
+  std::vector<int> characteristic(components, 0);
+  // Adds up `f(i)`, by `component_of(i)`.
+  const auto add_up = [&](int n, const auto& component_of, const auto& f) {
+    internal::for_each_chunk(concurrency, n, 4096, [&](int begin, int end) {
+      int c = 0, sum = 0;
+      for (int i = begin; i < end; ++i) {
+        if (component_of(i) != c) atomic_add(&characteristic[c], std::exchange(sum, 0));
+        c = component_of(i);
+        sum += f(i);
+      }
+      atomic_add(&characteristic[c], sum);
+    });
+  };
+  const auto of_vertex = [&](int v) { return leaving[v] < 0 ? 0 : component[leaving[v] / 3]; };
+  add_up(
+      halfedges, [&](int h) { return component[h / 3]; },
+      [&](int h) { return (h % 3 == 0) - (opposite[h] < h); }); // facets less edges
+  add_up(vertices, of_vertex, [&](int v) { return leaving[v] >= 0; });
+
   std::vector<Component_topology> result(components);
-  std::vector<int> of_vertex(number_of_vertices, -1), next_on_border(number_of_vertices, -1);
-  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
-    const int v = halfedge_source(triangles, h), o = adjacency.opposite[h];
-    Component_topology& c = result[component[h / 3]];
-    c.euler_characteristic += h % 3 == 0; // facets less edges plus vertices
-    c.euler_characteristic -= o < h;
-    if (of_vertex[v] < 0) ++c.euler_characteristic;
-    of_vertex[v] = component[h / 3];
-    c.vertex = v;
-    if (o == Facet_adjacency::none) next_on_border[v] = halfedge_target(triangles, h);
-  }
-  for (std::size_t start = 0; start < number_of_vertices; ++start) {
-    if (next_on_border[start] < 0) continue;
-    ++result[of_vertex[start]].border_loops;
-    for (int v = static_cast<int>(start); next_on_border[v] >= 0;) {
-      const int next = next_on_border[v];
-      next_on_border[v] = -1;
-      v = next;
-    }
+  for (int f = static_cast<int>(triangles.size()) - 1; f >= 0; --f)
+    result[component[f]].vertex = triangles[f][0];
+  for (int c = 0; c < components; ++c) result[c].euler_characteristic = characteristic[c];
+  for (const int start :
+       internal::select(concurrency, vertices, [&](int v) { return next_on_border[v] >= 0; })) {
+    if (next_on_border[start] < 0) continue; // seen
+    ++result[of_vertex(start)].border_loops;
+    for (int v = start; next_on_border[v] >= 0;) v = std::exchange(next_on_border[v], -1);
   }
   return result;
 }
 
 /// \throws Invalid_input_error if `n` vertices cannot have the topology of `surface`; it names the
 ///   component that needs most
-inline void require_enough_samples(const Surface& surface, std::size_t n)
+inline void require_enough_samples(const Surface& surface, std::size_t n,
+                                   internal::Concurrency concurrency = Sequential_tag())
 {
-  const std::vector<Component_topology> components = component_topologies(surface);
+  const auto [component, count] = facet_components(surface.adjacency, concurrency);
+  const std::vector<Component_topology> components =
+      component_topologies(surface, component, count, concurrency);
   std::size_t sum = 0;
   for (const Component_topology& c : components) sum += c.least_samples();
   if (n >= sum) return;

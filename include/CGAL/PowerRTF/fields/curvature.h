@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_FIELDS_CURVATURE_H
 
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +17,11 @@ namespace CGAL::PowerRTF {
 
 /// The root mean square of the normal curvatures `(n_a - n_b).(v_a - v_b) / |v_a - v_b|^2` along
 /// the edges at each vertex (#V, per unit-box length). A sphere of radius r: 1/r.
-inline std::vector<double> vertex_curvature(const Surface& surface, const Surface_edges& edges)
+inline std::vector<double> vertex_curvature(const Surface& surface, const Surface_edges& edges,
+                                            internal::Concurrency concurrency = Sequential_tag())
 {
   std::vector<double> curvature(surface.points.size(), 0);
-  for (std::size_t v = 0; v < curvature.size(); ++v) {
+  internal::for_each_index(concurrency, static_cast<int>(curvature.size()), [&](int v) {
     double sum = 0;
     int count = 0;
     for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) {
@@ -33,36 +34,38 @@ inline std::vector<double> vertex_curvature(const Surface& surface, const Surfac
       ++count;
     }
     if (count > 0) curvature[v] = std::sqrt(sum / count);
-  }
+  });
   return curvature;
 }
 
 /// Replaces each value by the mean of itself and its neighbors' mean, `passes` times.
-inline void smooth_over_edges(const Surface_edges& edges, int passes, std::vector<double>& values)
+inline void smooth_over_edges(const Surface_edges& edges, int passes, std::vector<double>& values,
+                              internal::Concurrency concurrency = Sequential_tag())
 {
   std::vector<double> smooth(values.size());
   for (int pass = 0; pass < passes; ++pass) {
-    internal::Cancellation::poll();
-    for (std::size_t v = 0; v < values.size(); ++v) {
+    internal::for_each_index(concurrency, static_cast<int>(values.size()), [&](int v) {
       double sum = 0;
       for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) sum += values[edges.neighbor[e]];
       smooth[v] = (values[v] + sum / (edges.first[v + 1] - edges.first[v])) / 2;
-    }
+    });
     values.swap(smooth);
   }
 }
 
 /// The curvature of the vertices as a pure number in `[0.05, 1]`: smoothed 3 times and divided by
 /// its 98th percentile. 1 everywhere on a flat surface.
-inline std::vector<double> normalized_curvature(const Surface& surface, const Surface_edges& edges)
+inline std::vector<double>
+normalized_curvature(const Surface& surface, const Surface_edges& edges,
+                     internal::Concurrency concurrency = Sequential_tag())
 {
   constexpr int smoothing_passes = 3;
   constexpr double percentile = 0.98, smallest = 0.05;
   // Curvature times size below this is rounding (a radius of 10^4 times the surface's size).
   constexpr double flat = 1e-4;
 
-  std::vector<double> curvature = vertex_curvature(surface, edges);
-  smooth_over_edges(edges, smoothing_passes, curvature);
+  std::vector<double> curvature = vertex_curvature(surface, edges, concurrency);
+  smooth_over_edges(edges, smoothing_passes, curvature, concurrency);
   std::vector<double> sorted = curvature;
   const auto rank = sorted.begin() + static_cast<std::ptrdiff_t>(percentile * (sorted.size() - 1));
   std::nth_element(sorted.begin(), rank, sorted.end());

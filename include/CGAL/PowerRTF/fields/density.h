@@ -35,12 +35,12 @@ inline void normalize_density(std::vector<double>& density)
 
 /// Diffuses the densities' logarithms over `width` times the local spacing of `n` samples.
 inline void smooth_density(Surface& surface, const Surface_edges& edges, std::size_t n,
-                           double width)
+                           double width, Concurrency concurrency)
 {
   std::vector<double>& rho = surface.vertex_density;
-  const std::vector<double> times = diffusion_times(surface, edges, n, width);
+  const std::vector<double> times = diffusion_times(surface, edges, n, width, concurrency);
   std::transform(rho.begin(), rho.end(), rho.begin(), [](double x) { return std::log(x); });
-  diffuse(edges, times, rho);
+  diffuse(edges, times, rho, concurrency);
   std::transform(rho.begin(), rho.end(), rho.begin(), [](double x) { return std::exp(x); });
 }
 
@@ -51,30 +51,35 @@ inline void smooth_density(Surface& surface, const Surface_edges& edges, std::si
 /// `density_power`, its growth limited by `gradation`, smoothed over `density_smoothing` times the
 /// spacing. Only ratios of densities matter to any later stage. \throws Invalid_input_error an
 /// option has a value that is not allowed
-inline void set_density(Surface& surface, const Remeshing_options& options)
+inline void set_density(Surface& surface, const Remeshing_options& options,
+                        internal::Concurrency concurrency = Sequential_tag())
 {
   validate(options);
   surface.vertex_density.assign(surface.points.size(), 1);
   if (options.density == Density::uniform) return;
-  const Surface_edges edges = surface_edges(surface);
+  const Surface_edges edges = surface_edges(surface, concurrency);
   if (surface.creases.empty()) {
-    surface.vertex_density = normalized_curvature(surface, edges);
+    surface.vertex_density = normalized_curvature(surface, edges, concurrency);
   } else { // a crease is no curvature: both its sides may be flat
     const Cut_surface cut = cut_along_creases(surface);
     const std::vector<double> curvature =
-        normalized_curvature(cut.surface, surface_edges(cut.surface));
+        normalized_curvature(cut.surface, surface_edges(cut.surface, concurrency), concurrency);
     std::fill(surface.vertex_density.begin(), surface.vertex_density.end(), 0);
     for (std::size_t v = 0; v < curvature.size(); ++v) {
       double& rho = surface.vertex_density[cut.originals[v]];
       rho = (std::max)(rho, curvature[v]);
     }
   }
-  for (double& rho : surface.vertex_density) rho = std::pow(rho, options.density_power);
+  std::vector<double>& density = surface.vertex_density;
+  internal::for_each_index(concurrency, static_cast<int>(density.size()), [&](int v) {
+    density[v] = std::pow(density[v], options.density_power);
+  });
   internal::normalize_density(surface.vertex_density);
   if (options.gradation > 0)
     limit_gradation(surface, edges, options.gradation, options.number_of_samples);
   if (options.density_smoothing > 0)
-    internal::smooth_density(surface, edges, options.number_of_samples, options.density_smoothing);
+    internal::smooth_density(surface, edges, options.number_of_samples, options.density_smoothing,
+                             concurrency);
 }
 
 /// \ingroup PkgPowerRTFSurface

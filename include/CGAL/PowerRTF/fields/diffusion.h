@@ -8,7 +8,7 @@
 
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,19 +21,20 @@ namespace CGAL::PowerRTF {
 /// of `width` times the local spacing of `n` samples: twice its square over the mean squared length
 /// of the edges.
 inline std::vector<double> diffusion_times(const Surface& surface, const Surface_edges& edges,
-                                           std::size_t n, double width)
+                                           std::size_t n, double width,
+                                           internal::Concurrency concurrency = Sequential_tag())
 {
   const double mass = density_integral(surface);
   std::vector<double> times(surface.points.size(), 0);
-  for (std::size_t v = 0; v < times.size(); ++v) {
+  internal::for_each_index(concurrency, static_cast<int>(times.size()), [&](int v) {
     double squares = 0;
     const int degree = edges.first[v + 1] - edges.first[v];
     for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
       squares += edges.length[e] * edges.length[e];
-    if (!(squares > 0)) continue;
+    if (!(squares > 0)) return;
     const double h2 = mass / (double(n) * surface.vertex_density[v]);
     times[v] = 2 * width * width * h2 * degree / squares;
-  }
+  });
   return times;
 }
 
@@ -43,7 +44,8 @@ inline std::vector<double> diffusion_times(const Surface& surface, const Surface
 /// explicit super-time-stepping of parabolic and mixed equations", J. Comput. Phys. 257, 2014). The
 /// mean over a ring is all that a single long one makes: several make nearly a Gaussian of it.
 inline void diffuse(const Surface_edges& edges, std::vector<double> times,
-                    std::vector<double>& values)
+                    std::vector<double>& values,
+                    internal::Concurrency concurrency = Sequential_tag())
 {
   constexpr double longest = 4000;
   constexpr int steps = 4;
@@ -54,15 +56,14 @@ inline void diffuse(const Surface_edges& edges, std::vector<double> times,
   std::vector<double> before(values.size()), next(values.size());
   for (int step = 0; step < steps; ++step)
     for (double j = 1; j <= stages; ++j) {
-      internal::Cancellation::poll();
       const double mu = (2 * j - 1) / j, nu = (1 - j) / j; // their sum is 1
-      for (std::size_t v = 0; v < values.size(); ++v) {
+      internal::for_each_index(concurrency, static_cast<int>(values.size()), [&](int v) {
         double sum = 0; // of the differences: a constant stays as it is
         for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
           sum += values[edges.neighbor[e]] - values[v];
         const int degree = (std::max)(1, edges.first[v + 1] - edges.first[v]);
         next[v] = values[v] + nu * (before[v] - values[v]) + mu * share * times[v] * sum / degree;
-      }
+      });
       before.swap(values);
       values.swap(next);
     }

@@ -10,7 +10,7 @@
 
 #include <CGAL/PowerRTF/fields/diffusion.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,21 +21,22 @@ namespace CGAL::PowerRTF {
 /// Smooths `surface.vertex_normals` by a diffusion of standard deviation `width` times the local
 /// spacing h_v = sqrt(integral(rho) / (n rho_v)) of `n` samples. Edges longer than that are hardly
 /// smoothed over. At most 64 passes are made: very fine input is smoothed less.
-inline void smooth_normals(Surface& surface, std::size_t n, double width)
+inline void smooth_normals(Surface& surface, std::size_t n, double width,
+                           internal::Concurrency concurrency = Sequential_tag())
 {
   if (!(width > 0)) return;
   constexpr int max_passes = 64;
-  const Surface_edges edges = surface_edges(surface);
-  const std::size_t size = surface.points.size();
-  const std::vector<double> wanted = diffusion_times(surface, edges, n, width); // sums of blends
+  const Surface_edges edges = surface_edges(surface, concurrency);
+  const int size = static_cast<int>(surface.points.size());
+  const std::vector<double> wanted =
+      diffusion_times(surface, edges, n, width, concurrency); // sums of blends
   const double largest = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end());
   constexpr double largest_blend = 0.5; // more than that oscillates
   const int passes =
       static_cast<int>(std::min<double>(max_passes, std::ceil(largest / largest_blend)));
   std::vector<Vec3d> smooth(size);
   for (int pass = 0; pass < passes; ++pass) {
-    internal::Cancellation::poll();
-    for (std::size_t v = 0; v < size; ++v) {
+    internal::for_each_index(concurrency, size, [&](int v) {
       const double blend = std::min(largest_blend, wanted[v] / passes);
       Vec3d sum{0, 0, 0};
       for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
@@ -43,7 +44,7 @@ inline void smooth_normals(Surface& surface, std::size_t n, double width)
       const int degree = edges.first[v + 1] - edges.first[v];
       const Vec3d mean = (1 - blend) * surface.vertex_normals[v] + (blend / degree) * sum;
       smooth[v] = squared_length(mean) > 0 ? normalized(mean) : surface.vertex_normals[v];
-    }
+    });
     surface.vertex_normals.swap(smooth);
   }
 }

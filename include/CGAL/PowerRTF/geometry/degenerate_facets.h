@@ -35,15 +35,13 @@ inline bool is_degenerate(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 }
 
 inline std::vector<int> degenerate_facets(const std::vector<Vec3d>& points,
-                                          const std::vector<Triangle>& triangles)
+                                          const std::vector<Triangle>& triangles,
+                                          internal::Concurrency concurrency = Sequential_tag())
 {
-  std::vector<int> result;
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
+  return internal::select(concurrency, static_cast<int>(triangles.size()), [&](int f) {
     const Triangle& t = triangles[f];
-    if (is_degenerate(points[t[0]], points[t[1]], points[t[2]]))
-      result.push_back(static_cast<int>(f));
-  }
-  return result;
+    return is_degenerate(points[t[0]], points[t[1]], points[t[2]]);
+  });
 }
 
 namespace internal {

@@ -7,14 +7,15 @@
 #define CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/label_trees.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <boost/range/iterator_range.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -39,34 +40,17 @@ inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 namespace internal {
 
-/// Halfedges by their smaller vertex: those of vertex v, with the larger one, at the places from
-/// `first[v]` to `first[v + 1]`.
-struct Halfedge_buckets {
-  using Entry = std::pair<int, int>; // larger vertex, halfedge
-  std::vector<int> first;
-  std::vector<Entry> entries; ///< in any order within a bucket
-};
-
-inline Halfedge_buckets halfedge_buckets(const std::vector<Triangle>& triangles,
-                                         std::size_t number_of_vertices, Concurrency concurrency)
+/// Halfedges, each with its larger vertex, by their smaller vertex.
+inline Buckets<std::pair<int, int>> halfedge_buckets(const std::vector<Triangle>& triangles,
+                                                     std::size_t number_of_vertices,
+                                                     Concurrency concurrency)
 {
-  const int halfedges = static_cast<int>(3 * triangles.size());
-  const auto smaller_vertex = [&](int h) {
-    return (std::min)(halfedge_source(triangles, h), halfedge_target(triangles, h));
+  const auto ends = [&](int h) {
+    return std::minmax({halfedge_source(triangles, h), halfedge_target(triangles, h)});
   };
-  const auto next = [&](int& counter) {
-    return concurrency.is_parallel() ? atomic_add(&counter, 1) : counter++;
-  };
-  Halfedge_buckets result{std::vector<int>(number_of_vertices + 1, 0),
-                          std::vector<Halfedge_buckets::Entry>(halfedges)};
-  for_each_index(concurrency, halfedges, [&](int h) { next(result.first[smaller_vertex(h) + 1]); });
-  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
-  std::vector<int> end(result.first.begin(), result.first.end() - 1);
-  for_each_index(concurrency, halfedges, [&](int h) {
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    result.entries[next(end[smaller_vertex(h)])] = {(std::max)(a, b), h};
-  });
-  return result;
+  return {concurrency, static_cast<int>(3 * triangles.size()), number_of_vertices,
+          [&](int h) { return ends(h).first; },
+          [&](int h) { return std::pair(ends(h).second, h); }};
 }
 
 } // namespace internal
@@ -77,11 +61,10 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
                                        std::size_t number_of_vertices,
                                        internal::Concurrency concurrency = Sequential_tag())
 {
-  using Entries = std::vector<internal::Halfedge_buckets::Entry>::iterator;
+  using Entries = std::vector<std::pair<int, int>>::const_iterator;
   Facet_adjacency result;
   result.opposite.assign(3 * triangles.size(), Facet_adjacency::none);
-  internal::Halfedge_buckets buckets =
-      internal::halfedge_buckets(triangles, number_of_vertices, concurrency);
+  const auto buckets = internal::halfedge_buckets(triangles, number_of_vertices, concurrency);
 
   // The facets at one edge.
   const auto join = [&](Facet_adjacency& found, Entries begin, Entries stop) {
@@ -106,7 +89,6 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
       [&](Facet_adjacency& found, int v) {
         const Entries begin = buckets.entries.begin() + buckets.first[v],
                       bucket_end = buckets.entries.begin() + buckets.first[v + 1];
-        std::sort(begin, bucket_end);
         for (Entries e = begin, f = e; e != bucket_end; e = f) {
           while (f != bucket_end && f->first == e->first) ++f;
           join(found, e, f);
@@ -128,27 +110,28 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
 /// The component of each facet: facets that share an edge have the same number. Numbered by
 /// the first facet of each component.
 /// \returns the numbers (#F) and the number of components
-inline std::pair<std::vector<int>, int> facet_components(const Facet_adjacency& adjacency)
+inline std::pair<std::vector<int>, int>
+facet_components(const Facet_adjacency& adjacency,
+                 internal::Concurrency concurrency = Sequential_tag())
 {
   const int facets = static_cast<int>(adjacency.opposite.size() / 3);
-  std::vector<int> component(facets, -1), stack;
-  int components = 0;
-  for (int seed = 0; seed < facets; ++seed) {
-    if (component[seed] >= 0) continue;
-    component[seed] = components;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const int f = stack.back();
-      stack.pop_back();
-      for (int i = 0; i < 3; ++i) {
-        const int o = adjacency.opposite[3 * f + i];
-        if (o == Facet_adjacency::none || component[o / 3] >= 0) continue;
-        component[o / 3] = components;
-        stack.push_back(o / 3);
-      }
-    }
-    ++components;
-  }
+  std::vector<int> component(facets); // first the least facet
+  internal::for_each_index(concurrency, facets, [&](int f) { component[f] = f; });
+  internal::for_each_index(concurrency, facets, [&](int f) {
+    for (int h = 3 * f; h < 3 * f + 3; ++h)
+      if (adjacency.opposite[h] != Facet_adjacency::none && adjacency.opposite[h] / 3 < f)
+        join_trees(component.data(), f, adjacency.opposite[h] / 3);
+  });
+  const std::vector<int> least =
+      internal::select(concurrency, facets, [&](int f) { return atomic_load(&component[f]) == f; });
+  const int components = static_cast<int>(least.size());
+  internal::for_each_index(concurrency, facets, [&](int f) {
+    atomic_store(&component[f], root_of(component.data(), f));
+  });
+  internal::for_each_index(concurrency, facets, [&](int f) {
+    component[f] = static_cast<int>(std::lower_bound(least.begin(), least.end(), component[f]) -
+                                    least.begin());
+  });
   return {std::move(component), components};
 }
 

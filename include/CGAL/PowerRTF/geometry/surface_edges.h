@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_EDGES_H
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 
 #include <cstddef>
 #include <vector>
@@ -19,35 +20,35 @@ struct Surface_edges {
   std::vector<double> length;
 };
 
-inline Surface_edges surface_edges(const Surface& surface)
+inline Surface_edges surface_edges(const Surface& surface,
+                                   internal::Concurrency concurrency = Sequential_tag())
 {
   const auto& triangles = surface.triangles;
-  const std::size_t vertices = surface.points.size();
-  const int halfedges = static_cast<int>(3 * triangles.size());
-
+  const int vertices = static_cast<int>(surface.points.size());
+  const auto corners = vertex_corners(triangles, vertices, concurrency);
   // Every edge is one halfedge from each of its ends, except border edges: they have one only.
-  const auto is_border = [&](int h) {
-    return surface.adjacency.opposite[h] == Facet_adjacency::none;
+  const auto for_each_neighbor = [&](int v, auto&& f) {
+    for (int k = corners.first[v]; k < corners.first[v + 1]; ++k) {
+      const int h = corners.entries[k], before = previous_halfedge(h);
+      if (surface.adjacency.opposite[before] == Facet_adjacency::none)
+        f(halfedge_source(triangles, before));
+      f(halfedge_target(triangles, h));
+    }
   };
   Surface_edges edges;
   edges.first.assign(vertices + 1, 0);
-  for (int h = 0; h < halfedges; ++h) {
-    ++edges.first[halfedge_source(triangles, h) + 1];
-    if (is_border(h)) ++edges.first[halfedge_target(triangles, h) + 1];
-  }
-  for (std::size_t v = 0; v < vertices; ++v) edges.first[v + 1] += edges.first[v];
+  internal::for_each_index(concurrency, vertices,
+                           [&](int v) { for_each_neighbor(v, [&](int) { ++edges.first[v]; }); });
+  internal::exclusive_scan(concurrency, vertices + 1, edges.first.data());
   edges.neighbor.resize(edges.first[vertices]);
   edges.length.resize(edges.first[vertices]);
-  std::vector<int> end(edges.first.begin(), edges.first.end() - 1);
-  for (int h = 0; h < halfedges; ++h) {
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    const double l = length(surface.points[b] - surface.points[a]);
-    edges.neighbor[end[a]] = b;
-    edges.length[end[a]++] = l;
-    if (!is_border(h)) continue;
-    edges.neighbor[end[b]] = a;
-    edges.length[end[b]++] = l;
-  }
+  internal::for_each_index(concurrency, vertices, [&](int v) {
+    int end = edges.first[v];
+    for_each_neighbor(v, [&](int u) {
+      edges.neighbor[end] = u;
+      edges.length[end++] = length(surface.points[u] - surface.points[v]);
+    });
+  });
   return edges;
 }
 

@@ -7,6 +7,9 @@
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_GEOMETRY_H
 
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <array>
 #include <cmath>
@@ -38,50 +41,55 @@ inline void mend_vertex_normals(Surface& surface)
 /// Sets `facet_normals`, `facet_areas`, `area` and `vertex_normals` from points and triangles.
 /// Facets without a direction of their own (\ref is_degenerate) count in no vertex normal and get
 /// the mean normal of their vertices. All normals are of length 1.
-inline void compute_geometry(Surface& surface)
+inline void compute_geometry(Surface& surface, internal::Concurrency concurrency = Sequential_tag())
 {
-  const std::size_t facets = surface.triangles.size();
+  const int facets = static_cast<int>(surface.triangles.size());
+  const int vertices = static_cast<int>(surface.points.size());
   surface.facet_normals.resize(facets);
   surface.facet_areas.resize(facets);
-  surface.vertex_normals.assign(surface.points.size(), Vec3d{0, 0, 0});
-  surface.area = 0;
+  surface.vertex_normals.resize(vertices);
   constexpr double pi = 3.14159265358979323846;
 
-  std::vector<std::size_t> degenerate;
-  for (std::size_t f = 0; f < facets; ++f) {
-    const Triangle& t = surface.triangles[f];
-    const Vec3d &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-    const Vec3d n = cross(b - a, c - a);
-    const double twice_area = length(n);
-    surface.facet_areas[f] = twice_area / 2;
-    surface.area += twice_area / 2;
-    if (is_degenerate(a, b, c)) {
-      degenerate.push_back(f);
-      continue;
-    }
-    const Vec3d unit = n * (1 / twice_area);
-    surface.facet_normals[f] = unit;
-    const double angle_a = std::atan2(twice_area, dot(b - a, c - a));
-    const double angle_b = std::atan2(twice_area, dot(c - b, a - b));
-    surface.vertex_normals[t[0]] += angle_a * unit;
-    surface.vertex_normals[t[1]] += angle_b * unit;
-    surface.vertex_normals[t[2]] += (pi - angle_a - angle_b) * unit;
-  }
+  internal::Unset_vector<std::array<double, 3>> angles(facets); // 0: the facet is degenerate
+  surface.area = internal::reduce(
+      concurrency, facets, 0.,
+      [&](double& area, int f) {
+        const Triangle& t = surface.triangles[f];
+        const Vec3d &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+        const Vec3d n = cross(b - a, c - a);
+        const double twice_area = length(n);
+        surface.facet_areas[f] = twice_area / 2;
+        area += twice_area / 2;
+        angles[f] = {0, 0, 0};
+        if (is_degenerate(a, b, c)) return;
+        surface.facet_normals[f] = n * (1 / twice_area);
+        const double angle_a = std::atan2(twice_area, dot(b - a, c - a));
+        const double angle_b = std::atan2(twice_area, dot(c - b, a - b));
+        angles[f] = {angle_a, angle_b, pi - angle_a - angle_b};
+      },
+      [](double& area, double part) { area += part; });
 
-  bool cancelled = false;
-  for (Vec3d& n : surface.vertex_normals) {
-    const double l = length(n);
+  const auto corners = vertex_corners(surface.triangles, vertices, concurrency);
+  const std::vector<int> cancelled = internal::select(concurrency, vertices, [&](int v) {
+    Vec3d sum{0, 0, 0};
+    for (int k = corners.first[v]; k < corners.first[v + 1]; ++k) {
+      const int f = corners.entries[k] / 3;
+      const double angle = angles[f][corners.entries[k] % 3];
+      if (angle != 0) sum += angle * surface.facet_normals[f];
+    }
+    const double l = length(sum);
     constexpr double no_direction = 1e-6; // of sums of angles, which are of order 1
-    n = l > no_direction ? n * (1 / l) : Vec3d{0, 0, 0};
-    cancelled = cancelled || !(l > no_direction);
-  }
-  if (cancelled) internal::mend_vertex_normals(surface);
-  for (const std::size_t f : degenerate) {
+    surface.vertex_normals[v] = l > no_direction ? sum * (1 / l) : Vec3d{0, 0, 0};
+    return !(l > no_direction);
+  });
+  if (!cancelled.empty()) internal::mend_vertex_normals(surface);
+  internal::for_each_index(concurrency, facets, [&](int f) {
+    if (angles[f] != std::array<double, 3>{0, 0, 0}) return;
     const Triangle& t = surface.triangles[f];
     const auto& n = surface.vertex_normals;
     const Vec3d mean = normalized(n[t[0]] + n[t[1]] + n[t[2]]);
     surface.facet_normals[f] = squared_length(mean) > 0 ? mean : n[t[0]];
-  }
+  });
 }
 
 /// The barycentric combination of the vertices' normals of facet `f`, of length 1.

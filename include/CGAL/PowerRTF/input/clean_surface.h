@@ -10,13 +10,15 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 namespace CGAL::PowerRTF::internal {
 
 /// What `import_surface()` and `import_soup()` share: the surface of the first attempt to repair
 /// the soup that succeeds.
 /// \throws Invalid_input_error there is none
-Surface clean_surface(const Polygon_soup& soup, Repair repair, Repair_counts& repairs);
+Surface clean_surface(const Polygon_soup& soup, Repair repair, Repair_counts& repairs,
+                      Concurrency concurrency = Sequential_tag());
 
 } // namespace CGAL::PowerRTF::internal
 

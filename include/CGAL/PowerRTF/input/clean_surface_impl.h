@@ -128,7 +128,8 @@ struct [[nodiscard]] Repair_status {
 
 /// Makes the soup an oriented 2-manifold. A soup for which that fails may have changed.
 inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
-                                   Repair_counts& repairs)
+                                   Repair_counts& repairs,
+                                   Concurrency concurrency = Sequential_tag())
 {
   const std::string not_manifold = "the surface is not a 2-manifold: ";
   if (soup.adjacency.repeated_facets) {
@@ -154,7 +155,7 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
     }
   }
   const auto touching =
-      count_non_manifold_vertices(soup.triangles, soup.adjacency, soup.points.size());
+      count_non_manifold_vertices(soup.triangles, soup.adjacency, soup.points.size(), concurrency);
   if (touching == 0) return {};
   if (allowed < Manifold_repair::split)
     return {not_manifold + std::to_string(touching) +
@@ -212,17 +213,17 @@ inline void close_cracks(Triangle_soup& soup, Repair_counts& repairs)
 inline Repair_status make_surface(const Polygon_soup& polygons, const std::vector<Vec3d>& points,
                                   const std::vector<int>& vertex,
                                   const Normalization& normalization, Manifold_repair allowed,
-                                  Repair_counts& repairs, Surface& surface)
+                                  Repair_counts& repairs, Surface& surface, Concurrency concurrency)
 {
   Triangle_soup soup{points, triangulated(polygons, points, vertex, repairs), {}, {}, {}};
   soup.originals.resize(points.size());
   std::iota(soup.originals.begin(), soup.originals.end(), 0);
-  const std::size_t degenerate = degenerate_facets(soup.points, soup.triangles).size();
+  const std::size_t degenerate = degenerate_facets(soup.points, soup.triangles, concurrency).size();
   if (degenerate == soup.triangles.size()) return {"the surface has no area"};
   if (degenerate > 0 && allowed == Manifold_repair::none)
     return {std::to_string(degenerate) + " facet(s) have no area"};
-  soup.update_adjacency();
-  Repair_status status = make_manifold(soup, allowed, repairs);
+  soup.update_adjacency(concurrency);
+  Repair_status status = make_manifold(soup, allowed, repairs, concurrency);
   if (!status.is_done()) return status;
   if (polygons.merges_vertices && allowed != Manifold_repair::none) close_cracks(soup, repairs);
   if (degenerate > 0 && soup.seams.empty()) {
@@ -232,7 +233,7 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
     soup.update_adjacency();
   }
   surface = compacted(std::move(soup), normalization);
-  compute_geometry(surface);
+  compute_geometry(surface, concurrency);
   return {};
 }
 
@@ -257,7 +258,7 @@ inline std::vector<Repair_attempt> repair_attempts(Repair repair, bool has_dupli
 }
 
 CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair repair,
-                                            Repair_counts& repairs)
+                                            Repair_counts& repairs, Concurrency concurrency)
 {
   if (soup.first.size() == 1) throw Invalid_input_error("the mesh has no facet");
   std::vector<char> used(soup.points.size(), 0);
@@ -284,7 +285,7 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
     if (merges) counts.duplicate_vertices += duplicates;
     Surface surface;
     const Repair_status status = make_surface(soup, points, merges ? vertex : own_vertex,
-                                              normalization, allowed, counts, surface);
+                                              normalization, allowed, counts, surface, concurrency);
     if (status.is_done() && (merges || surface.adjacency.border_edges == 0)) {
       repairs = counts;
       return surface;

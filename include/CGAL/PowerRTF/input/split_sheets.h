@@ -30,7 +30,10 @@ struct Triangle_soup {
   Facet_adjacency adjacency;  ///< of the triangles
 
   /// To be called after changes of the triangles.
-  void update_adjacency() { adjacency = facet_adjacency(triangles, points.size()); }
+  void update_adjacency(internal::Concurrency concurrency = Sequential_tag())
+  {
+    adjacency = facet_adjacency(triangles, points.size(), concurrency);
+  }
 };
 
 namespace internal {

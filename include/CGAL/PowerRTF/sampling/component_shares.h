@@ -113,16 +113,17 @@ inline double density_mass(const Surface& surface, int f)
 /// as its topology needs if `n` allows. \param component of each facet
 inline std::vector<Component_share> component_shares(const Surface& surface, std::size_t n,
                                                      const Feature_samples& features,
-                                                     const std::vector<int>& component)
+                                                     const std::vector<int>& component,
+                                                     int components,
+                                                     internal::Concurrency concurrency)
 {
   std::vector<std::size_t> least;
-  for (const Component_topology& c : component_topologies(surface))
+  for (const Component_topology& c :
+       component_topologies(surface, component, components, concurrency))
     least.push_back(c.least_samples());
-  const internal::Facet_distribution distribution =
-      internal::facet_distribution(component, static_cast<int>(least.size()),
-                                   [&](int f) { return internal::density_mass(surface, f); });
-  std::vector<double> masses;
-  for (std::size_t c = 0; c < least.size(); ++c) masses.push_back(distribution.mass(c));
+  std::vector<double> masses(components, 0);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
   std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
   const double cell_mass = density_integral(surface) / equivalent_cells(n, features);
   for (std::size_t s = 0; s < features.sites.size(); ++s) {

@@ -26,9 +26,9 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
   validate(options);
   using Backend = Host_backend<ConcurrencyTag>;
   Backend backend;
-  const auto [component, components] = facet_components(surface.adjacency);
-  const std::vector<Component_share> shares =
-      component_shares(surface, options.number_of_samples, features, component);
+  const auto [component, components] = facet_components(surface.adjacency, backend.concurrency());
+  const std::vector<Component_share> shares = component_shares(
+      surface, options.number_of_samples, features, component, components, backend.concurrency());
   Samples samples;
   if (off_lattice) *off_lattice = 0;
   if (options.sampling == Sampling::lattice) {
@@ -59,9 +59,9 @@ Lattice_fields lattice_fields(const Surface& surface, const Remeshing_options& o
     throw Invalid_input_error("the samples begin as a lattice only where sampling is lattice");
   using Backend = Host_backend<ConcurrencyTag>;
   Backend backend;
-  const std::vector<int> component = facet_components(surface.adjacency).first;
-  const std::vector<Component_share> shares =
-      component_shares(surface, options.number_of_samples, features, component);
+  const auto [component, components] = facet_components(surface.adjacency, backend.concurrency());
+  const std::vector<Component_share> shares = component_shares(
+      surface, options.number_of_samples, features, component, components, backend.concurrency());
   return Lattice_sampler<Backend>(backend, surface, tree, features, component, shares,
                                   options.random_seed)
       .fields();
