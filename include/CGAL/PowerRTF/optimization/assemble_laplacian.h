@@ -21,9 +21,9 @@ struct Cell_edges {
 
 /// Writes the rows of L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4 with the diagonal that makes their sums
 /// 0, plus the edges with sites that have no cell: the weights of these stay.
-template <class Real, class Backend>
+template <class Real, class Row, class Backend>
 void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges,
-                        const Laplacian_rows<Real>& a)
+                        const Laplacian_rows<Row>& a)
 {
   constexpr int capacity = Laplacian_rows<Real>::capacity;
   const int n = a.n;
@@ -39,7 +39,7 @@ void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges,
       for (int l = 0; l < edges.count[j]; ++l)
         if (edges.neighbor[l * stride + j] == i) sum += edges.ratio[l * stride + j];
       a.column[size * stride + i] = j;
-      a.value[size++ * stride + i] = sum / 4;
+      a.value[size++ * stride + i] = Row(sum / 4);
     }
     a.size[i] = size;
   });
@@ -55,7 +55,7 @@ void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges,
       const int place = atomic_add(&a.size[j], 1);
       if (place >= capacity) continue;
       a.column[place * stride + j] = i;
-      a.value[place * stride + j] = edges.ratio[k * stride + i] / 4;
+      a.value[place * stride + j] = Row(edges.ratio[k * stride + i] / 4);
     }
   });
   backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
@@ -69,7 +69,7 @@ void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges,
       if (edges.neighbor[k * stride + i] >= n) sum += double(edges.ratio[k * stride + i]) / 2;
     for (int k = 1; k < size; ++k) {
       const int column = a.column[k * stride + i];
-      const Real value = a.value[k * stride + i];
+      const Row value = a.value[k * stride + i];
       int place = k;
       for (; place > 0 && a.column[(place - 1) * stride + i] > column; --place) {
         a.column[place * stride + i] = a.column[(place - 1) * stride + i];

@@ -20,8 +20,8 @@ struct Component_view {
 
 /// Finds the components. \param scalar memory of the backend for one number
 /// \returns their number
-template <class Real, class Backend>
-int find_components(Backend& backend, const Laplacian_rows<Real>& a, const Cell_edges<Real>& edges,
+template <class Real, class Row, class Backend>
+int find_components(Backend& backend, const Laplacian_rows<Row>& a, const Cell_edges<Real>& edges,
                     const Component_view& components, double* scalar)
 {
   const int n = a.n;
