@@ -13,7 +13,7 @@
 #   --sanitizer  short runs under compute-sanitizer, too (memcheck, racecheck, initcheck)
 set -uo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
-programs= models=$root/build/models/meshes quick= large= sanitizer=
+programs= models=$root/build/data/meshes quick= large= sanitizer=
 while [ $# -gt 0 ]; do
   case $1 in
   --programs) programs=$(readlink -f "$2"); shift ;;
