@@ -108,10 +108,11 @@ public:
             "check-every", text("N"),
             "compare them every N iterations, too; 0: only at the end (0)");
     group("Program").add_options()("traits", text("NAME"),
-                                   "auto|cpu|exact|cuda: what runs the algorithm; auto: "
-                                   "the GPU if there is one, else the CPU (auto)")(
-        "threads", text("N"), "number of threads; 0: all (0)")("quiet,q", "no progress, no table")(
-        "help,h", "show this")("version", "show the version");
+                                   "auto|cpu|exact|cuda: what runs the algorithm; auto: the GPU, "
+                                   "if there is one and so many samples that it is faster, else "
+                                   "the CPU (auto)")("threads", text("N"),
+                                                     "number of threads; 0: all (0)")(
+        "quiet,q", "no progress, no table")("help,h", "show this")("version", "show the version");
     m_hidden.add_options()("file", po::value<std::vector<std::string>>());
   }
 

@@ -24,7 +24,7 @@ struct Program_options {
   std::string input, output;
   std::string report_file, cells_file, samples_file, fields_file; ///< empty: not asked for
   CGAL::PowerRTF::Remeshing_options remeshing;
-  std::string traits;  ///< "cpu", "exact", "cuda", or "auto": "cuda" if there is a GPU, else "cpu"
+  std::string traits;  ///< "cpu", "exact", "cuda", or "auto": the faster of "cpu" and "cuda"
   bool check = false;  ///< compare the cells with the exact ones at the end
   int check_every = 0; ///< and every so many iterations; 0: only at the end
   int threads = 0;     ///< 0: all

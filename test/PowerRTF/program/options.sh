@@ -82,15 +82,21 @@ for name in features density-power oversampling normal-smoothing normal-angle gu
   centroid-density-power capacity-tolerance weight-step; do
   for value in nan inf -inf 1e400; do refuse $name $value 'not a number'; done
 done
+many=(-n $((300 * $(nproc))) --weight-method multiplicative --iterations 1 --max-weight-iterations 1
+      --improvement no --quiet)
 said=$("$program" torus.off cuda.off "${fast[@]}" --traits cuda 2>&1)
 case $? in # a program without the engine; a machine without a GPU; a machine with one
 2) run 2 cuda 'not built' -- torus.off out.off --traits cuda ;;
 1)
   run 1 'GPU' -- torus.off out.off "${fast[@]}" --traits cuda
-  run 0 -- torus.off out.off "${fast[@]}" --traits auto --report r.json
+  run 0 -- torus.off out.off "${many[@]}" --traits auto --report r.json
   expect 'the report says why there is no GPU' grep -q '"gpu_not_used": ".*GPU' r.json
   ;;
-*) expect "--traits cuda: $said" test -s cuda.off ;;
+*)
+  expect "--traits cuda: $said" test -s cuda.off
+  run 0 -- torus.off out.off "${many[@]}" --traits auto --report r.json
+  expect 'many samples are for the GPU' grep -q '"traits": "cuda"' r.json
+  ;;
 esac
 run 0 -- torus.off out.off -n 100 --iterations 2 --relaxation-iterations 2
 expect 'who asks for no GPU hears of none' [ ! -s stderr ]
@@ -123,7 +129,7 @@ accept '"seed": 4294967295' --seed 4294967295
 accept '"threads": 1' --threads 1
 accept '"threads": 2' --threads=2
 accept '"traits": "cpu"' --traits auto
-accept '"gpu_not_used": "' --traits auto
+accept '"gpu_not_used": "the C' --traits auto # PU is faster, or UDA traits are not built
 accept '"traits": "cpu"' --traits cpu
 expect 'who asks for the CPU needs no reason' [ "$(grep -c gpu_not_used r.json)" -eq 0 ]
 accept '"traits": "exact"' --traits exact
