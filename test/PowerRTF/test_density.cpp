@@ -164,20 +164,31 @@ TEST_CASE("gradation bounds the growth of the spacing on every edge")
 
 TEST_CASE("limit_growth finds the largest function below the bound")
 {
-  const Surface s = shapes::make_surface(shapes::plane_patch(8, 8));
+  const Surface s = shapes::make_surface(shapes::plane_patch(40, 30));
   const Surface_edges edges = surface_edges(s);
-  for (unsigned seed = 0; seed < 5; ++seed) {
-    std::mt19937_64 random(seed);
-    std::vector<double> h(s.points.size());
-    for (double& x : h) x = 0.01 + static_cast<double>(random() % 1000) / 500;
-    std::vector<double> expected = h; // Bellman and Ford
-    for (std::size_t pass = 0; pass < h.size(); ++pass)
-      for (std::size_t v = 0; v < h.size(); ++v)
-        for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
-          expected[v] = std::min(expected[v], expected[edges.neighbor[e]] + 0.3 * edges.length[e]);
-    limit_growth(edges, 0.3, h);
-    for (std::size_t v = 0; v < h.size(); ++v) CHECK(h[v] == doctest::Approx(expected[v]));
-  }
+  for (unsigned seed = 0; seed < 5; ++seed)
+    for (const double gradation : {0.3, 0.01, 1e-9}) {
+      std::mt19937_64 random(seed);
+      std::vector<double> h(s.points.size());
+      for (double& x : h) x = 0.01 + static_cast<double>(random() % 1000) / 500;
+      std::vector<double> expected = h, in_parallel = h;
+      for (bool changes = true; changes;) { // Bellman and Ford
+        changes = false;
+        for (std::size_t v = 0; v < h.size(); ++v)
+          for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) {
+            const double bound = expected[edges.neighbor[e]] + gradation * edges.length[e];
+            if (!(bound < expected[v])) continue;
+            expected[v] = bound;
+            changes = true;
+          }
+      }
+      limit_growth(edges, gradation, h);
+      limit_growth(edges, gradation, in_parallel, CGAL::Parallel_if_available_tag());
+      CHECK(h == expected);
+      CHECK(in_parallel == expected);
+      limit_growth(edges, gradation, h); // nothing is left to do
+      CHECK(h == expected);
+    }
 }
 
 TEST_CASE("diffusion spreads a value as far as is asked for")

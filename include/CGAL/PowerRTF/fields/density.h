@@ -76,7 +76,7 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
   });
   internal::normalize_density(surface.vertex_density);
   if (options.gradation > 0)
-    limit_gradation(surface, edges, options.gradation, options.number_of_samples);
+    limit_gradation(surface, edges, options.gradation, options.number_of_samples, concurrency);
   if (options.density_smoothing > 0)
     internal::smooth_density(surface, edges, options.number_of_samples, options.density_smoothing,
                              concurrency);

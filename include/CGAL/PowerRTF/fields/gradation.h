@@ -7,58 +7,83 @@
 #define CGAL_POWER_RTF_FIELDS_GRADATION_H
 
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <queue>
-#include <utility>
+#include <numeric>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
 /// The integral of the vertex density over the surface (linear on every facet).
-inline double density_integral(const Surface& surface)
+inline double density_integral(const Surface& surface,
+                               internal::Concurrency concurrency = Sequential_tag())
 {
-  double sum = 0;
   const auto& rho = surface.vertex_density;
-  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
-    const Triangle& t = surface.triangles[f];
-    sum += surface.facet_areas[f] * (rho[t[0]] + rho[t[1]] + rho[t[2]]) / 3;
-  }
-  return sum;
+  return internal::reduce(
+      concurrency, static_cast<int>(surface.triangles.size()), 0.,
+      [&](double& sum, int f) {
+        const Triangle& t = surface.triangles[f];
+        sum += surface.facet_areas[f] * (rho[t[0]] + rho[t[1]] + rho[t[2]]) / 3;
+      },
+      [](double& sum, double part) { sum += part; });
 }
 
 /// C of `h = C rho^(-1/2)`, the spacing of `n` samples in hexagonal arrangement where the density
 /// is rho.
-inline double spacing_constant(const Surface& surface, std::size_t n)
+inline double spacing_constant(const Surface& surface, std::size_t n,
+                               internal::Concurrency concurrency = Sequential_tag())
 {
-  return std::sqrt(2 / std::sqrt(3.) * density_integral(surface) / static_cast<double>(n));
+  return std::sqrt(2 / std::sqrt(3.) * density_integral(surface, concurrency) /
+                   static_cast<double>(n));
 }
 
-/// Lowers `h` to the largest function below it with `h_v <= h_u + gradation |uv|` on every edge
-/// (Dijkstra's algorithm from all vertices at once).
-inline void limit_growth(const Surface_edges& edges, double gradation, std::vector<double>& h)
+/// Lowers `h`, all above 0, to the largest function below it with `h_v <= h_u + gradation |uv|` on
+/// every edge. In whatever order neighbors lower each other, the end is the same; small values
+/// first, a band of them at a time, takes few steps. (Meyer and Sanders, "Delta-stepping: a
+/// parallelizable shortest path algorithm", 2003.)
+inline void limit_growth(const Surface_edges& edges, double gradation, std::vector<double>& h,
+                         internal::Concurrency concurrency = Sequential_tag())
 {
-  using Entry = std::pair<double, int>; // spacing, vertex
-  std::vector<Entry> start;             // only vertices that bound a neighbor
-  for (std::size_t v = 0; v < h.size(); ++v)
+  constexpr double edges_per_band = 16;
+  constexpr int chunk = 256;
+  const auto bound = [&](int v, int e) { return atomic_load(&h[v]) + gradation * edges.length[e]; };
+  std::vector<int> waiting = internal::select(concurrency, static_cast<int>(h.size()), [&](int v) {
     for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
-      if (h[v] + gradation * edges.length[e] < h[edges.neighbor[e]]) {
-        start.emplace_back(h[v], static_cast<int>(v));
-        break;
-      }
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue({}, std::move(start));
-  while (!queue.empty()) {
-    const auto [spacing, v] = queue.top();
-    queue.pop();
-    if (spacing > h[v]) continue;
-    for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) {
-      const double bound = spacing + gradation * edges.length[e];
-      const int u = edges.neighbor[e];
-      if (bound >= h[u]) continue;
-      h[u] = bound;
-      queue.emplace(bound, u);
+      if (bound(v, e) < h[edges.neighbor[e]]) return true;
+    return false;
+  });
+  if (waiting.empty()) return;
+  const double band = edges_per_band * gradation *
+                      std::accumulate(edges.length.begin(), edges.length.end(), 0.) /
+                      static_cast<double>(edges.length.size());
+  std::vector<int> last_round(h.size(), -1), active; // the round in which a vertex was lowered
+  for (int round = 0; !waiting.empty(); ++round) {
+    double limit = h[waiting[0]];
+    for (const int v : waiting) limit = (std::min)(limit, h[v]);
+    limit += band;
+    const auto is_near = [&](int v) { return h[v] <= limit; };
+    const auto far = std::partition(waiting.begin(), waiting.end(), is_near);
+    active.assign(waiting.begin(), far);
+    waiting.erase(waiting.begin(), far);
+    for (; !active.empty(); ++round) {
+      const int size = static_cast<int>(active.size());
+      std::vector<std::vector<int>> lowered((size + chunk - 1) / chunk);
+      internal::for_each_chunk(concurrency, size, chunk, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i)
+          for (int e = edges.first[active[i]]; e < edges.first[active[i] + 1]; ++e) {
+            const int u = edges.neighbor[e];
+            if (atomic_min(&h[u], bound(active[i], e)) &&
+                atomic_exchange(&last_round[u], round) != round)
+              lowered[begin / chunk].push_back(u);
+          }
+      });
+      active.clear();
+      for (const auto& part : lowered)
+        for (const int v : part) (is_near(v) ? active : waiting).push_back(v);
     }
   }
 }
@@ -67,15 +92,18 @@ inline void limit_growth(const Surface_edges& edges, double gradation, std::vect
 /// `gradation` per unit of length. Raising the density makes all spacings larger, so the limit is
 /// applied 4 times.
 inline void limit_gradation(Surface& surface, const Surface_edges& edges, double gradation,
-                            std::size_t n)
+                            std::size_t n, internal::Concurrency concurrency = Sequential_tag())
 {
   constexpr int passes = 4;
-  std::vector<double> h(surface.points.size());
+  const int vertices = static_cast<int>(surface.points.size());
+  std::vector<double> h(vertices);
   for (int pass = 0; pass < passes; ++pass) {
-    const double C = spacing_constant(surface, n);
-    for (std::size_t v = 0; v < h.size(); ++v) h[v] = C / std::sqrt(surface.vertex_density[v]);
-    limit_growth(edges, gradation, h);
-    for (std::size_t v = 0; v < h.size(); ++v) surface.vertex_density[v] = C * C / (h[v] * h[v]);
+    const double C = spacing_constant(surface, n, concurrency);
+    internal::for_each_index(concurrency, vertices,
+                             [&](int v) { h[v] = C / std::sqrt(surface.vertex_density[v]); });
+    limit_growth(edges, gradation, h, concurrency);
+    internal::for_each_index(concurrency, vertices,
+                             [&](int v) { surface.vertex_density[v] = C * C / (h[v] * h[v]); });
   }
 }
 

@@ -28,6 +28,28 @@ CGAL_POWER_RTF_HD inline void atomic_add(long long* p, long long x)
 #endif
 }
 
+#ifndef __CUDA_ARCH__
+/// Returns the value before.
+inline int atomic_exchange(int* p, int x) { return __atomic_exchange_n(p, x, __ATOMIC_RELAXED); }
+
+inline double atomic_load(const double* p)
+{
+  double x;
+  __atomic_load(p, &x, __ATOMIC_RELAXED);
+  return x;
+}
+
+/// Whether `x` is less than what stood there.
+inline bool atomic_min(double* p, double x)
+{
+  double before = atomic_load(p);
+  while (x < before)
+    if (__atomic_compare_exchange(p, &before, &x, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+      return true;
+  return false;
+}
+#endif
+
 /// Writes `x` where `expected` stands; returns what stood there.
 CGAL_POWER_RTF_HD inline int atomic_exchange_if(int* p, int expected, int x)
 {
