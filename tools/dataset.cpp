@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dataset.h"
 
+#include "Text.h"
+
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <ostream>
@@ -14,44 +15,29 @@ namespace {
 
 using CGAL::PowerRTF::Vec3d;
 
-/// Buffers what is written. Numbers take their shortest form that reads back the same.
-class Text {
+/// Text that goes to a stream in large pieces.
+class Streamed_text {
 public:
-  explicit Text(std::ostream& out) : m_out(out) {}
-  ~Text() { flush(); }
+  explicit Streamed_text(std::ostream& out) : m_out(out) {}
+  ~Streamed_text() { m_text.flush(m_out); }
 
-  Text& operator<<(std::string_view s)
+  template <class T>
+  Streamed_text& operator<<(const T& x)
   {
-    m_text += s;
-    if (m_text.size() > 1 << 16) flush();
+    m_text << x;
+    if (m_text.size() > 1 << 16) m_text.flush(m_out);
     return *this;
   }
-  Text& operator<<(const char* s) { return *this << std::string_view(s); }
-  Text& operator<<(const std::string& s) { return *this << std::string_view(s); }
-  template <class Number>
-  Text& operator<<(Number x)
-  {
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof(digits), x).ptr;
-    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
-  }
-  Text& operator<<(const Vec3d& p) { return *this << p.x << " " << p.y << " " << p.z; }
 
 private:
-  void flush()
-  {
-    m_out.write(m_text.data(), static_cast<std::streamsize>(m_text.size()));
-    m_text.clear();
-  }
-
   std::ostream& m_out;
-  std::string m_text;
+  Text m_text;
 };
 
 /// Rows of numbers as text.
 class Text_rows {
 public:
-  explicit Text_rows(Text& text) : m_text(text) {}
+  explicit Text_rows(Streamed_text& text) : m_text(text) {}
 
   template <class Number>
   void add(Number x)
@@ -67,14 +53,14 @@ public:
   }
 
 private:
-  Text& m_text;
+  Streamed_text& m_text;
   bool m_at_begin = true;
 };
 
 /// Numbers in bytes, the least significant first.
 class Binary_rows {
 public:
-  explicit Binary_rows(Text& text) : m_text(text) {}
+  explicit Binary_rows(Streamed_text& text) : m_text(text) {}
 
   void add(std::uint8_t x) { add_bytes(x, 1); }
   void add(int x) { add_bytes(static_cast<std::uint32_t>(x), 4); }
@@ -95,10 +81,10 @@ private:
     m_text << std::string_view(bytes, count);
   }
 
-  Text& m_text;
+  Streamed_text& m_text;
 };
 
-void ply_properties(Text& text, const std::vector<Field>& fields)
+void ply_properties(Streamed_text& text, const std::vector<Field>& fields)
 {
   for (const Field& f : fields)
     text << "property " << (f.integers.empty() ? "double " : "int ") << f.name << "\n";
@@ -118,7 +104,7 @@ bool has_small_polygons(const Dataset& data)
                      [](const std::vector<int>& polygon) { return polygon.size() < 256; });
 }
 
-void ply_header(Text& text, const Dataset& data, Encoding encoding)
+void ply_header(Streamed_text& text, const Dataset& data, Encoding encoding)
 {
   text << "ply\nformat " << (encoding == Encoding::text ? "ascii" : "binary_little_endian")
        << " 1.0\nelement vertex " << data.points.size()
@@ -156,22 +142,23 @@ void ply_body(Rows rows, const Dataset& data)
   }
 }
 
-void vtp_array_begin(Text& text, const char* type, const std::string& name, int components = 1)
+void vtp_array_begin(Streamed_text& text, const char* type, const std::string& name,
+                     int components = 1)
 {
   text << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
        << components << "\" format=\"ascii\">\n";
 }
 
-void vtp_array_end(Text& text) { text << "</DataArray>\n"; }
+void vtp_array_end(Streamed_text& text) { text << "</DataArray>\n"; }
 
-void vtp_vectors(Text& text, const std::string& name, const std::vector<Vec3d>& vectors)
+void vtp_vectors(Streamed_text& text, const std::string& name, const std::vector<Vec3d>& vectors)
 {
   vtp_array_begin(text, "Float64", name, 3);
   for (const Vec3d& v : vectors) text << v << "\n";
   vtp_array_end(text);
 }
 
-void vtp_fields(Text& text, const std::vector<Field>& fields)
+void vtp_fields(Streamed_text& text, const std::vector<Field>& fields)
 {
   for (const Field& f : fields) {
     if (!f.vectors.empty()) {
@@ -186,7 +173,7 @@ void vtp_fields(Text& text, const std::vector<Field>& fields)
 }
 
 /// A section of VTP cells: connectivity and offsets.
-void vtp_cells(Text& text, const char* section, const std::vector<std::vector<int>>& cells)
+void vtp_cells(Streamed_text& text, const char* section, const std::vector<std::vector<int>>& cells)
 {
   text << "<" << section << ">\n";
   vtp_array_begin(text, "Int64", "connectivity");
@@ -206,14 +193,14 @@ void vtp_cells(Text& text, const char* section, const std::vector<std::vector<in
 
 void write_ply(std::ostream& out, const Dataset& data, Encoding encoding)
 {
-  Text text(out);
+  Streamed_text text(out);
   ply_header(text, data, encoding);
   encoding == Encoding::text ? ply_body(Text_rows(text), data) : ply_body(Binary_rows(text), data);
 }
 
 void write_vtp(std::ostream& out, const Dataset& data)
 {
-  Text text(out);
+  Streamed_text text(out);
   // points without polygons are drawn only when each is a cell of its own
   std::vector<std::vector<int>> dots = data.dots;
   if (dots.empty() && data.lines.empty() && data.polygons.empty())

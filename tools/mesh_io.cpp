@@ -11,8 +11,6 @@
 
 #include <CGAL/PowerRTF/internal/errors.h>
 
-#include <CGAL/IO/OBJ.h>
-#include <CGAL/IO/OFF.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 
@@ -135,18 +133,16 @@ void write_mesh(std::ostream& out, Format format, Encoding encoding,
     for (const Triangle& t : triangles) data.polygons.emplace_back(t.begin(), t.end());
     return format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
   }
+  if (format == Format::off) return write_off(out, points, triangles);
+  if (format == Format::obj) return write_obj(out, points, triangles);
   std::vector<Point> copies;
   copies.reserve(points.size());
   for (const Vec3d& p : points) copies.emplace_back(p.x, p.y, p.z);
-  const auto exact = CGAL::parameters::stream_precision(17);
-  if (format == Format::off) CGAL::IO::write_OFF(out, copies, triangles, exact);
-  if (format == Format::obj) CGAL::IO::write_OBJ(out, copies, triangles, exact);
-  if (format != Format::stl) return;
   if (encoding == Encoding::binary) {
     check_single_precision(points);
     CGAL::IO::set_binary_mode(out);
   }
-  CGAL::IO::write_STL(out, copies, triangles, exact);
+  CGAL::IO::write_STL(out, copies, triangles, CGAL::parameters::stream_precision(17));
 }
 
 } // namespace tools

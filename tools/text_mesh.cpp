@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text_mesh.h"
 
+#include "Text.h"
 #include "Tokenizer.h"
 
 #include <array>
@@ -11,6 +12,7 @@ namespace tools {
 namespace {
 
 using CGAL::PowerRTF::Invalid_input_error;
+using CGAL::PowerRTF::Triangle;
 using CGAL::PowerRTF::Vec3d;
 
 [[noreturn]] void reject(const std::string& reason) { throw Invalid_input_error(reason); }
@@ -165,6 +167,28 @@ Polygon_mesh parse_obj(std::string_view text)
     if (counts[k] > obj_attributes[k].meaningless)
       mesh.attributes.insert(obj_attributes[k].meaning);
   return mesh;
+}
+
+void write_off(std::ostream& out, const std::vector<Vec3d>& points,
+               const std::vector<Triangle>& triangles)
+{
+  out << "OFF\n" << points.size() << ' ' << triangles.size() << " 0\n";
+  write_rows(out, points.size(), [&](Text& text, std::size_t i) { text << points[i] << "\n"; });
+  write_rows(out, triangles.size(), [&](Text& text, std::size_t i) {
+    const Triangle& t = triangles[i];
+    text << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+  });
+}
+
+void write_obj(std::ostream& out, const std::vector<Vec3d>& points,
+               const std::vector<Triangle>& triangles)
+{
+  write_rows(out, points.size(),
+             [&](Text& text, std::size_t i) { text << "v " << points[i] << "\n"; });
+  write_rows(out, triangles.size(), [&](Text& text, std::size_t i) {
+    const Triangle& t = triangles[i];
+    text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  });
 }
 
 } // namespace tools

@@ -8,13 +8,23 @@
 
 #include "Polygon_mesh.h"
 
+#include <CGAL/PowerRTF/geometry/Surface.h>
+
+#include <iosfwd>
 #include <string_view>
+#include <vector>
 
 namespace tools {
 
 /// \throws Invalid_input_error the reason, with the line where it has one
 Polygon_mesh parse_off(std::string_view text);
 Polygon_mesh parse_obj(std::string_view text);
+
+/// The coordinates read back the same.
+void write_off(std::ostream& out, const std::vector<CGAL::PowerRTF::Vec3d>& points,
+               const std::vector<CGAL::PowerRTF::Triangle>& triangles);
+void write_obj(std::ostream& out, const std::vector<CGAL::PowerRTF::Vec3d>& points,
+               const std::vector<CGAL::PowerRTF::Triangle>& triangles);
 
 } // namespace tools
 

@@ -3,6 +3,7 @@
 //
 // The program's readers and writers of mesh files: STL, what all formats share, data that is
 // something else, and meshes that come back as they were written.
+#include "Text.h"
 #include "dataset.h"
 #include "foreign_file.h"
 #include "mesh_data.h"
@@ -235,8 +236,10 @@ TEST_CASE("foreign files are named, a format's own are not")
 
 TEST_CASE("meshes come back as they were written")
 {
-  const std::vector<Vec3d> exact = {
-      {0.1, -1e-300, 1e300 / 3}, {1 / 3., 2 / 7., 1e-17}, {5e8 + 1 / 3., 1, 0}, {-1, -2, 1e22}};
+  const std::vector<Vec3d> exact = {{0.1, -1e-300, 1e300 / 3},
+                                    {1 / 3., 2 / 7., 5e-324}, // the least number above 0
+                                    {5e8 + 1 / 3., 1, -0.0},
+                                    {-1, -2, 1e22}};
   const std::vector<Vec3d> single = {
       {0.5, -0.25, 1024}, {1.0f / 3, 1, 0}, {7, -1e30f, 3}, {1, 2, 9}};
   const std::vector<Triangle> triangles = {{{0, 1, 2}}, {{0, 2, 3}}, {{3, 1, 0}}};
@@ -257,6 +260,17 @@ TEST_CASE("meshes come back as they were written")
                          mesh.polygons[f].end(),
                          [](int a, std::size_t b) { return static_cast<std::size_t>(a) == b; }));
     }
+}
+
+TEST_CASE("rows that all threads make are written in order")
+{
+  for (const std::size_t n : {0, 1, 4095, 4096, 4097, (1 << 20) - 1, 1 << 20, (1 << 20) + 4097}) {
+    std::ostringstream out;
+    write_rows(out, n, [](Text& text, std::size_t i) { text << i << "\n"; });
+    std::string expected;
+    for (std::size_t i = 0; i < n; ++i) expected += std::to_string(i) + '\n';
+    CHECK((out.str() == expected)); // not printed
+  }
 }
 
 TEST_CASE("VTP: dots, lines and polygons with values, in this order")
