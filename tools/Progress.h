@@ -8,7 +8,6 @@
 #include <CGAL/PowerRTF/Remeshing_visitor.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -45,18 +44,8 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void on_stage(const char* name)
-  {
-    m_stage = name;
-    draw(0);
-  }
-  void on_iteration(const CGAL::PowerRTF::Iteration_report&, double progress)
-  {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - m_last < std::chrono::milliseconds(50) && progress < 1) return;
-    m_last = now;
-    draw(progress);
-  }
+  void on_stage(const char* name) { m_stage = name; }
+  void on_progress(double done) const { draw(done); }
   bool go_further() const { return !interrupted; }
   void clear() const
   {
@@ -64,20 +53,19 @@ public:
   }
 
 private:
-  void draw(double progress) const
+  void draw(double done) const
   {
     if (!m_draws) return;
     constexpr int width = 40;
-    const auto done = static_cast<std::size_t>(width * progress);
-    const std::string bar = std::string(done, '#') + std::string(width - done, '.');
+    const auto full = static_cast<std::size_t>(width * done);
+    const std::string bar = std::string(full, '#') + std::string(width - full, '.');
     std::fprintf(stderr, "\r\033[K%-12s [%s] %3d %%", m_stage.c_str(), bar.c_str(),
-                 static_cast<int>(100 * progress));
+                 static_cast<int>(100 * done));
     std::fflush(stderr);
   }
 
   bool m_draws;
   std::string m_stage;
-  std::chrono::steady_clock::time_point m_last;
 };
 
 } // namespace tools

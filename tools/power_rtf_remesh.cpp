@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/output_grid.h>
+#include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
 
@@ -38,6 +39,7 @@ namespace {
 
 using namespace CGAL::PowerRTF;
 using namespace tools;
+using internal::Stage;
 using internal::Stopwatch;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Concurrency = CGAL::Parallel_if_available_tag;
@@ -117,11 +119,12 @@ Surface load(Run& run)
   const Program_options& options = run.options;
   Polygon_mesh mesh;
   {
-    const Stopwatch watch(run.report.seconds.load);
+    const Stage stage("load", run.report.seconds.load);
     mesh = read_mesh(options.input);
   }
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   stop_if_interrupted();
+  const Stage stage("surface");
   Surface surface = about_input(options, [&] {
     return prepare_surface(mesh.points, mesh.polygons, options.remeshing, run.report,
                            Concurrency());
@@ -188,9 +191,8 @@ public:
       : Progress(options.quiet), m_every(options.check_every), m_remesher(remesher),
         m_checks(checks)
   {}
-  void on_iteration(const Iteration_report& report, double progress)
+  void on_iteration(const Iteration_report&, double)
   {
-    Progress::on_iteration(report, progress);
     const std::size_t done = m_remesher.report().iterations.size();
     if (m_every > 0 && (done - 1) % std::size_t(m_every) == 0)
       m_checks.push_back(check(m_remesher, done - 1));
@@ -214,7 +216,8 @@ Extracted_mesh make_mesh(Remesher& remesher, Run& run)
   if (options.write_mesh) mesh = about_input(options, [&] { return remesher.extract(progress); });
   stop_if_interrupted();
   if (options.check) {
-    progress.on_stage("check");
+    const internal::Cancellation cancellation(progress);
+    const Stage stage("check");
     run.checks.push_back(check(remesher, remesher.report().outer_iterations));
   }
   return mesh;
@@ -255,13 +258,12 @@ void make_results(Run& run, Outputs& outputs)
   check_outputs(options);
   Progress reading(options.quiet);
   const internal::Cancellation cancellation(reading);
-  reading.on_stage("surface");
   Surface surface = load(run);
   Remesher remesher = about_input(
       options, [&] { return Remesher(std::move(surface), options.remeshing, run.report); });
   Extracted_mesh mesh = make_mesh(remesher, run);
   run.report = remesher.report();
-  const Stopwatch watch(run.report.seconds.write);
+  const Stage stage("write", run.report.seconds.write);
   write_results(remesher, mesh, options, outputs);
 }
 

@@ -17,7 +17,7 @@
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/Stopwatch.h>
+#include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
@@ -72,7 +72,7 @@ public:
   {
     PowerRTF::Extracted_mesh mesh;
     m_report.cancelled =
-        !PowerRTF::internal::run_unless_cancelled(visitor, [&] { mesh = judged_mesh(visitor); });
+        !PowerRTF::internal::run_unless_cancelled(visitor, [&] { mesh = judged_mesh(); });
     return mesh;
   }
 
@@ -105,19 +105,27 @@ public:
 
 private:
   using Weight_method = PowerRTF::Weight_method;
+  using Progress_part = PowerRTF::internal::Progress_part;
+  using Stage = PowerRTF::internal::Stage;
 
   bool all_fixed() const { return m_patches.features().size() == m_options.number_of_samples; }
   int iterations() const { return m_options.relaxation_iterations + m_options.max_iterations; }
+
+  /// The share of the iterations in the optimization's progress, before Newton's method.
+  double iterations_share() const
+  {
+    return m_options.weight_method == Weight_method::newton ? 0.8 : 1;
+  }
 
   /// Algorithm 3, lines 2 to 21.
   template <class Visitor>
   void distribute(Visitor& visitor)
   {
     m_report.cancelled = false;
-    sample(visitor);
-    visitor.on_stage("optimization");
-    PowerRTF::internal::Stopwatch watch(m_report.seconds.optimization);
+    sample();
+    const Stage stage("optimization", m_report.seconds.optimization);
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
+      const Progress_part part(iterations_share() * (iteration + 1) / (iterations() + 1));
       m_engine.build_cells();                            // 8, 9
       if (iteration == iterations()) break;
       const bool relaxation = iteration < m_options.relaxation_iterations;
@@ -132,14 +140,13 @@ private:
     m_report.cells = m_engine.cell_counts();
     m_report.capacity = m_engine.capacity();
     m_report.device = m_engine.device_report();
+    if (m_report.cancelled) throw PowerRTF::internal::Run_cancelled();
   }
 
   /// Algorithm 3, lines 2 to 4.
-  template <class Visitor>
-  void sample(Visitor& visitor)
+  void sample()
   {
-    visitor.on_stage("sampling");
-    PowerRTF::internal::Stopwatch watch(m_report.seconds.sampling);
+    const Stage stage("sampling", m_report.seconds.sampling);
     const PowerRTF::Feature_samples& features = m_patches.features();
     m_engine.set_samples(PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
                              m_patches.surface(), m_options, features, &m_engine.facet_tree(),
@@ -149,20 +156,18 @@ private:
   }
 
   /// Algorithm 3, line 22, and its judgment.
-  template <class Visitor>
-  PowerRTF::Extracted_mesh judged_mesh(Visitor& visitor)
+  PowerRTF::Extracted_mesh judged_mesh()
   {
     const PowerRTF::Feature_samples& features = m_patches.features();
     PowerRTF::Extracted_mesh mesh;
     if (m_surface.seams.empty()) {
-      mesh = triangulate(visitor, m_surface, samples(), features);
+      mesh = triangulate(m_surface, samples(), features);
     } else {
       const PowerRTF::Opened_surface opened(m_surface, samples(), features);
-      mesh = triangulate(visitor, opened.surface(), opened.samples(), opened.features());
+      mesh = triangulate(opened.surface(), opened.samples(), opened.features());
       opened.sew_up(mesh);
     }
-    visitor.on_stage("quality");
-    PowerRTF::internal::Stopwatch watch(m_report.seconds.quality);
+    const Stage stage("quality", m_report.seconds.quality);
     PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
                      typename Traits::Concurrency_tag());
     return mesh;
@@ -212,24 +217,24 @@ private:
   {
     if (m_options.position_method == PowerRTF::Position_method::lbfgs) m_engine.restore_best();
     if (m_options.weight_method != Weight_method::newton) return;
-    for (int pass = 0; pass < m_options.max_weight_iterations && !inside_interval(); ++pass)
+    const int passes = m_options.max_weight_iterations;
+    for (int pass = 0; pass < passes && !inside_interval(); ++pass) {
+      const Progress_part part(1 - (1 - iterations_share()) * (passes - pass - 1) / passes);
       if (!m_engine.newton_weights()) break;
+    }
   }
 
-  template <class Visitor>
-  PowerRTF::Extracted_mesh triangulate(Visitor& visitor, const PowerRTF::Surface& surface,
+  PowerRTF::Extracted_mesh triangulate(const PowerRTF::Surface& surface,
                                        const PowerRTF::Samples& samples,
                                        const PowerRTF::Feature_samples& features)
   {
-    visitor.on_stage("extraction");
     PowerRTF::Extracted_mesh mesh;
     {
-      PowerRTF::internal::Stopwatch watch(m_report.seconds.extraction);
+      const Stage stage("extraction", m_report.seconds.extraction);
       mesh = triangles(surface, samples, features);
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
-      visitor.on_stage("improvement");
-      PowerRTF::internal::Stopwatch watch(m_report.seconds.improvement);
+      const Stage stage("improvement", m_report.seconds.improvement);
       PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
                              typename Traits::Concurrency_tag());
     }

@@ -14,6 +14,7 @@
 #include <CGAL/Kernel_traits.h>
 
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -218,16 +219,19 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
   PowerRTF::Remeshing_report report;
   const auto run = [&] {
     const PowerRTF::internal::Stopwatch total(report.seconds.total);
-    visitor.on_stage("surface");
-    PowerRTF::Surface surface =
-        PowerRTF::prepare_surface(input, options, np_in, report, ConcurrencyTag());
-    PowerRTF_remesher<typename Types::Traits> remesher(std::move(surface), options, report);
+    std::optional<PowerRTF_remesher<typename Types::Traits>> remesher;
+    {
+      const PowerRTF::internal::Stage stage("surface");
+      PowerRTF::Surface surface =
+          PowerRTF::prepare_surface(input, options, np_in, report, ConcurrencyTag());
+      remesher.emplace(std::move(surface), options, report);
+    }
     PowerRTF::Extracted_mesh mesh;
-    if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
-    report = remesher.report();
+    if (remesher->optimize(visitor)) mesh = remesher->extract(visitor);
+    report = remesher->report();
     if (report.cancelled) return;
-    const PowerRTF::internal::Stopwatch write(report.seconds.write);
-    PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
+    const PowerRTF::internal::Stage write("write", report.seconds.write);
+    PowerRTF::export_mesh(mesh, remesher->surface().normalization, output, np_out);
   };
   if (!PowerRTF::internal::run_unless_cancelled(visitor, run)) report.cancelled = true;
   return report;

@@ -15,9 +15,15 @@ calls come from the thread that started the run.
 */
 class PowerRTFVisitor {
 public:
-  /// A stage begins: "surface", "sampling", "optimization", "extraction", "improvement" or
-  /// "quality".
+  /// A stage begins: "surface", "sampling", "optimization", "extraction", "improvement", "quality"
+  /// or "write".
   void on_stage(const char* name);
+
+  /// So much of the stage is done: `done` is 0 at its beginning and 1 at its end, unless the stage
+  /// is left early, and never falls in between. It is a share of the stage's steps, which need not
+  /// take equally long. Called at the beginning and the end and, within the stage, before each
+  /// call of `go_further()` that comes every 50 ms or so. Optional: a visitor may do without it.
+  void on_progress(double done);
 
   /// An outer iteration (Algorithm 3) has ended. `progress` in [0, 1] is the share of the
   /// optimization done.

@@ -17,6 +17,7 @@
 #endif
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <type_traits>
 #include <vector>
@@ -60,13 +61,15 @@ inline void for_each_task(Concurrency concurrency, int n, void (*f)(const void* 
 template <class F>
 void for_each_chunk(Concurrency concurrency, int n, int chunk, F&& f)
 {
+  const int chunks = (n + chunk - 1) / chunk;
+  std::atomic<int> begun{0};
   const auto run = [&](int c) {
-    Cancellation::poll();
+    Cancellation::poll(begun.fetch_add(1, std::memory_order_relaxed), chunks);
     f(c * chunk, std::min(n, (c + 1) * chunk));
   };
   using Run = decltype(run);
   for_each_task(
-      concurrency, (n + chunk - 1) / chunk,
+      concurrency, chunks,
       [](const void* r, int c) { (*static_cast<Run*>(r))(c); }, &run);
 }
 template <class ConcurrencyTag, class F>
