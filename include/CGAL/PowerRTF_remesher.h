@@ -126,7 +126,7 @@ private:
     const Stage stage("optimization", m_report.seconds.optimization);
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
       const Progress_part part(iterations_share() * (iteration + 1) / (iterations() + 1));
-      m_engine.build_cells();                            // 8, 9
+      m_engine.build_cells(); // 8, 9
       if (iteration == iterations()) break;
       const bool relaxation = iteration < m_options.relaxation_iterations;
       const bool equal = !relaxation && optimize_weights(); // 11 to 14

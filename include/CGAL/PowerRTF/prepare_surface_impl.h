@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 
 #include <optional>
@@ -23,9 +24,12 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup,
                                               internal::Concurrency concurrency)
 {
   const internal::Stopwatch watch(report.seconds.surface);
+  internal::Progress_part part(0.4);
   Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
   soup = {}; // its memory
+  part.next(0.6);
   creases ? set_creases(surface, *creases) : set_creases(surface, options, concurrency);
+  part.next(0.9);
   densities ? set_density(surface, options, *densities)
             : set_density(surface, options, concurrency);
   return surface;

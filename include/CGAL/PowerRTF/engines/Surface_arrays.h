@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <cstddef>
 #include <vector>
@@ -20,7 +21,10 @@ public:
   {
     std::vector<Facet_corners<Real>> facets;
     std::vector<int> corners, patches;
+    facets.reserve(in.facets.size());
+    corners.reserve(3 * in.facets.size());
     for (const auto& f : in.facets) {
+      internal::Cancellation::poll();
       facets.push_back({to_real<Real>(f.corners[0]), to_real<Real>(f.corners[1]),
                         to_real<Real>(f.corners[2]), to_real<Real>(f.normal)});
       corners.insert(corners.end(), f.vertices, f.vertices + 3);
@@ -28,7 +32,9 @@ public:
     }
     std::vector<Vertex_attributes<Real>> attributes;
     std::vector<Vec3<Real>> vertices;
+    attributes.reserve(in.vertices.size());
     for (const auto& v : in.vertices) {
+      internal::Cancellation::poll();
       attributes.push_back({to_real<Real>(v.normal), Real(v.density)});
       if (!in.vertex_nodes.empty()) vertices.push_back(to_real<Real>(v.point));
     }

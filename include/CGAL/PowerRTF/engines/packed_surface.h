@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <cstddef>
 #include <numeric>
@@ -44,14 +45,18 @@ inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& t
 {
   Packed_surface result;
   std::vector<int> places(surface.points.size()); // of the vertices
+  result.vertices.reserve(surface.points.size());
   for (const int v : spatial_order(surface.points, concurrency)) {
+    Cancellation::poll();
     places[v] = static_cast<int>(result.vertices.size());
     result.vertices.push_back(
         {surface.points[v], surface.vertex_normals[v], surface.vertex_density[v]});
   }
   const Surface_view<double> view = tree.view();
   result.has_patches = view.patches != nullptr;
+  result.facets.reserve(surface.triangles.size());
   for (int k = 0; k < view.facet_tree.items; ++k) {
+    Cancellation::poll();
     const Facet_corners<double>& f = view.facets[k];
     const Triangle& t = surface.triangles[tree.order()[k]];
     result.facets.push_back({{f.a, f.b, f.c},

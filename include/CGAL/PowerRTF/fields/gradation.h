@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_FIELDS_GRADATION_H
 
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -98,6 +99,7 @@ inline void limit_gradation(Surface& surface, const Surface_edges& edges, double
   const int vertices = static_cast<int>(surface.points.size());
   std::vector<double> h(vertices);
   for (int pass = 0; pass < passes; ++pass) {
+    const internal::Progress_part part(double(pass + 1) / passes);
     const double C = spacing_constant(surface, n, concurrency);
     internal::for_each_index(concurrency, vertices,
                              [&](int v) { h[v] = C / std::sqrt(surface.vertex_density[v]); });

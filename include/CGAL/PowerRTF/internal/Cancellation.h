@@ -49,7 +49,13 @@ public:
   {
     if (Cancellation* const cancellation = current()) cancellation->ask();
   }
-  /// The same when `done` of `all` steps of the innermost `Progress_part` are done.
+  /// The same for what takes a few nanoseconds, as comparisons do.
+  static void poll_now_and_then()
+  {
+    thread_local unsigned calls = 0;
+    if (++calls % 4096 == 0) poll();
+  }
+  /// The same as `poll()` when `done` of `all` steps of the innermost `Progress_part` are done.
   static void poll(std::size_t done, std::size_t all)
   {
     Cancellation* const cancellation = current();
@@ -99,16 +105,16 @@ private:
 
 /// While it lives, loops lead the progress of the stage on to `end`, a share of the part around it,
 /// or of the stage. The loops of chunks in parallel.h do so by themselves: where there are several,
-/// each wants a part.
+/// each wants a part. Parts end in the order in which they began, the last one first.
 class Progress_part {
 public:
   explicit Progress_part(double end) : m_run(Cancellation::current())
   {
     if (!m_run) return;
-    m_outer_begin = std::exchange(m_run->m_begin, m_run->m_done);
+    m_outer_begin = m_run->m_begin;
     m_outer_end = m_run->m_end;
     m_was_in_part = std::exchange(m_run->m_is_in_part, true);
-    m_run->m_end = m_outer_begin + (m_outer_end - m_outer_begin) * (std::min)(end, 1.);
+    begin(end);
   }
   ~Progress_part()
   {
@@ -121,7 +127,21 @@ public:
   Progress_part(const Progress_part&) = delete;
   Progress_part& operator=(const Progress_part&) = delete;
 
+  /// Ends the part and begins another one, up to `end`.
+  void next(double end)
+  {
+    if (!m_run) return;
+    m_run->advance(1);
+    begin(end);
+  }
+
 private:
+  void begin(double end)
+  {
+    m_run->m_begin = m_run->m_done;
+    m_run->m_end = m_outer_begin + (m_outer_end - m_outer_begin) * (std::min)(end, 1.);
+  }
+
   Cancellation* m_run;
   double m_outer_begin = 0, m_outer_end = 1;
   bool m_was_in_part = false;

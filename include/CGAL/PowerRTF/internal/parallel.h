@@ -69,8 +69,7 @@ void for_each_chunk(Concurrency concurrency, int n, int chunk, F&& f)
   };
   using Run = decltype(run);
   for_each_task(
-      concurrency, chunks,
-      [](const void* r, int c) { (*static_cast<Run*>(r))(c); }, &run);
+      concurrency, chunks, [](const void* r, int c) { (*static_cast<Run*>(r))(c); }, &run);
 }
 template <class ConcurrencyTag, class F>
 void for_each_chunk(int n, int chunk, F&& f)
@@ -155,12 +154,16 @@ T exclusive_scan(Concurrency concurrency, int n, T* values)
 template <class Iterator>
 void sort(Concurrency concurrency, Iterator begin, Iterator end)
 {
+  const auto is_less = [](const auto& a, const auto& b) {
+    Cancellation::poll_now_and_then();
+    return a < b;
+  };
 #ifdef CGAL_LINKED_WITH_TBB
-  if (concurrency.is_parallel()) return tbb::parallel_sort(begin, end);
+  if (concurrency.is_parallel()) return tbb::parallel_sort(begin, end, is_less);
 #else
   (void)concurrency;
 #endif
-  std::sort(begin, end);
+  std::sort(begin, end, is_less);
 }
 template <class ConcurrencyTag, class Iterator>
 void sort(Iterator begin, Iterator end)

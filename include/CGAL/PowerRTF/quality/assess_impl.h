@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/quality/topology.h>
@@ -38,21 +39,25 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
                                   const Facet_tree& tree, const Extracted_mesh& mesh,
                                   Remeshing_report& report, internal::Concurrency concurrency)
 {
+  internal::Progress_part part(0.15);
   report.input_topology = topology(surface.triangles, concurrency);
   report.topology = topology(mesh.triangles, concurrency);
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
   report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
+  part.next(0.5);
   report.self_intersections = self_intersections(mesh.points, mesh.triangles, concurrency);
   if (report.self_intersections > 0)
     report.input_self_intersections =
         self_intersections(surface.points, surface.triangles, concurrency);
+  part.next(0.55);
   report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles, concurrency);
   report.edge_length = {unit * lengths.mean, unit * lengths.min, unit * lengths.max};
   const Box3<double> box = internal::bounding_box(surface.points, surface.triangles);
   report.diagonal = unit * length(box.hi - box.lo);
+  part.next(1);
   report.distance = surface_distance(patches.points, patches.triangles, tree, mesh.points,
                                      mesh.triangles, concurrency);
 }

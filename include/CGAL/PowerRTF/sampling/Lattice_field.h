@@ -5,10 +5,12 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_LATTICE_FIELD_H
 #define CGAL_POWER_RTF_SAMPLING_LATTICE_FIELD_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/sampling/orientation_field.h>
 #include <CGAL/PowerRTF/sampling/position_field.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -69,7 +71,10 @@ public:
         m_backend.for_each(view.free, Refine_direction{m_levels[l + 1].view(), view});
       m_backend.for_each(view.size, Set_direction_edges{view});
       const bool is_coarsest = l + 1 == m_levels.size();
-      for (int sweep = 0; sweep < (is_coarsest ? coarsest_sweeps : direction_sweeps); ++sweep) {
+      const int sweeps = is_coarsest ? coarsest_sweeps : direction_sweeps;
+      const internal::Progress_part part(share_down_to(l));
+      for (int sweep = 0; sweep < sweeps; ++sweep) {
+        const internal::Progress_part sweep_part(double(sweep + 1) / sweeps);
         m_backend.for_each(view.size, Smooth_direction{level.view(), level.is_directed.data(),
                                                        level.next_directions.data()});
         std::swap(level.directions, level.next_directions);
@@ -91,7 +96,10 @@ public:
       else
         m_backend.for_each(view.free, Refine_waves{m_levels[l + 1].view(), view});
       m_backend.for_each(view.size, Set_wave_edges{view});
-      for (int sweep = 0; sweep < (l == 0 ? last_wave_sweeps : wave_sweeps); ++sweep) {
+      const int sweeps = l == 0 ? last_wave_sweeps : wave_sweeps;
+      const internal::Progress_part part(share_down_to(l));
+      for (int sweep = 0; sweep < sweeps; ++sweep) {
+        const internal::Progress_part sweep_part(double(sweep + 1) / sweeps);
         m_backend.for_each(view.free, Smooth_waves{level.view(), level.next_waves.data(),
                                                    sweep == 0 ? 1 : wave_acceleration});
         std::swap(level.waves, level.next_waves);
@@ -113,6 +121,9 @@ private:
 
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
+
+  /// Of the work on all levels, that on the coarse ones down to `level`.
+  static double share_down_to(std::size_t level) { return std::ldexp(1., -2 * int(level)); }
 
   /// The direction in which a random vector points: no choice of frames has a part in it.
   struct Draw_direction {

@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
 #include <CGAL/PowerRTF/sampling/Lattice_fields.h>
 #include <CGAL/PowerRTF/sampling/Surface_strata.h>
@@ -60,10 +61,15 @@ public:
 
   Samples run()
   {
+    internal::Progress_part part(0.1);
     make_nodes();
+    part.next(0.2);
     Field field(m_backend, m_levels, m_seed);
+    part.next(0.8);
     find_points(field);
+    part.next(0.85);
     add_gaps(field.view());
+    part.next(0.95);
     return eliminate();
   }
 
@@ -92,10 +98,12 @@ private:
   /// The fields, and the points with their number scaled to what is wanted.
   void find_points(Field& field)
   {
+    internal::Progress_part part(0.2);
     field.orient();
     // Rows that end cost points: a share that falls slowly with n (kitten, fertility, armadillo).
     double scale = 1 - 0.02 * std::pow(3000. / static_cast<double>(m_size), 0.2);
     for (int step = 0;; ++step) {
+      part.next(0.2 + 0.8 * (step + 1) / (max_scalings + 1));
       field.place(static_cast<float>(scale));
       choose_points(field.view());
       const double count = static_cast<double>(distinct_points(field.view()));
