@@ -5,6 +5,7 @@
 #ifndef POWER_RTF_TOOLS_TOKENIZER_H
 #define POWER_RTF_TOOLS_TOKENIZER_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 
 #include <algorithm>
@@ -52,6 +53,7 @@ public:
     const std::size_t begin = m_at;
     while (m_at < m_text.size() && !is_blank(m_text[m_at]) && m_text[m_at] != '\n') ++m_at;
     m_token = m_text.substr(begin, m_at - begin);
+    if (++m_tokens % 4096 == 0) CGAL::PowerRTF::internal::Cancellation::poll(m_at, m_text.size());
     return !m_token.empty();
   }
   void skip_line() { m_at = std::min(m_text.find('\n', m_at), m_text.size()); }
@@ -101,7 +103,7 @@ private:
 
   std::string_view m_text, m_token;
   char m_comment;
-  std::size_t m_at = 0, m_line = 1;
+  std::size_t m_at = 0, m_line = 1, m_tokens = 0;
 };
 
 } // namespace tools

@@ -69,8 +69,9 @@ Output_file::Output_file(const std::string& file) : m_name(file), m_target(targe
 {
   if (!is_device_or_pipe(m_target)) m_temporary = temporary_for(m_target);
   errno = 0;
-  m_stream.open(m_temporary.empty() ? m_target : m_temporary, std::ios::binary);
-  if (!m_stream) fail(m_name, std::strerror(errno));
+  if (!m_buffer.open(m_temporary.empty() ? m_target : m_temporary,
+                     std::ios::out | std::ios::binary))
+    fail(m_name, std::strerror(errno));
 }
 
 Output_file::~Output_file()
@@ -82,8 +83,8 @@ Output_file::~Output_file()
 void Output_file::close()
 {
   errno = 0;
-  m_stream.close();
-  if (!m_stream) fail(m_name, errno != 0 ? std::strerror(errno) : "not all could be written");
+  if (!m_buffer.close() || !m_stream)
+    fail(m_name, errno != 0 ? std::strerror(errno) : "not all could be written");
 }
 
 void Output_file::commit()

@@ -5,8 +5,11 @@
 #ifndef POWER_RTF_TOOLS_OUTPUT_FILE_H
 #define POWER_RTF_TOOLS_OUTPUT_FILE_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +28,22 @@ std::filesystem::path target_of(const std::string& file);
 /// Checks that `file` can be made or replaced, without changing it.
 /// \throws Output_error naming file and reason
 void check_writable(const std::string& file);
+
+/// A file's buffer that polls whenever it is full. A stream that is cancelled is bad and takes no
+/// more: what writes to it comes to its end soon.
+class Polling_buffer : public std::filebuf {
+protected:
+  int_type overflow(int_type c) override
+  {
+    CGAL::PowerRTF::internal::Cancellation::poll();
+    return std::filebuf::overflow(c);
+  }
+  std::streamsize xsputn(const char* text, std::streamsize size) override
+  {
+    CGAL::PowerRTF::internal::Cancellation::poll_now_and_then();
+    return std::filebuf::xsputn(text, size);
+  }
+};
 
 /// Writes to a temporary file in the target's folder, which replaces the target at `commit()`.
 /// Without `commit()` the target stays as it was. (A device or a pipe is written directly.)
@@ -46,7 +65,8 @@ public:
 private:
   std::string m_name;                          ///< as the user gave it
   std::filesystem::path m_target, m_temporary; ///< no temporary: writes to the target
-  std::ofstream m_stream;
+  Polling_buffer m_buffer;
+  std::ostream m_stream{&m_buffer};
 };
 
 } // namespace tools

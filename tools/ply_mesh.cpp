@@ -13,6 +13,7 @@ namespace {
 
 using namespace ply;
 using CGAL::PowerRTF::Invalid_input_error;
+using CGAL::PowerRTF::internal::Cancellation;
 
 /// \param item from 0
 [[noreturn]] void reject(const std::string& reason, const Element& element, std::size_t item)
@@ -114,7 +115,9 @@ private:
 template <class Values>
 class Body_reader {
 public:
-  Body_reader(Values values, Polygon_mesh& mesh) : m_values(std::move(values)), m_mesh(mesh) {}
+  Body_reader(Values values, Polygon_mesh& mesh)
+      : m_values(std::move(values)), m_mesh(mesh), m_bytes(m_values.bytes_left())
+  {}
 
   void read(const Element& element)
   {
@@ -126,7 +129,10 @@ public:
     if (element.count > most) reject("the file is truncated: it has no room for", element, most);
     if (element.is_vertex() && m_mesh.points.empty()) m_mesh.points.reserve(element.count);
     if (element.is_face() && m_mesh.polygons.empty()) m_mesh.polygons.reserve(element.count);
-    for (std::size_t i = 0; i < element.count; ++i) read_item(element, i);
+    for (std::size_t i = 0; i < element.count; ++i) {
+      if (i % 1024 == 0) Cancellation::poll(m_bytes - m_values.bytes_left(), m_bytes);
+      read_item(element, i);
+    }
   }
 
 private:
@@ -167,6 +173,7 @@ private:
 
   Values m_values;
   Polygon_mesh& m_mesh;
+  std::size_t m_bytes;
 };
 
 template <class Values>

@@ -120,6 +120,7 @@ Surface load(Run& run)
   Polygon_mesh mesh;
   {
     const Stage stage("load", run.report.seconds.load);
+    const internal::Progress_part part(1);
     mesh = read_mesh(options.input);
   }
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
@@ -146,6 +147,7 @@ public:
     } catch (const Output_error& e) {
       throw Output_error(file + ": cannot be written: " + e.what());
     }
+    stop_if_interrupted();
     m_files.back().close();
   }
   void commit()

@@ -70,6 +70,7 @@ Polygon_mesh parse_binary(std::string_view data)
   bool same_attributes = true; // the last two bytes of all facets, often a color
   const std::string_view facets = data.substr(header_size);
   for (std::size_t f = 0; f < facets.size() / facet_size; ++f) {
+    if (f % 1024 == 0) CGAL::PowerRTF::internal::Cancellation::poll(f * facet_size, facets.size());
     const char* const facet = facets.data() + f * facet_size; // a normal, three corners, two bytes
     std::array<Triangle_collector::Corner, 3> corners;
     for (std::size_t k = 0; k < 9; ++k) corners[k / 3][k % 3] = load_float(facet + 12 + 4 * k);

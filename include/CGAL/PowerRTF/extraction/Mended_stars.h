@@ -17,6 +17,7 @@
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <boost/pending/disjoint_sets.hpp>
 
@@ -48,8 +49,14 @@ public:
   /// Returns whether the mesh has come to have all that is promised of it.
   bool mend()
   {
-    if (!close(find_where([this](int v) { return !is_whole(v) || !lies_well(v); }))) return false;
+    Progress_part part(0.4);
+    const std::vector<int> faulty =
+        find_where([this](int v) { return !is_whole(v) || !lies_well(v); });
+    part.next(0.6);
+    if (!close(faulty)) return false;
+    part.next(0.7);
     make_mesh();
+    part.next(1);
     for (int round = 0; round < max_rounds; ++round) {
       if (!has_topology_of_surface()) return false;
       const std::vector<int> crossed = samples_at_intersections();
@@ -275,6 +282,7 @@ private:
   // The triangles at the piece's open samples whose corners are samples.
   void triangulate(Piece& piece) const
   {
+    const Progress_part none(0); // of the loop over the pieces
     const Surface_piece part(m_surface, m_samples, *m_places, piece.facets);
     Working_mesh mesh(insert_samples(part.surface, part.samples, part.places));
     reduce_to_samples(mesh, false);

@@ -29,6 +29,7 @@ public:
   {
     for (const Vertex v : m.mesh.vertices())
       if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
+    m_all = m_rest.size();
   }
 
   /// \returns the number of vertices that could not be removed.
@@ -44,11 +45,12 @@ public:
     }
     for (bool progress = true; progress && !m_rest.empty();) {
       progress = false;
-      for (const Vertex u : m_rest)
-        if (is_left(u)) {
-          lower_degree(u);
-          progress |= remove(u);
-        }
+      for (const Vertex u : m_rest) {
+        Cancellation::poll();
+        if (!is_left(u)) continue;
+        lower_degree(u);
+        progress |= remove(u);
+      }
       forget_removed();
       progress |= do_passes();
     }
@@ -66,8 +68,13 @@ private:
     for (bool progress = true; progress && !m_rest.empty();) {
       ++m_pass;
       progress = false;
-      for (const Vertex u : m_rest)
-        if (m_touched[u] != m_pass && is_left(u)) progress |= remove(u);
+      std::size_t removed = m_all - m_rest.size();
+      for (const Vertex u : m_rest) {
+        Cancellation::poll(removed, m_all);
+        const bool goes = m_touched[u] != m_pass && is_left(u) && remove(u);
+        removed += goes;
+        progress |= goes;
+      }
       forget_removed();
     }
     return m_rest.size() < before;
@@ -92,7 +99,6 @@ private:
   // there may be none: the border then recedes to the samples.
   bool remove(Vertex u)
   {
-    Cancellation::poll();
     m_ring.clear();
     for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
     const std::vector<Vertex>& curve = m.feature_neighbors(u);
@@ -242,6 +248,7 @@ private:
   Edge_flipper& m_flipper;
   Intersection_guard* m_guard; // or none
   std::vector<Vertex> m_rest;  // no samples: still to be removed
+  std::size_t m_all = 0;       // of these at the beginning
   std::vector<int> m_touched;  // by vertex: the last pass that changed something around it
   std::vector<Halfedge> m_ring;
   std::vector<Candidate> m_candidates;

@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 namespace CGAL::PowerRTF {
 namespace internal {
@@ -46,7 +47,9 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
                                                           const Feature_samples& features,
                                                           bool may_touch_itself)
 {
+  internal::Progress_part part(0.3);
   internal::Working_mesh mesh(internal::insert_samples(surface, samples, features.places));
+  part.next(0.95); // what follows is rare
   const std::size_t defects = internal::reduce_to_samples(mesh, may_touch_itself);
   Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
   if (defects == 0 || may_touch_itself) return result;

@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/extraction/Mended_stars.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_from_cells.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <optional>
 #include <utility>
@@ -21,6 +22,7 @@ Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples
                                   std::vector<std::vector<int>>&& neighbors,
                                   Cell_extraction_statistics* statistics)
 {
+  const internal::Progress_part part(0.95); // what follows is rare
   internal::Mended_stars<ConcurrencyTag> stars(surface, samples, features, std::move(neighbors));
   const bool is_mended = stars.mend();
   if (statistics) *statistics = {stars.open_samples(), stars.pieces(), !is_mended};

@@ -63,7 +63,7 @@ public:
     const Flat_patches patches(surface, Flat_patches::coplanar_sine);
     auto inside = m_inside.begin();
     for (int f = 0; f < int(surface.triangles.size()); ++f) {
-      Cancellation::poll();
+      Cancellation::poll(f, surface.triangles.size());
       const auto begin = inside;
       while (inside != m_inside.end() && inside->facet == f) ++inside;
       triangulate_facet(f, begin, inside);

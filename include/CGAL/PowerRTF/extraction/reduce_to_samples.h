@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/remove_intersections.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <cstddef>
 
@@ -20,13 +21,17 @@ inline std::size_t reduce_to_samples(Working_mesh& mesh, bool may_touch_itself)
 {
   // While the mesh is fine, normals that differ by more than 84 degrees are a fold; among the
   // samples alone even 134 degrees occur on thin parts, and refusing more costs good triangles.
+  Progress_part part(0.1);
   Edge_flipper careful_flipper(mesh, 0.1);
   careful_flipper.push_around_samples();
   careful_flipper.run(20 * mesh.mesh.number_of_edges());
+  part.next(0.7);
   const std::size_t rest = Decimator(mesh, careful_flipper).run();
+  part.next(0.85);
   Edge_flipper flipper(mesh, -0.7);
   for (const auto e : mesh.mesh.edges()) flipper.push(e);
   flipper.run(20 * mesh.mesh.number_of_edges());
+  part.next(1);
   return may_touch_itself ? rest : rest + Intersection_remover(mesh, flipper).run();
 }
 
