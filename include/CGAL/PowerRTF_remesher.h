@@ -148,10 +148,13 @@ private:
   {
     const Stage stage("sampling", m_report.seconds.sampling);
     const PowerRTF::Feature_samples& features = m_patches.features();
-    m_engine.set_samples(PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
-                             m_patches.surface(), m_options, features, &m_engine.facet_tree(),
-                             &m_report.off_lattice_samples),
-                         features);
+    Progress_part part(0.1);
+    const PowerRTF::Facet_tree& tree = m_engine.facet_tree();
+    part.next(0.85);
+    const PowerRTF::Samples samples = PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
+        m_patches.surface(), m_options, features, &tree, &m_report.off_lattice_samples);
+    part.next(1);
+    m_engine.set_samples(samples, features);
     m_report.iterations.clear();
   }
 

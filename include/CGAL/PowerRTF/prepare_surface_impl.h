@@ -24,12 +24,12 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup,
                                               internal::Concurrency concurrency)
 {
   const internal::Stopwatch watch(report.seconds.surface);
-  internal::Progress_part part(0.4);
+  internal::Progress_part part(0.1);
   Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
   soup = {}; // its memory
-  part.next(0.6);
+  part.next(0.2);
   creases ? set_creases(surface, *creases) : set_creases(surface, options, concurrency);
-  part.next(0.9);
+  part.next(0.75);
   densities ? set_density(surface, options, *densities)
             : set_density(surface, options, concurrency);
   return surface;

@@ -282,7 +282,6 @@ private:
   // The triangles at the piece's open samples whose corners are samples.
   void triangulate(Piece& piece) const
   {
-    const Progress_part none(0); // of the loop over the pieces
     const Surface_piece part(m_surface, m_samples, *m_places, piece.facets);
     Working_mesh mesh(insert_samples(part.surface, part.samples, part.places));
     reduce_to_samples(mesh, false);

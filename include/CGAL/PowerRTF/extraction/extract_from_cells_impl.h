@@ -22,8 +22,9 @@ Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples
                                   std::vector<std::vector<int>>&& neighbors,
                                   Cell_extraction_statistics* statistics)
 {
-  const internal::Progress_part part(0.95); // what follows is rare
+  internal::Progress_part part(0.3);
   internal::Mended_stars<ConcurrencyTag> stars(surface, samples, features, std::move(neighbors));
+  part.next(0.95); // what follows is rare
   const bool is_mended = stars.mend();
   if (statistics) *statistics = {stars.open_samples(), stars.pieces(), !is_mended};
   return is_mended ? stars.mesh() : extract_by_insertion(surface, samples, features);

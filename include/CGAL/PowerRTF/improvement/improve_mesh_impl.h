@@ -68,12 +68,12 @@ public:
   Extracted_mesh run()
   {
     Extracted_mesh mesh = m_raw;
-    Progress_part part(0.9); // the first attempt, which mostly does
+    Progress_part part(0.93); // the first attempt, which mostly does
     for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
       Star_mesh stars = m_raw_stars;
       stars.lock(m_locked);
       improve(stars, Schedule::smoothing_passes - (attempt == 1 ? 1 : 0));
-      if (attempt == 0) part.next(0.95);
+      if (attempt == 0) part.next(0.97);
       const std::vector<Face> broken = find_broken(stars);
       if (broken.empty()) {
         if (attempt > 1) optimize_locked(stars);
@@ -98,16 +98,16 @@ private:
   // One attempt; see the head of this file.
   void improve(Star_mesh& stars, int smoothing_passes)
   {
-    Progress_part part(0.25);
+    Progress_part part(0.1);
     Mesh_smoother smoother(stars);
     smoother.run(smoothing_passes);
-    part.next(0.3);
+    part.next(0.2);
     Dislocation_annihilator(stars).run();
     part.next(0.4);
     smoother.run(Schedule::last_smoothing_passes);
     Bad_triangle_optimizer optimizer(stars);
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
-    part.next(0.5);
+    part.next(0.6);
     optimize();
     if (!m_raw.feature_edges.empty()) {
       Feature_slider slider(stars, m_surface);
@@ -116,13 +116,13 @@ private:
         optimize();
       }
     }
-    part.next(0.6);
+    part.next(0.63);
     m_tracker.track(stars);
-    part.next(0.7);
+    part.next(0.66);
     Tip_coverer(stars, m_tracker, Schedule::healable_badness).run(Schedule::far_share);
     optimize();
     m_tracker.update();
-    part.next(0.8);
+    part.next(0.75);
     Surface_fitter(stars, m_tracker, m_flat, Schedule::healable_badness).run();
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
@@ -240,7 +240,7 @@ CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree
 {
   if (mesh.triangles.empty()) return true;
   try {
-    internal::Progress_part part(0.15);
+    internal::Progress_part part(0.12);
     internal::Mesh_improver improver(surface, tree, mesh, concurrency);
     part.next(0.98);
     mesh = improver.run();

@@ -104,17 +104,25 @@ private:
 };
 
 /// While it lives, loops lead the progress of the stage on to `end`, a share of the part around it,
-/// or of the stage. The loops of chunks in parallel.h do so by themselves: where there are several,
-/// each wants a part. Parts end in the order in which they began, the last one first.
+/// or of the stage. The loops of chunks in parallel.h do so by themselves: each goes half of the
+/// way that is left, as nobody knows how many there are. Parts end in the order in which they
+/// began, the last one first.
 class Progress_part {
 public:
   explicit Progress_part(double end) : m_run(Cancellation::current())
   {
     if (!m_run) return;
-    m_outer_begin = m_run->m_begin;
-    m_outer_end = m_run->m_end;
+    m_run->ask();
     m_was_in_part = std::exchange(m_run->m_is_in_part, true);
     begin(end);
+  }
+  /// That of a loop in a part; outside of all parts, where nobody knows how far it leads, nothing.
+  Progress_part() : m_run(Cancellation::current())
+  {
+    if (m_run && !m_run->m_is_in_part) m_run = nullptr;
+    if (!m_run) return;
+    m_run->m_begin = m_run->m_done;
+    m_run->m_end = (m_run->m_done + m_outer_end) / 2;
   }
   ~Progress_part()
   {
@@ -132,6 +140,7 @@ public:
   {
     if (!m_run) return;
     m_run->advance(1);
+    m_run->ask();
     begin(end);
   }
 
@@ -143,8 +152,8 @@ private:
   }
 
   Cancellation* m_run;
-  double m_outer_begin = 0, m_outer_end = 1;
-  bool m_was_in_part = false;
+  double m_outer_begin = m_run ? m_run->m_begin : 0, m_outer_end = m_run ? m_run->m_end : 1;
+  bool m_was_in_part = true;
 };
 
 /// Calls `run()`. Returns whether it came to its end: `visitor` did not stop it.

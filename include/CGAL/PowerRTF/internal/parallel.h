@@ -62,6 +62,7 @@ template <class F>
 void for_each_chunk(Concurrency concurrency, int n, int chunk, F&& f)
 {
   const int chunks = (n + chunk - 1) / chunk;
+  const Progress_part part;
   std::atomic<int> begun{0};
   const auto run = [&](int c) {
     Cancellation::poll(begun.fetch_add(1, std::memory_order_relaxed), chunks);

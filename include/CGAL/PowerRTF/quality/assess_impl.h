@@ -39,7 +39,7 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
                                   const Facet_tree& tree, const Extracted_mesh& mesh,
                                   Remeshing_report& report, internal::Concurrency concurrency)
 {
-  internal::Progress_part part(0.15);
+  internal::Progress_part part(0.1);
   report.input_topology = topology(surface.triangles, concurrency);
   report.topology = topology(mesh.triangles, concurrency);
   report.crease_edges = surface.creases.size();
@@ -50,7 +50,7 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   if (report.self_intersections > 0)
     report.input_self_intersections =
         self_intersections(surface.points, surface.triangles, concurrency);
-  part.next(0.55);
+  part.next(0.6);
   report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles, concurrency);

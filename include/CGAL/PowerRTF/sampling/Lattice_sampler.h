@@ -61,15 +61,15 @@ public:
 
   Samples run()
   {
-    internal::Progress_part part(0.1);
+    internal::Progress_part part(0.05);
     make_nodes();
-    part.next(0.2);
+    part.next(0.25);
     Field field(m_backend, m_levels, m_seed);
     part.next(0.8);
     find_points(field);
     part.next(0.85);
     add_gaps(field.view());
-    part.next(0.95);
+    part.next(1);
     return eliminate();
   }
 
