@@ -201,7 +201,8 @@ TEST_CASE("the visitor sees stages and iterations")
   const Remeshing_report report = CGAL::power_rtf_remeshing(
       input, 120, output, CGAL::parameters::visitor(std::ref(visitor)).number_of_iterations(20));
   CHECK(visitor.stages == std::vector<std::string>{"surface", "sampling", "optimization",
-                                                   "extraction", "improvement", "quality"});
+                                                   "extraction", "improvement", "quality",
+                                                   "write"});
   CHECK(visitor.iterations == int(report.outer_iterations));
   CHECK(visitor.grows);
   CHECK(visitor.last_progress == Approx(1));
