@@ -254,8 +254,11 @@ private:
     const bool is_opened = !m_surface.seams.empty(); // its cells are those of the surface as it was
     if (m_options.extraction == Method::insertion || is_opened || all_fixed())
       return PowerRTF::extract_by_insertion(surface, samples, features, is_opened);
+    Progress_part part(0.2);
+    auto neighbors = m_engine.neighbors();
+    part.next(1);
     return PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
-        surface, samples, features, m_engine.neighbors());
+        surface, samples, features, std::move(neighbors));
   }
 
   template <class Visitor>
