@@ -106,7 +106,7 @@ private:
 /// While it lives, loops lead the progress of the stage on to `end`, a share of the part around it,
 /// or of the stage. The loops of chunks in parallel.h do so by themselves: each goes half of the
 /// way that is left, as nobody knows how many there are. Parts end in the order in which they
-/// began, the last one first.
+/// began, the last one first; each polls as it begins.
 class Progress_part {
 public:
   explicit Progress_part(double end) : m_run(Cancellation::current())

@@ -63,6 +63,8 @@ public:
   void orient()
   {
     for (std::size_t l = m_levels.size(); l-- > 0;) {
+      const internal::Progress_part level_part(share_down_to(l));
+      internal::Progress_part part(0.2);
       Level& level = m_levels[l];
       const Lattice_view view = level.view();
       if (l + 1 == m_levels.size())
@@ -72,9 +74,8 @@ public:
       m_backend.for_each(view.size, Set_direction_edges{view});
       const bool is_coarsest = l + 1 == m_levels.size();
       const int sweeps = is_coarsest ? coarsest_sweeps : direction_sweeps;
-      const internal::Progress_part part(share_down_to(l));
       for (int sweep = 0; sweep < sweeps; ++sweep) {
-        const internal::Progress_part sweep_part(double(sweep + 1) / sweeps);
+        part.next(0.2 + 0.8 * (sweep + 1) / sweeps);
         m_backend.for_each(view.size, Smooth_direction{level.view(), level.is_directed.data(),
                                                        level.next_directions.data()});
         std::swap(level.directions, level.next_directions);
@@ -87,6 +88,8 @@ public:
   void place(float factor)
   {
     for (std::size_t l = m_levels.size(); l-- > 0;) {
+      const internal::Progress_part level_part(share_down_to(l));
+      internal::Progress_part part(0.2);
       Level& level = m_levels[l];
       const Lattice_view view = level.view();
       m_backend.for_each(view.size,
@@ -97,9 +100,8 @@ public:
         m_backend.for_each(view.free, Refine_waves{m_levels[l + 1].view(), view});
       m_backend.for_each(view.size, Set_wave_edges{view});
       const int sweeps = l == 0 ? last_wave_sweeps : wave_sweeps;
-      const internal::Progress_part part(share_down_to(l));
       for (int sweep = 0; sweep < sweeps; ++sweep) {
-        const internal::Progress_part sweep_part(double(sweep + 1) / sweeps);
+        part.next(0.2 + 0.8 * (sweep + 1) / sweeps);
         m_backend.for_each(view.free, Smooth_waves{level.view(), level.next_waves.data(),
                                                    sweep == 0 ? 1 : wave_acceleration});
         std::swap(level.waves, level.next_waves);

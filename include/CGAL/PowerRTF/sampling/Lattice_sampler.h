@@ -103,8 +103,9 @@ private:
     // Rows that end cost points: a share that falls slowly with n (kitten, fertility, armadillo).
     double scale = 1 - 0.02 * std::pow(3000. / static_cast<double>(m_size), 0.2);
     for (int step = 0;; ++step) {
-      part.next(0.2 + 0.8 * (step + 1) / (max_scalings + 1));
+      part.next(0.2 + 0.8 * (step + 0.8) / (max_scalings + 1));
       field.place(static_cast<float>(scale));
+      part.next(0.2 + 0.8 * (step + 1) / (max_scalings + 1));
       choose_points(field.view());
       const double count = static_cast<double>(distinct_points(field.view()));
       const double wanted = static_cast<double>(m_lattice_size);

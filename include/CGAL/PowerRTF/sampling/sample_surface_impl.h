@@ -24,11 +24,13 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                        std::size_t* off_lattice)
 {
   validate(options);
+  internal::Progress_part part(0.02);
   using Backend = Host_backend<ConcurrencyTag>;
   Backend backend;
   const auto [component, components] = facet_components(surface.adjacency, backend.concurrency());
   const std::vector<Component_share> shares = component_shares(
       surface, options.number_of_samples, features, component, components, backend.concurrency());
+  part.next(0.99);
   Samples samples;
   if (off_lattice) *off_lattice = 0;
   if (options.sampling == Sampling::lattice) {
