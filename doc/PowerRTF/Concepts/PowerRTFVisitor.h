@@ -29,7 +29,7 @@ public:
   /// optimization done.
   void on_iteration(const CGAL::PowerRTF::Iteration_report& iteration, double progress);
 
-  /// Asked after each iteration and, in all stages but "write", every 50 ms or so; `false` stops the run: no
-  /// mesh is made, the output stays as it was.
+  /// Asked after each iteration and, in all stages but "write", every 50 ms or so; `false` stops
+  /// the run: no mesh is made, the output stays as it was.
   bool go_further();
 };
