@@ -24,7 +24,7 @@ public:
     facets.reserve(in.facets.size());
     corners.reserve(3 * in.facets.size());
     for (const auto& f : in.facets) {
-      internal::Cancellation::poll();
+      internal::Cancellation::poll_now_and_then();
       facets.push_back({to_real<Real>(f.corners[0]), to_real<Real>(f.corners[1]),
                         to_real<Real>(f.corners[2]), to_real<Real>(f.normal)});
       corners.insert(corners.end(), f.vertices, f.vertices + 3);
@@ -34,7 +34,7 @@ public:
     std::vector<Vec3<Real>> vertices;
     attributes.reserve(in.vertices.size());
     for (const auto& v : in.vertices) {
-      internal::Cancellation::poll();
+      internal::Cancellation::poll_now_and_then();
       attributes.push_back({to_real<Real>(v.normal), Real(v.density)});
       if (!in.vertex_nodes.empty()) vertices.push_back(to_real<Real>(v.point));
     }

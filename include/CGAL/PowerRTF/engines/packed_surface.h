@@ -47,7 +47,7 @@ inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& t
   std::vector<int> places(surface.points.size()); // of the vertices
   result.vertices.reserve(surface.points.size());
   for (const int v : spatial_order(surface.points, concurrency)) {
-    Cancellation::poll();
+    Cancellation::poll_now_and_then();
     places[v] = static_cast<int>(result.vertices.size());
     result.vertices.push_back(
         {surface.points[v], surface.vertex_normals[v], surface.vertex_density[v]});
@@ -56,7 +56,7 @@ inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& t
   result.has_patches = view.patches != nullptr;
   result.facets.reserve(surface.triangles.size());
   for (int k = 0; k < view.facet_tree.items; ++k) {
-    Cancellation::poll();
+    Cancellation::poll_now_and_then();
     const Facet_corners<double>& f = view.facets[k];
     const Triangle& t = surface.triangles[tree.order()[k]];
     result.facets.push_back({{f.a, f.b, f.c},

@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_FEATURES_FLAT_PATCHES_H
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <vector>
 
@@ -22,18 +23,22 @@ public:
       : m_max_sine(max_sine), m_patches(surface.triangles.size(), -1)
   {
     const std::vector<int>& opposite = surface.adjacency.opposite;
-    for (int f = 0; f < int(surface.triangles.size()); ++f)
+    for (int f = 0; f < int(surface.triangles.size()); ++f) {
+      internal::Cancellation::poll_now_and_then();
       if (m_patches[f] < 0) grow(surface, f);
+    }
     m_perimeters.assign(m_areas.size(), 0);
     const auto is_boundary = [&](int h) {
       const int o = opposite[h];
       return o == Facet_adjacency::none || m_patches[o / 3] != m_patches[h / 3];
     };
-    for (int h = 0; h < int(opposite.size()); ++h)
+    for (int h = 0; h < int(opposite.size()); ++h) {
+      internal::Cancellation::poll_now_and_then();
       if (is_boundary(h))
         m_perimeters[m_patches[h / 3]] +=
             length(surface.points[halfedge_target(surface.triangles, h)] -
                    surface.points[halfedge_source(surface.triangles, h)]);
+    }
   }
 
   int operator[](int facet) const { return m_patches[facet]; }
