@@ -124,6 +124,20 @@ TEST_CASE("a walk along the surface comes to the points straight ahead, and to n
   }
 }
 
+TEST_CASE("a way around a tip ends")
+{
+  const Surface s = shapes::make_surface(shapes::octahedron());
+  for (int f = 0; f < int(s.triangles.size()); ++f)
+    for (const int v : s.triangles[f]) {
+      const Vec3d tip = s.points[v], n = s.vertex_normals[v];
+      const Vec3d way = cross(n, std::fabs(n.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
+      const internal::Surface_walk walk(s, tip, tip + way, cross(n, way)); // below its plane: all
+      int facets = 0;
+      CHECK_FALSE(walk.leads_to(f, [&](int) { return ++facets > 100; }));
+      CHECK(facets == 5); // those at the tip, the first one at both ends of the way
+    }
+}
+
 TEST_CASE("the facets near a point hang together")
 {
   const Surface disc = shapes::make_surface(shapes::thin_disc(.01));

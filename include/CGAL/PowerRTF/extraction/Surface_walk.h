@@ -22,7 +22,8 @@ public:
   {}
 
   /// Walks from facet `start`, which holds the first point, at most twice as far as the second one
-  /// is. Returns whether it came to a facet for which `is_end(f)`.
+  /// is. Returns whether it came to a facet for which `is_end(f)`. A way can close at once: around
+  /// a tip at which the plane touches the surface.
   template <class Is_end>
   bool leads_to(int start, const Is_end& is_end) const
   {
@@ -30,15 +31,18 @@ public:
     const double distance = length(m_way);
     Vec3d last = m_from;
     double walked = 0;
-    for (int h = first_exit(start); h != Facet_adjacency::none; h = exit(h)) {
+    const int first = first_exit(start);
+    if (first == Facet_adjacency::none) return false;
+    int h = first;
+    do {
       const Vec3d p = crossing(h);
       walked += length(p - last);
       last = p;
       h = m_surface.adjacency.opposite[h];
       if (h == Facet_adjacency::none) return false;
       if (is_end(h / 3)) return true;
-      if (!(walked < 2 * distance)) return false;
-    }
+      h = exit(h);
+    } while (h != first && walked < 2 * distance);
     return false;
   }
 
