@@ -29,8 +29,8 @@ std::filesystem::path target_of(const std::string& file);
 /// \throws Output_error naming file and reason
 void check_writable(const std::string& file);
 
-/// A file's buffer that polls whenever it is full. A stream that is cancelled is bad and takes no
-/// more: what writes to it comes to its end soon.
+/// A file's buffer that polls whenever it is full or given a large block. A stream that is
+/// cancelled is bad and takes no more: what writes to it comes to its end soon.
 class Polling_buffer : public std::filebuf {
 protected:
   int_type overflow(int_type c) override
@@ -40,7 +40,9 @@ protected:
   }
   std::streamsize xsputn(const char* text, std::streamsize size) override
   {
-    CGAL::PowerRTF::internal::Cancellation::poll_now_and_then();
+    using CGAL::PowerRTF::internal::Cancellation;
+    constexpr std::streamsize large = 1 << 12;
+    size < large ? Cancellation::poll_now_and_then() : Cancellation::poll();
     return std::filebuf::xsputn(text, size);
   }
 };

@@ -9,9 +9,9 @@
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
 #include <CGAL/PowerRTF/extraction/Cell_stars.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
-#include <CGAL/PowerRTF/extraction/component_topology.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_from_cells.h>
+#include <CGAL/PowerRTF/extraction/fan_topology.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/topology.h>
@@ -266,16 +266,18 @@ TEST_CASE("the topology of a surface is the known one")
   for (const Shape& shape : plain_shapes()) {
     CAPTURE(shape.name);
     const Topology_statistics expected = topology(shape.surface.triangles);
-    const auto found = internal::surface_topology<Parallel_if_available_tag>(shape.surface);
+    const auto found = internal::surface_topology(shape.surface, Parallel_if_available_tag());
     CHECK(found.size() == int(expected.components));
     CHECK(found.component == facet_components(shape.surface.adjacency).first);
     long sum = 0, loops = 0;
-    for (const long c : found.six_euler_characteristics) sum += c;
-    for (const long l : found.border_loops) loops += l;
-    CHECK(sum == 6 * expected.euler_characteristic);
+    for (const Component_topology& c : found.components) {
+      sum += c.euler_characteristic;
+      loops += c.border_loops;
+    }
+    CHECK(sum == expected.euler_characteristic);
     CHECK(loops == long(expected.border_loops));
   }
-  CHECK(internal::surface_topology<Sequential_tag>(Surface()).size() == 0);
+  CHECK(internal::surface_topology(Surface(), Sequential_tag()).size() == 0);
 }
 
 TEST_CASE("a piece of a surface is a 2-manifold with the samples on it")

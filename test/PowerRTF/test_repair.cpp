@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dirty_shapes.h"
 
-#include <CGAL/PowerRTF/features/topology_minimum.h>
+#include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 

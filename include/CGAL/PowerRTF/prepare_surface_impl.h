@@ -28,9 +28,10 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup,
   Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
   soup = {}; // its memory
   part.next(0.2);
-  creases ? set_creases(surface, *creases) : set_creases(surface, options, concurrency);
+  creases ? set_creases(surface, *creases, concurrency)
+          : set_creases(surface, options, concurrency);
   part.next(0.75);
-  densities ? set_density(surface, options, *densities)
+  densities ? set_density(surface, options, *densities, concurrency)
             : set_density(surface, options, concurrency);
   return surface;
 }

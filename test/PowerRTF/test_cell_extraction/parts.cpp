@@ -7,7 +7,7 @@
 #include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
 #include <CGAL/PowerRTF/extraction/Surface_walk.h>
-#include <CGAL/PowerRTF/extraction/component_topology.h>
+#include <CGAL/PowerRTF/extraction/fan_topology.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
 #include <doctest/doctest.h>
@@ -64,8 +64,8 @@ TEST_CASE("the topology of components is compared one by one")
       return star;
     };
     return internal::are_homeomorphic(
-        internal::surface_topology<Parallel_if_available_tag>(s),
-        internal::fan_topology<Sequential_tag>(int(mesh.points.size()), star), facets);
+        internal::surface_topology(s, Parallel_if_available_tag()),
+        internal::fan_topology(int(mesh.points.size()), star, Sequential_tag()), facets);
   };
   using namespace shapes;
   const Soup ball = icosphere(1), ring = torus(12, 8, 1, .4), tube = open_cylinder(8, 4, .5, 2);

@@ -13,7 +13,7 @@
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
 #include <CGAL/PowerRTF/extraction/Surface_walk.h>
 #include <CGAL/PowerRTF/extraction/border_samples.h>
-#include <CGAL/PowerRTF/extraction/component_topology.h>
+#include <CGAL/PowerRTF/extraction/fan_topology.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
@@ -347,13 +347,13 @@ private:
 
   bool has_topology_of_surface()
   {
-    if (m_topology.component.empty()) m_topology = surface_topology<ConcurrencyTag>(m_surface);
+    if (m_topology.component.empty()) m_topology = surface_topology(m_surface, ConcurrencyTag());
     const auto ordered_star = [this](int v) {
       Fan s = star(v);
       sort_around(s);
       return s;
     };
-    return are_homeomorphic(m_topology, fan_topology<ConcurrencyTag>(m_size, ordered_star),
+    return are_homeomorphic(m_topology, fan_topology(m_size, ordered_star, ConcurrencyTag()),
                             m_samples.facets);
   }
 
@@ -384,7 +384,7 @@ private:
   std::vector<Triangle> m_made_triangles; // of the pieces, sorted
   std::vector<Triangle_at> m_made;        // the same at their corners, sorted
   Extracted_mesh m_mesh;
-  Component_topology m_topology; // of the surface, once it was needed
+  Topology m_topology; // of the surface, once it was needed
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -9,8 +9,8 @@
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/features/split_bent_facets.h>
-#include <CGAL/PowerRTF/features/topology_minimum.h>
 #include <CGAL/PowerRTF/fields/smooth_normals.h>
+#include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/geometry/output_grid.h>
 

@@ -144,19 +144,25 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
 
 /// Makes creases of the seams and of the edges, other than those of the border, whose ends are
 /// copies of the pairs of input vertices in `marked`.
-inline void set_creases(Surface& surface, std::vector<Edge> marked)
+inline void set_creases(Surface& surface, std::vector<Edge> marked,
+                        internal::Concurrency concurrency = Sequential_tag())
 {
   for (Edge& e : marked) e = sorted_edge(e[0], e[1]);
   std::sort(marked.begin(), marked.end());
   surface.creases = surface.seams;
-  const auto& triangles = surface.triangles;
-  for (int h = 0; h < static_cast<int>(3 * triangles.size()); ++h) {
-    if (surface.adjacency.opposite[h] < h) continue; // border, or seen
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    if (std::binary_search(marked.begin(), marked.end(),
-                           sorted_edge(surface.input_vertices[a], surface.input_vertices[b])))
-      surface.creases.push_back(sorted_edge(a, b));
-  }
+  const auto ends = [&](int h) {
+    return sorted_edge(halfedge_source(surface.triangles, h),
+                       halfedge_target(surface.triangles, h));
+  };
+  const auto is_marked = [&](int h) {
+    if (surface.adjacency.opposite[h] < h) return false; // border, or once
+    const auto [a, b] = ends(h);
+    return std::binary_search(marked.begin(), marked.end(),
+                              sorted_edge(surface.input_vertices[a], surface.input_vertices[b]));
+  };
+  for (const int h :
+       internal::select(concurrency, static_cast<int>(3 * surface.triangles.size()), is_marked))
+    surface.creases.push_back(ends(h));
   sort_uniquely(surface.creases);
 }
 

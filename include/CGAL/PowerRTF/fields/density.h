@@ -90,7 +90,8 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
 /// \throws Invalid_input_error a density is missing, not positive or not finite, or an option has a
 ///   value that is not allowed
 inline void set_density(Surface& surface, const Remeshing_options& options,
-                        const std::vector<double>& densities)
+                        const std::vector<double>& densities,
+                        internal::Concurrency concurrency = Sequential_tag())
 {
   validate(options);
   surface.vertex_density.resize(surface.points.size());
@@ -106,7 +107,8 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
   }
   internal::normalize_density(surface.vertex_density);
   if (options.gradation > 0)
-    limit_gradation(surface, surface_edges(surface), options.gradation, options.number_of_samples);
+    limit_gradation(surface, surface_edges(surface, concurrency), options.gradation,
+                    options.number_of_samples, concurrency);
 }
 
 } // namespace CGAL::PowerRTF

@@ -24,7 +24,7 @@ inline std::vector<double> diffusion_times(const Surface& surface, const Surface
                                            std::size_t n, double width,
                                            internal::Concurrency concurrency = Sequential_tag())
 {
-  const double mass = density_integral(surface);
+  const double mass = density_integral(surface, concurrency);
   std::vector<double> times(surface.points.size(), 0);
   internal::for_each_index(concurrency, static_cast<int>(times.size()), [&](int v) {
     double squares = 0;

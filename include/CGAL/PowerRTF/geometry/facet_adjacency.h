@@ -9,7 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
-#include <CGAL/PowerRTF/internal/label_trees.h>
+#include <CGAL/PowerRTF/internal/connected_components.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <boost/range/iterator_range.hpp>
@@ -114,25 +114,11 @@ inline std::pair<std::vector<int>, int>
 facet_components(const Facet_adjacency& adjacency,
                  internal::Concurrency concurrency = Sequential_tag())
 {
-  const int facets = static_cast<int>(adjacency.opposite.size() / 3);
-  std::vector<int> component(facets); // first the least facet
-  internal::for_each_index(concurrency, facets, [&](int f) { component[f] = f; });
-  internal::for_each_index(concurrency, facets, [&](int f) {
-    for (int h = 3 * f; h < 3 * f + 3; ++h)
-      if (adjacency.opposite[h] != Facet_adjacency::none && adjacency.opposite[h] / 3 < f)
-        join_trees(component.data(), f, adjacency.opposite[h] / 3);
-  });
-  const std::vector<int> least =
-      internal::select(concurrency, facets, [&](int f) { return atomic_load(&component[f]) == f; });
-  const int components = static_cast<int>(least.size());
-  internal::for_each_index(concurrency, facets, [&](int f) {
-    atomic_store(&component[f], root_of(component.data(), f));
-  });
-  internal::for_each_index(concurrency, facets, [&](int f) {
-    component[f] = static_cast<int>(std::lower_bound(least.begin(), least.end(), component[f]) -
-                                    least.begin());
-  });
-  return {std::move(component), components};
+  return internal::connected_components(
+      concurrency, static_cast<int>(adjacency.opposite.size() / 3), [&](int f, auto&& join) {
+        for (int h = 3 * f; h < 3 * f + 3; ++h)
+          if (adjacency.opposite[h] > h) join(adjacency.opposite[h] / 3);
+      });
 }
 
 /// Calls `at_fan` for each fan of facets around a vertex, in the order of their first halfedges,

@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_SAMPLING_COMPONENT_SHARES_H
 
 #include <CGAL/PowerRTF/features/sample_features.h>
-#include <CGAL/PowerRTF/features/topology_minimum.h>
+#include <CGAL/PowerRTF/geometry/component_topology.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +125,7 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
   for (std::size_t f = 0; f < component.size(); ++f)
     masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
   std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
-  const double cell_mass = density_integral(surface) / equivalent_cells(n, features);
+  const double cell_mass = density_integral(surface, concurrency) / equivalent_cells(n, features);
   for (std::size_t s = 0; s < features.sites.size(); ++s) {
     const int c = features.sites.patches[s];
     least[c] = 0;

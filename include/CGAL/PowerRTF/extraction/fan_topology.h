@@ -1,0 +1,84 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The topology of triangles that are given as the stars of their vertices; whether it is that of a
+// surface.
+#ifndef CGAL_POWER_RTF_EXTRACTION_FAN_TOPOLOGY_H
+#define CGAL_POWER_RTF_EXTRACTION_FAN_TOPOLOGY_H
+
+#include <CGAL/PowerRTF/extraction/Fan.h>
+#include <CGAL/PowerRTF/geometry/component_topology.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+/// The components of an oriented 2-manifold.
+struct Topology {
+  std::vector<int> component; ///< of each facet, or of each vertex
+  std::vector<Component_topology> components;
+
+  int size() const { return static_cast<int>(components.size()); }
+};
+
+inline Topology surface_topology(const Surface& surface, Concurrency concurrency)
+{
+  auto [component, components] = facet_components(surface.adjacency, concurrency);
+  std::vector<Component_topology> topologies =
+      component_topologies(surface, component, components, concurrency);
+  return {std::move(component), std::move(topologies)};
+}
+
+/// Of `vertices` vertices. `star(v)`: the triangles at v in their order around it, as
+/// `sort_around()` makes it.
+template <class Star_at>
+Topology fan_topology(int vertices, const Star_at& star, Concurrency concurrency)
+{
+  std::vector<int> next_on_border(vertices, -1);
+  auto [component, components] =
+      connected_components(concurrency, vertices, [&](int v, auto&& join) {
+        const Fan s = star(v);
+        for (const Fan_corner& c : s)
+          for (const int w : c)
+            if (w < v) join(w);
+        if (!is_closed(s)) next_on_border[v] = s.front()[0];
+      });
+  std::vector<long> characteristics(components, 0); // six times
+  const auto component_at = [&, &of = component](int v) { return of[v]; };
+  add_by_component(
+      concurrency, vertices, component_at,
+      [&](int v) { // and a third of each facet
+        return six_times_vertex_share(next_on_border[v] >= 0) +
+               six_times_facet_share / 3 * static_cast<long>(star(v).size());
+      },
+      characteristics);
+  std::vector<Component_topology> topologies = component_topologies(
+      characteristics, count_loops(std::move(next_on_border), components, component_at));
+  return {std::move(component), std::move(topologies)};
+}
+
+/// Whether each component of `surface` has one of `stars` on it with the same Euler characteristic
+/// and as many border loops, and none besides. `facets`: where the vertices lie.
+inline bool are_homeomorphic(const Topology& surface, const Topology& stars,
+                             const std::vector<int>& facets)
+{
+  if (surface.size() != stars.size()) return false;
+  std::vector<int> partner(stars.size(), -1), partner_of_surface(stars.size(), -1);
+  for (std::size_t v = 0; v < stars.component.size(); ++v) {
+    const int own = stars.component[v], its = surface.component[facets[v]];
+    if (partner[own] < 0 && partner_of_surface[its] < 0) {
+      partner[own] = its;
+      partner_of_surface[its] = own;
+    }
+    if (partner[own] != its || partner_of_surface[its] != own) return false;
+  }
+  for (int c = 0; c < stars.size(); ++c)
+    if (partner[c] < 0 || !(stars.components[c] == surface.components[partner[c]])) return false;
+  return true;
+}
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_EXTRACTION_FAN_TOPOLOGY_H
