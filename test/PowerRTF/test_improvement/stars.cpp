@@ -3,6 +3,7 @@
 //
 // The parts of the improvement on single stars: badness, smoothing, flips, dislocations.
 #include "../improvement_case.h"
+#include "../odd_shapes.h"
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
@@ -11,12 +12,14 @@
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -78,6 +81,54 @@ TEST_CASE("smoothing finds the best place in a star, and leaves it")
   for (int k = 0; k < 12; ++k) {
     const double angle = k * std::acos(-1.) / 6;
     CHECK(energy(p) < energy(p + 1e-3 * unit * Vec3d{std::cos(angle), std::sin(angle), 0}));
+  }
+}
+
+TEST_CASE("a projection descends to the nearest place around")
+{
+  using internal::Improvement_parameters;
+  constexpr double min_cosine = Improvement_parameters::Projection::min_normal_cosine;
+  const std::vector<std::pair<std::string, shapes::Soup>> smooth{
+      {"sphere", shapes::icosphere(3)},
+      {"cylinder", shapes::open_cylinder(40, 10, .5, 2)},
+      {"torus", shapes::torus(40, 20, 1, .4)},
+      {"Klein bottle", shapes::klein_bottle(60, 30)}}; // with seams, and through itself
+  for (const auto& [name, soup] : smooth) {
+    CAPTURE(name);
+    const bool is_convex = name == "sphere" || name == "cylinder";
+    const Surface surface = shapes::make_surface(soup);
+    const Facet_tree tree(surface.points, surface.triangles, surface.facet_patches);
+    const internal::Surface_projector projector(surface, tree);
+    Random_source random(1);
+    const auto any_facet = [&] { return int(random() * double(surface.triangles.size())); };
+    const double edge = std::sqrt(surface.area / double(surface.triangles.size()));
+    for (int k = 0; k < 3000; ++k) {
+      const int start = any_facet(); // two facets away, and off the surface
+      const Triangle& t = surface.triangles[start];
+      const Vec3d n = surface.facet_normals[start];
+      const Vec3d beside = surface.points[t[k % 3]] - surface.points[t[(k + 1) % 3]];
+      const Vec3d p = surface.points[t[k % 3]] + random() * beside + .4 * edge * random() * n;
+      const auto found = projector.project(p, n, start);
+      const auto nearest = tree.nearest(p, n, min_cosine, start);
+      const double distance = length(found.point - p), least = std::sqrt(nearest.squared_distance);
+      CHECK(distance >= (1 - 1e-12) * least);
+      if (is_convex) CHECK(distance <= (1 + 1e-12) * least);
+      CHECK(distance <=
+            length(nearest_point_on_triangle(p, surface.points[t[0]], surface.points[t[1]],
+                                             surface.points[t[2]]) -
+                   p));
+      CHECK(projector.are_on_one_patch(found.facet, start));
+      CHECK(dot(surface.facet_normals[found.facet], n) > min_cosine);
+    }
+    for (int k = 0; k < 100; ++k) { // facet `start` does not agree
+      const int start = any_facet();
+      const Vec3d p = surface.points[surface.triangles[start][0]],
+                  n = -surface.facet_normals[start];
+      const auto nearest = tree.nearest(p, n, min_cosine, start);
+      const auto found = projector.project(p, n, start);
+      CHECK(found.facet == nearest.facet);
+      if (found.facet >= 0) CHECK(found.point == nearest.point);
+    }
   }
 }
 

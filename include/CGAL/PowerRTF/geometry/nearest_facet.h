@@ -20,31 +20,54 @@ struct Surface_point {
   FT squared_distance = 0; ///< to the query
 };
 
-/// Nearest point of the triangle (a, b, c). (Ericson, "Real-Time Collision Detection", 5.1.5.)
+/// Where on a triangle a point is: edge k leads from corner k to the next one.
+struct Triangle_part {
+  enum { inside, edge, corner } kind;
+  int index; ///< of the edge or corner
+};
+
+/// Nearest point of the triangle (a, b, c) and where that is. (Ericson, "Real-Time Collision
+/// Detection", 5.1.5.)
 template <class FT>
 CGAL_POWER_RTF_HD inline Vec3<FT> nearest_point_on_triangle(const Vec3<FT>& p, const Vec3<FT>& a,
-                                                            const Vec3<FT>& b, const Vec3<FT>& c)
+                                                            const Vec3<FT>& b, const Vec3<FT>& c,
+                                                            Triangle_part& part)
 {
   const Vec3<FT> ab = b - a, ac = c - a, ap = p - a;
   const FT d1 = dot(ab, ap), d2 = dot(ac, ap);
+  part = {Triangle_part::corner, 0};
   if (d1 <= 0 && d2 <= 0) return a;
   const Vec3<FT> bp = p - b;
   const FT d3 = dot(ab, bp), d4 = dot(ac, bp);
+  part.index = 1;
   if (d3 >= 0 && d4 <= d3) return b;
   const FT vc = d1 * d4 - d3 * d2;
+  part = {Triangle_part::edge, 0};
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return d1 - d3 > 0 ? a + ab * (d1 / (d1 - d3)) : a;
   const Vec3<FT> cp = p - c;
   const FT d5 = dot(ab, cp), d6 = dot(ac, cp);
+  part = {Triangle_part::corner, 2};
   if (d6 >= 0 && d5 <= d6) return c;
   const FT vb = d5 * d2 - d1 * d6;
+  part.kind = Triangle_part::edge;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return d2 - d6 > 0 ? a + ac * (d2 / (d2 - d6)) : a;
   const FT va = d3 * d6 - d5 * d4;
+  part.index = 1;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
     const FT s = (d4 - d3) + (d5 - d6);
     return s > 0 ? b + (c - b) * ((d4 - d3) / s) : b;
   }
+  part.kind = Triangle_part::inside;
   const FT denominator = 1 / (va + vb + vc);
   return a + ab * (vb * denominator) + ac * (vc * denominator);
+}
+
+template <class FT>
+CGAL_POWER_RTF_HD inline Vec3<FT> nearest_point_on_triangle(const Vec3<FT>& p, const Vec3<FT>& a,
+                                                            const Vec3<FT>& b, const Vec3<FT>& c)
+{
+  Triangle_part ignored;
+  return nearest_point_on_triangle(p, a, b, c, ignored);
 }
 
 /// The boxes of a tree node's children side by side, so that one loop over them is one run of

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 
 namespace CGAL::PowerRTF::internal {
@@ -28,12 +29,16 @@ public:
   /// The nearest place to `p`.
   Place nearest(const Vec3d& p) const { return place(m_tree.nearest(p)); }
 
-  /// The nearest place to `p` on the facets that agree with `normal`; its facet is -1 if there is
-  /// none. `hint`: a facet of the patch, probably near; or -1.
-  Place project(const Vec3d& p, const Vec3d& normal, int hint) const
+  /// The nearest place to `p` on the facets of the patch of `start` that agree with `normal`, found
+  /// by descent from facet to facet: the nearest around. If facet `start` does not agree, the
+  /// nearest on all of them; its facet is -1 if there is none.
+  Place project(const Vec3d& p, const Vec3d& normal, int start) const
   {
+    if (agrees(start, normal))
+      if (const Surface_point<double> near = descend(p, normal, start); near.facet >= 0)
+        return place(near);
     return place(
-        m_tree.nearest(p, normal, Improvement_parameters::Projection::min_normal_cosine, hint));
+        m_tree.nearest(p, normal, Improvement_parameters::Projection::min_normal_cosine, start));
   }
 
   bool are_on_one_patch(int facet, int other) const
@@ -46,6 +51,70 @@ public:
   const Facet_tree& tree() const { return m_tree; }
 
 private:
+  bool agrees(int facet, const Vec3d& normal) const
+  {
+    return dot(m_surface.facet_normals[facet], normal) >
+           Improvement_parameters::Projection::min_normal_cosine;
+  }
+
+  /// Goes on to the nearest facet at the edge or corner where the nearest point is, as long as that
+  /// is nearer. The facet is -1 if the way is too long.
+  Surface_point<double> descend(const Vec3d& p, const Vec3d& normal, int start) const
+  {
+    constexpr int max_steps = 32;
+    const std::vector<int>& opposite = m_surface.adjacency.opposite;
+    Triangle_part part;
+    Surface_point<double> best = onto(start, p, part);
+    for (int step = 0; step < max_steps; ++step) {
+      if (part.kind == Triangle_part::inside) return best;
+      const int from = best.facet, h = 3 * from + part.index;
+      const auto try_facet = [&](int o) {
+        if (o == Facet_adjacency::none) return;
+        const int f = o / 3;
+        if (f == from || !are_on_one_patch(f, from) || !agrees(f, normal)) return;
+        Triangle_part its_part;
+        const Surface_point<double> x = onto(f, p, its_part);
+        if (!(x.squared_distance < best.squared_distance)) return;
+        best = x;
+        part = its_part;
+      };
+      if (part.kind == Triangle_part::edge)
+        try_facet(opposite[h]);
+      else
+        for_each_around(h, try_facet);
+      if (best.facet == from) return best;
+    }
+    return {};
+  }
+
+  /// Calls `f` for the halfedges around the source of `h` that leave it, but `h`, up to seams.
+  template <class F>
+  void for_each_around(int h, const F& f) const
+  {
+    const std::vector<int>& opposite = m_surface.adjacency.opposite;
+    const int center = halfedge_source(m_surface.triangles, h);
+    const auto leaves = [&](int o) { return halfedge_source(m_surface.triangles, o) == center; };
+    for (int o = h;;) { // counter-clockwise, then clockwise if a border stopped it
+      o = opposite[previous_halfedge(o)];
+      if (o == h) return;
+      if (o == Facet_adjacency::none || !leaves(o)) break;
+      f(o);
+    }
+    for (int o = opposite[h]; o != Facet_adjacency::none; o = opposite[o]) {
+      o = next_halfedge(o);
+      if (o == h || !leaves(o)) return;
+      f(o);
+    }
+  }
+
+  Surface_point<double> onto(int facet, const Vec3d& p, Triangle_part& part) const
+  {
+    const Triangle& t = m_surface.triangles[facet];
+    const Vec3d q = nearest_point_on_triangle(p, m_surface.points[t[0]], m_surface.points[t[1]],
+                                              m_surface.points[t[2]], part);
+    return {q, facet, squared_length(q - p)};
+  }
+
   Place place(const Surface_point<double>& nearest) const
   {
     Place result;
