@@ -9,7 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <cstddef>
 #include <numeric>
@@ -45,25 +45,24 @@ inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& t
 {
   Packed_surface result;
   std::vector<int> places(surface.points.size()); // of the vertices
-  result.vertices.reserve(surface.points.size());
-  for (const int v : spatial_order(surface.points, concurrency)) {
-    Cancellation::poll_now_and_then();
-    places[v] = static_cast<int>(result.vertices.size());
-    result.vertices.push_back(
-        {surface.points[v], surface.vertex_normals[v], surface.vertex_density[v]});
-  }
+  const std::vector<int> order = spatial_order(surface.points, concurrency);
+  result.vertices.resize(order.size());
+  for_each_index(concurrency, static_cast<int>(order.size()), [&](int k) {
+    const int v = order[k];
+    places[v] = k;
+    result.vertices[k] = {surface.points[v], surface.vertex_normals[v], surface.vertex_density[v]};
+  });
   const Surface_view<double> view = tree.view();
   result.has_patches = view.patches != nullptr;
-  result.facets.reserve(surface.triangles.size());
-  for (int k = 0; k < view.facet_tree.items; ++k) {
-    Cancellation::poll_now_and_then();
+  result.facets.resize(surface.triangles.size());
+  for_each_index(concurrency, view.facet_tree.items, [&](int k) {
     const Facet_corners<double>& f = view.facets[k];
     const Triangle& t = surface.triangles[tree.order()[k]];
-    result.facets.push_back({{f.a, f.b, f.c},
-                             f.normal,
-                             {places[t[0]], places[t[1]], places[t[2]]},
-                             view.patches ? view.patches[k] : 0});
-  }
+    result.facets[k] = {{f.a, f.b, f.c},
+                        f.normal,
+                        {places[t[0]], places[t[1]], places[t[2]]},
+                        view.patches ? view.patches[k] : 0};
+  });
   result.facet_nodes = tree.nodes();
   result.area = surface.area;
   if (options.projection == Projection::nearest_vertices ||

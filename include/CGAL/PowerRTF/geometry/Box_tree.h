@@ -6,11 +6,10 @@
 #define CGAL_POWER_RTF_GEOMETRY_BOX_TREE_H
 
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
-#include <CGAL/PowerRTF/geometry/hilbert_code.h>
+#include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -65,21 +64,12 @@ public:
 private:
   void sort_items(const std::vector<Box3<double>>& boxes)
   {
-    Box3<double> all = boxes[0];
-    for (const Box3<double>& box : boxes) all.add(box);
-    const auto center = [](const Box3<double>& box) { return 0.5 * box.lo + 0.5 * box.hi; };
-    const Vec3d middle = center(all), half = 0.5 * all.hi - 0.5 * all.lo;
-    const double reach = std::max({half.x, half.y, half.z});
-    std::vector<std::pair<std::uint64_t, int>> order(boxes.size());
-    for_each_index(m_concurrency, int(boxes.size()), [&](int i) {
-      const Vec3d p = center(boxes[i]) - middle;
-      order[i] = {reach > 0 ? hilbert_code(Vec3d{p.x / reach, p.y / reach, p.z / reach}) : 0, i};
-    });
-    sort(m_concurrency, order.begin(), order.end());
-    for_each_index(m_concurrency, int(boxes.size()), [&](int place) {
-      m_items[place] = order[place].second;
-      m_boxes[place] = boxes[m_items[place]];
-    });
+    std::vector<Vec3d> centers(boxes.size());
+    for_each_index(m_concurrency, int(boxes.size()),
+                   [&](int i) { centers[i] = 0.5 * boxes[i].lo + 0.5 * boxes[i].hi; });
+    m_items = spatial_order(centers, m_concurrency);
+    for_each_index(m_concurrency, int(boxes.size()),
+                   [&](int place) { m_boxes[place] = boxes[m_items[place]]; });
   }
 
   // Those with a wanted box in a leaf; of two wanted ones the first in the tree finds the other.

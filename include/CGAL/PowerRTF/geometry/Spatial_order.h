@@ -5,55 +5,38 @@
 #ifndef CGAL_POWER_RTF_GEOMETRY_SPATIAL_ORDER_H
 #define CGAL_POWER_RTF_GEOMETRY_SPATIAL_ORDER_H
 
-#include <CGAL/PowerRTF/geometry/vector.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
+#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
-#include <CGAL/hilbert_sort.h>
-#include <CGAL/property_map.h>
-
+#include <algorithm>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
-/// A readable property map of points that polls: all that a sort does is to compare them.
-template <class Point>
-struct Polled_points {
-  using key_type = int;
-  using value_type = Point;
-  using reference = const Point&;
-  using category = boost::readable_property_map_tag;
-
-  const Point* points;
-
-  friend reference get(const Polled_points& map, int i)
-  {
-    Cancellation::poll_now_and_then();
-    return map.points[i];
-  }
-};
-
-/// The indices of `points` along a Hilbert curve with median cuts.
+/// The indices of `points` along the Hilbert curve through the cube around them. No size or
+/// position decides it.
 inline std::vector<int> spatial_order(const std::vector<Vec3d>& points,
                                       Concurrency concurrency = Sequential_tag())
 {
-  using Kernel = Exact_predicates_inexact_constructions_kernel;
-  using Point_map = Polled_points<Kernel::Point_3>;
-  using Sort_traits = Spatial_sort_traits_adapter_3<Kernel, Point_map>;
-  std::vector<Kernel::Point_3> copies(points.size());
-  std::vector<int> order(points.size());
-  for_each_index(concurrency, int(points.size()), [&](int i) {
-    copies[i] = Kernel::Point_3(points[i].x, points[i].y, points[i].z);
-    order[i] = i;
+  if (points.empty()) return {};
+  const int n = static_cast<int>(points.size());
+  const Box3<double> box = reduce(
+      concurrency, n, Box3<double>{points[0], points[0]},
+      [&](Box3<double>& b, int i) { b.add(points[i]); },
+      [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
+  const Vec3d middle = 0.5 * box.lo + 0.5 * box.hi, half = 0.5 * box.hi - 0.5 * box.lo;
+  const double reach = std::max({half.x, half.y, half.z});
+  std::vector<std::pair<std::uint64_t, int>> codes(n);
+  for_each_index(concurrency, n, [&](int i) {
+    const Vec3d p = points[i] - middle;
+    codes[i] = {reach > 0 ? hilbert_code(Vec3d{p.x / reach, p.y / reach, p.z / reach}) : 0, i};
   });
-  const Sort_traits traits(Point_map{copies.data()});
-  if (concurrency.is_parallel())
-    Hilbert_sort_3<Sort_traits, Hilbert_sort_median_policy, Parallel_if_available_tag>{traits}(
-        order.begin(), order.end());
-  else
-    Hilbert_sort_3<Sort_traits, Hilbert_sort_median_policy>{traits}(order.begin(), order.end());
+  sort(concurrency, codes.begin(), codes.end());
+  std::vector<int> order(n);
+  for_each_index(concurrency, n, [&](int k) { order[k] = codes[k].second; });
   return order;
 }
 

@@ -6,7 +6,7 @@
 //   put nodes on the surface, `nodes_per_sample` times as many as samples
 //   find the directions of the rows on them (orientation_field.h)
 //   repeat: find the places of the lattice's points (position_field.h), count them, and scale the
-//     spacing, until there are n of them but for 2 %
+//     spacing, until there are n of them but for 3.5 %
 //   candidates: the lattice's points, and nodes in gaps between them; all nodes of components that
 //     are too small for a lattice
 //   eliminate those that are most crowded, until n are left
@@ -88,7 +88,7 @@ public:
 private:
   using Field = Lattice_field<Backend>;
 
-  static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.02;
+  static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.035;
   static constexpr int coarsest_level = 64, max_scalings = 2;
   static constexpr std::size_t min_lattice = 50; // samples of a component
   static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
