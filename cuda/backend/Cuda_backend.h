@@ -139,6 +139,7 @@ struct Two_reductions {
 
 class Cuda_backend {
 public:
+  static constexpr bool is_host = false;
   static constexpr bool works_by_warps = true;
 
   /// Device memory that is freed with it. Its contents are lost when it grows.

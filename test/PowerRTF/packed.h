@@ -17,13 +17,17 @@ using Packed_backend = CGAL::PowerRTF::Host_backend<CGAL::Sequential_tag>;
 template <class Real>
 struct Packed {
   Packed_backend backend;
+  CGAL::PowerRTF::Facet_tree tree;
+  CGAL::PowerRTF::Packed_surface surface;
   CGAL::PowerRTF::Surface_arrays<Real, Packed_backend> arrays;
 
   explicit Packed(const CGAL::PowerRTF::Surface& s)
-      : arrays(backend, CGAL::PowerRTF::internal::packed_surface(
-                            s, CGAL::PowerRTF::Facet_tree(s.points, s.triangles, s.facet_patches),
-                            CGAL::PowerRTF::Remeshing_options::paper_preset()))
+      : tree(s.points, s.triangles, s.facet_patches),
+        surface(CGAL::PowerRTF::internal::packed_surface(
+            s, tree, CGAL::PowerRTF::Remeshing_options::paper_preset())),
+        arrays(backend, surface)
   {}
+  Packed(const Packed&) = delete;
   const CGAL::PowerRTF::Surface_view<Real>& view() const { return arrays.view(); }
 };
 

@@ -88,7 +88,7 @@ TEST_CASE("the facets at each vertex")
     for (int v = 0; v < static_cast<int>(s.points.size()); ++v) {
       std::vector<int> expected; // by their numbers in the surface
       for (int f = 0; f < static_cast<int>(s.triangles.size()); ++f) {
-        const auto& vertices = packed.facets[tree.place(f)].vertices;
+        const int* const vertices = &packed.facet_vertices[3 * tree.place(f)];
         if (std::count(vertices, vertices + 3, v)) expected.push_back(tree.place(f));
       }
       CHECK(std::vector<int>(packed.vertex_facets.begin() + first[v],

@@ -8,7 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
-#include <CGAL/PowerRTF/geometry/nearest_facet.h>
+#include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
 
 #include <cstddef>
@@ -16,26 +16,34 @@
 
 namespace CGAL::PowerRTF {
 
-/// The surface as an engine gets it: all facets and vertices in the order of their trees.
+/// The surface as an engine gets it: its vertices in their order, its facets in that of their tree,
+/// which owns them and has to live as long.
 struct Packed_surface {
-  struct Facet {
-    Vec3d corners[3], normal; ///< the normal is of length 1
-    int vertices[3];          ///< places in the tree of the vertices
-    int patch;                ///< a sample is projected only onto facets of its own patch
-  };
-  struct Vertex {
-    Vec3d point, normal;
-    double density;
-  };
-  std::vector<Facet> facets;
-  std::vector<Child_boxes> facet_nodes; ///< of a `Packed_tree_layout` over the facets
-  std::vector<Vertex> vertices;
-  std::vector<Child_boxes> vertex_nodes; ///< of one over the vertices; empty: not needed
-  /// The facets at vertex v are `vertex_facets[first_facet[v]]` and so on to `first_facet[v + 1]`
-  /// (places in the tree, by increasing number in the surface); empty: not needed.
-  std::vector<int> first_facet, vertex_facets;
+  Surface_view<double> facets;                       ///< the tree's
+  std::vector<int> facet_vertices;                   ///< three per facet
+  std::vector<Vertex_attributes<double>> attributes; ///< per vertex
   double area = 0;
-  bool has_patches = false;
+  // For rules that ask for the nearest vertices; else empty:
+  std::vector<Vec3d> vertices;
+  std::vector<Child_boxes> vertex_nodes; ///< of a `Packed_tree_layout` over the vertices
+  /// The facets at vertex v are `vertex_facets[first_facet[v]]` and so on to `first_facet[v + 1]`
+  /// (places in the tree, by increasing number in the surface).
+  std::vector<int> first_facet, vertex_facets;
+
+  /// All of it; lives as long as this.
+  Surface_view<double> view() const
+  {
+    Surface_view<double> all = facets;
+    all.facet_vertices = facet_vertices.data();
+    all.attributes = attributes.data();
+    if (vertices.empty()) return all;
+    all.vertices = vertices.data();
+    all.vertex_nodes = vertex_nodes.data();
+    all.vertex_tree = Packed_tree_layout(int(vertices.size()));
+    all.first_facet = first_facet.data();
+    all.vertex_facets = vertex_facets.data();
+    return all;
+  }
 };
 
 /// The samples as arrays: the first `cells` have cells and move; the others only clip.

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -17,39 +18,14 @@ namespace CGAL::PowerRTF {
 template <class Real, class Backend>
 class Surface_arrays {
 public:
+  /// On the host in double precision, what is in `in` is used where it is: it has to live as long.
   Surface_arrays(Backend& backend, const Packed_surface& in)
   {
-    std::vector<Facet_corners<Real>> facets;
-    std::vector<int> corners, patches;
-    facets.reserve(in.facets.size());
-    corners.reserve(3 * in.facets.size());
-    for (const auto& f : in.facets) {
-      internal::Cancellation::poll_now_and_then();
-      facets.push_back({to_real<Real>(f.corners[0]), to_real<Real>(f.corners[1]),
-                        to_real<Real>(f.corners[2]), to_real<Real>(f.normal)});
-      corners.insert(corners.end(), f.vertices, f.vertices + 3);
-      if (in.has_patches) patches.push_back(f.patch);
-    }
-    std::vector<Vertex_attributes<Real>> attributes;
-    std::vector<Vec3<Real>> vertices;
-    attributes.reserve(in.vertices.size());
-    for (const auto& v : in.vertices) {
-      internal::Cancellation::poll_now_and_then();
-      attributes.push_back({to_real<Real>(v.normal), Real(v.density)});
-      if (!in.vertex_nodes.empty()) vertices.push_back(to_real<Real>(v.point));
-    }
-    m_view.facets = upload(backend, m_facets, facets);
-    m_view.facet_vertices = upload(backend, m_corners, corners);
-    m_view.patches = upload(backend, m_patches, patches);
-    m_view.facet_nodes = upload(backend, m_facet_nodes, in.facet_nodes);
-    m_view.facet_tree = Packed_tree_layout(int(facets.size()));
-    m_view.attributes = upload(backend, m_attributes, attributes);
-    m_view.vertices = upload(backend, m_vertices, vertices);
-    m_view.vertex_nodes = upload(backend, m_vertex_nodes, in.vertex_nodes);
-    m_view.vertex_tree = Packed_tree_layout(int(vertices.size()));
-    m_view.first_facet = upload(backend, m_first_facet, in.first_facet);
-    m_view.vertex_facets = upload(backend, m_vertex_facets, in.vertex_facets);
-    if (Backend::works_by_warps && !vertices.empty()) list_near_vertices(backend);
+    if constexpr (Backend::is_host && std::is_same<Real, double>::value)
+      m_view = in.view();
+    else
+      upload(backend, in);
+    if (Backend::works_by_warps && !in.vertices.empty()) list_near_vertices(backend);
   }
 
   const Surface_view<Real>& view() const { return m_view; }
@@ -79,13 +55,52 @@ private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  template <class T>
-  static const T* upload(Backend& backend, Buffer<T>& buffer, const std::vector<T>& items)
+  void upload(Backend& backend, const Packed_surface& in)
   {
-    if (items.empty()) return nullptr;
-    buffer.allocate(backend, items.size());
-    backend.upload(buffer.data(), items.data(), items.size());
+    const Surface_view<double> view = in.view();
+    const std::size_t facets = view.facet_tree.items, vertices = in.attributes.size();
+    m_view.facet_tree = view.facet_tree;
+    m_view.vertex_tree = view.vertex_tree;
+    m_view.facets = upload(backend, m_facets, facets, [&](std::size_t k) {
+      const Facet_corners<double>& f = view.facets[k];
+      return Facet_corners<Real>{to_real<Real>(f.a), to_real<Real>(f.b), to_real<Real>(f.c),
+                                 to_real<Real>(f.normal)};
+    });
+    m_view.attributes = upload(backend, m_attributes, vertices, [&](std::size_t v) {
+      const Vertex_attributes<double>& a = view.attributes[v];
+      return Vertex_attributes<Real>{to_real<Real>(a.normal), Real(a.density)};
+    });
+    m_view.vertices = upload(backend, m_vertices, in.vertices.size(),
+                             [&](std::size_t v) { return to_real<Real>(view.vertices[v]); });
+    m_view.facet_vertices = upload(backend, m_corners, view.facet_vertices, 3 * facets);
+    m_view.patches = upload(backend, m_patches, view.patches, view.patches ? facets : 0);
+    m_view.facet_nodes = upload(backend, m_facet_nodes, view.facet_nodes, view.facet_tree.nodes());
+    m_view.vertex_nodes =
+        upload(backend, m_vertex_nodes, view.vertex_nodes, in.vertex_nodes.size());
+    m_view.first_facet = upload(backend, m_first_facet, view.first_facet, in.first_facet.size());
+    m_view.vertex_facets =
+        upload(backend, m_vertex_facets, view.vertex_facets, in.vertex_facets.size());
+  }
+
+  template <class T>
+  static const T* upload(Backend& backend, Buffer<T>& buffer, const T* items, std::size_t n)
+  {
+    if (n == 0) return nullptr;
+    buffer.allocate(backend, n);
+    backend.upload(buffer.data(), items, n);
     return buffer.data();
+  }
+  /// The items `item(i)`, i in [0, n).
+  template <class T, class Item>
+  static const T* upload(Backend& backend, Buffer<T>& buffer, std::size_t n, const Item& item)
+  {
+    std::vector<T> items;
+    items.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      internal::Cancellation::poll_now_and_then();
+      items.push_back(item(i));
+    }
+    return upload(backend, buffer, items.data(), n);
   }
 
   Surface_view<Real> m_view;

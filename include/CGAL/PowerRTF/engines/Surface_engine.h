@@ -64,6 +64,7 @@ private:
   Make m_make;
   internal::Concurrency m_concurrency;
   std::unique_ptr<Facet_tree> m_tree;
+  Packed_surface m_packed; // refers to the tree
   std::unique_ptr<Engine_base> m_engine;
   std::size_t m_size = 0, m_sites = 0; // cells; and with the feature samples' sites
 };

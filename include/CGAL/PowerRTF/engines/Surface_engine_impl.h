@@ -53,9 +53,10 @@ CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
 CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
                                                             const Feature_samples& features)
 {
-  if (!m_engine) // only now the surface's normals and density are what they will be
-    m_engine = m_make(internal::packed_surface(m_surface, facet_tree(), m_options, m_concurrency),
-                      m_options);
+  if (!m_engine) { // only now the surface's normals and density are what they will be
+    m_packed = internal::packed_surface(m_surface, facet_tree(), m_options, m_concurrency);
+    m_engine = m_make(m_packed, m_options);
+  }
   m_size = samples.size();
   const Samples sites = joined(samples, features.sites);
   m_sites = sites.size();

@@ -7,67 +7,56 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
-#include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
-/// Adds what the rules over the nearest vertices look at. `places`: of the vertices.
-inline void add_vertex_tree(const Surface& surface, const Facet_tree& tree,
-                            const std::vector<int>& places, Packed_surface& result)
+/// Adds what the rules over the nearest vertices look at.
+inline void add_vertex_tree(const Surface& surface, const Facet_tree& tree, Packed_surface& result)
 {
-  const Packed_tree_layout layout(static_cast<int>(places.size()));
-  result.vertex_nodes = child_boxes(layout, [&](int place) {
-    const Vec3d& p = result.vertices[place].point;
-    return Box3<double>{p, p};
+  const std::size_t vertices = surface.points.size();
+  result.vertices = surface.points;
+  result.vertex_nodes = child_boxes(Packed_tree_layout(static_cast<int>(vertices)), [&](int v) {
+    return Box3<double>{surface.points[v], surface.points[v]};
   });
   std::vector<int>& first = result.first_facet;
-  first.assign(places.size() + 1, 0);
+  first.assign(vertices + 1, 0);
   for (const Triangle& t : surface.triangles)
-    for (const int v : t) ++first[places[v] + 1];
+    for (const int v : t) ++first[v + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   result.vertex_facets.resize(first.back());
   std::vector<int> end(first.begin(), first.end() - 1);
   for (std::size_t f = 0; f < surface.triangles.size(); ++f)
     for (const int v : surface.triangles[f])
-      result.vertex_facets[end[places[v]]++] = tree.place(static_cast<int>(f));
+      result.vertex_facets[end[v]++] = tree.place(static_cast<int>(f));
 }
 
-/// The surface in the order of its trees; `tree`: of its facets.
+/// What an engine needs of `surface`; `tree`: of its facets.
 inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& tree,
                                      const Remeshing_options& options,
                                      Concurrency concurrency = Sequential_tag())
 {
   Packed_surface result;
-  std::vector<int> places(surface.points.size()); // of the vertices
-  const std::vector<int> order = spatial_order(surface.points, concurrency);
-  result.vertices.resize(order.size());
-  for_each_index(concurrency, static_cast<int>(order.size()), [&](int k) {
-    const int v = order[k];
-    places[v] = k;
-    result.vertices[k] = {surface.points[v], surface.vertex_normals[v], surface.vertex_density[v]};
-  });
-  const Surface_view<double> view = tree.view();
-  result.has_patches = view.patches != nullptr;
-  result.facets.resize(surface.triangles.size());
-  for_each_index(concurrency, view.facet_tree.items, [&](int k) {
-    const Facet_corners<double>& f = view.facets[k];
-    const Triangle& t = surface.triangles[tree.order()[k]];
-    result.facets[k] = {{f.a, f.b, f.c},
-                        f.normal,
-                        {places[t[0]], places[t[1]], places[t[2]]},
-                        view.patches ? view.patches[k] : 0};
-  });
-  result.facet_nodes = tree.nodes();
+  result.facets = tree.view();
   result.area = surface.area;
+  result.attributes.resize(surface.points.size());
+  for_each_index(concurrency, static_cast<int>(surface.points.size()), [&](int v) {
+    result.attributes[v] = {surface.vertex_normals[v], surface.vertex_density[v]};
+  });
+  result.facet_vertices.resize(3 * surface.triangles.size());
+  for_each_index(concurrency, static_cast<int>(surface.triangles.size()), [&](int k) {
+    const Triangle& t = surface.triangles[tree.order()[k]];
+    std::copy(t.begin(), t.end(), &result.facet_vertices[3 * k]);
+  });
   if (options.projection == Projection::nearest_vertices ||
       options.attributes == Attributes::nearest_vertices)
-    add_vertex_tree(surface, tree, places, result);
+    add_vertex_tree(surface, tree, result);
   return result;
 }
 

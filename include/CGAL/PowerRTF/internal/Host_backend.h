@@ -25,6 +25,7 @@ namespace CGAL::PowerRTF {
 template <class ConcurrencyTag>
 class Host_backend {
 public:
+  static constexpr bool is_host = true; ///< it works in the memory of the host
   static constexpr bool works_by_warps = false;
   static internal::Concurrency concurrency() { return ConcurrencyTag(); }
 
