@@ -11,7 +11,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -76,6 +79,37 @@ TEST_CASE("closed shapes keep their topology, area and orientation")
           0);
     if (c.euler % 2 == 0 && &c != &cases[9]) CHECK(signed_volume(s) > 0);
   }
+}
+
+TEST_CASE("large surfaces are in spatial order, whatever the order of the input")
+{
+  const auto import = [](const shapes::Soup& soup) {
+    Repair_counts repairs;
+    return import_soup(soup.points, soup.triangles, repairs);
+  };
+  const auto mean_leap = [](const Surface& s) { // between the numbers of neighbors
+    double sum = 0;
+    for (const auto& [a, b, c] : s.triangles) sum += std::abs(a - b) + std::abs(b - c);
+    return sum / (2 * double(s.triangles.size()));
+  };
+  const shapes::Soup ball = shapes::permuted(shapes::icosphere(6), 1); // 81920 facets
+  const Surface s = import(ball);
+  check_is_sound(s);
+  CHECK(mean_leap(s) < 0.02 * double(s.points.size())); // at random: 1/3 of it
+  for (std::size_t v = 0; v < s.points.size(); ++v)
+    CHECK(length(s.normalization.to_outside(s.points[v]) - ball.points[s.input_vertices[v]]) <
+          1e-15);
+  std::vector<int> inputs = s.input_vertices;
+  std::sort(inputs.begin(), inputs.end());
+  for (std::size_t v = 0; v < inputs.size(); ++v) CHECK(inputs[v] == int(v));
+  const Surface other = import(shapes::permuted(ball, 2));
+  CHECK(other.points == s.points);
+  CHECK(shapes::sorted(other.triangles) == shapes::sorted(s.triangles));
+
+  std::iota(inputs.begin(), inputs.end(), 0);
+  const shapes::Soup small = shapes::permuted(shapes::icosphere(5), 1); // 20480 facets
+  inputs.resize(small.points.size());
+  CHECK(import(small).input_vertices == inputs); // these keep their order
 }
 
 TEST_CASE("areas and normals")

@@ -20,9 +20,10 @@ namespace CGAL::PowerRTF {
 /// \param repairs counts what had to be mended
 /// \param repair no: facets without area and sheets that touch in a vertex are refused
 /// \returns the surface with normals and areas and density 1; `input_vertices` are places in
-///   `vertices(mesh)`. Facets with more than three sides are triangulated, facets without area are
-///   removed where the surface stays a 2-manifold, isolated vertices are dropped. Sheets that touch
-///   in a vertex get copies of it.
+///   `vertices(mesh)`, in their order unless there are more than 65536 facets: then what is near in
+///   space is near in memory, too. Facets with more than three sides are triangulated, facets
+///   without area are removed where the surface stays a 2-manifold, isolated vertices are dropped.
+///   Sheets that touch in a vertex get copies of it.
 /// \throws Invalid_input_error no facet, a coordinate that is not finite, no area, or not a
 ///   2-manifold
 template <class FaceGraph, class NamedParameters = CGAL::parameters::Default_named_parameters>
