@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Quality, lengths, topology and capacities against closed forms.
+#include "dirty_shapes.h"
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 #include <CGAL/PowerRTF/quality/triangle_quality.h>
+
+#include <CGAL/tags.h>
 
 #include <doctest/doctest.h>
 
@@ -175,6 +178,30 @@ TEST_CASE("topology: borders")
   CHECK(one.non_manifold_vertices == 0);
   CHECK(topology({}).faces == 0);
   CHECK(topology({}).components == 0);
+}
+
+TEST_CASE("the topology of a surface is that of its triangles")
+{
+  using namespace shapes;
+  const auto far = [](const Soup& soup) { return translated(soup, {9, 0, 0}); };
+  for (const Soup& soup :
+       {icosphere(2), torus(12, 8, 1, .4), open_cylinder(9, 4, .5, 2), plane_patch(5, 3),
+        moebius_strip(20), joined(open_cylinder(9, 4, .5, 2), far(torus(12, 8, 1, .4)))}) {
+    const Surface surface = make_surface(permuted(soup, 1));
+    const Topology_statistics t =
+        internal::manifold_topology(surface, CGAL::Parallel_if_available_tag());
+    const Topology_statistics expected = topology(surface.triangles);
+    CHECK(t.vertices == expected.vertices);
+    CHECK(t.edges == expected.edges);
+    CHECK(t.faces == expected.faces);
+    CHECK(t.components == expected.components);
+    CHECK(t.border_edges == expected.border_edges);
+    CHECK(t.border_loops == expected.border_loops);
+    CHECK(t.non_manifold_edges == 0);
+    CHECK(t.non_manifold_vertices == 0);
+    CHECK(t.euler_characteristic == expected.euler_characteristic);
+    CHECK(t.oriented == expected.oriented);
+  }
 }
 
 TEST_CASE("the same numbers in all threads")

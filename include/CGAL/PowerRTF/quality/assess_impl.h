@@ -40,7 +40,7 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
                                   Remeshing_report& report, internal::Concurrency concurrency)
 {
   internal::Progress_part part(0.1);
-  report.input_topology = topology(surface.triangles, concurrency);
+  report.input_topology = internal::manifold_topology(surface, concurrency);
   report.topology = topology(mesh.triangles, concurrency);
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();

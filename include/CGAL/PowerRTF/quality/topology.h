@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_QUALITY_TOPOLOGY_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/label_trees.h>
@@ -127,6 +128,30 @@ inline Topology_statistics topology(std::vector<Triangle> triangles,
   return result;
 }
 
+namespace internal {
+
+/// That of a surface, which is a 2-manifold: only components and borders are left to be counted.
+inline Topology_statistics manifold_topology(const Surface& surface,
+                                             Concurrency concurrency = Sequential_tag())
+{
+  if (!surface.seams.empty()) // its borders have no direction
+    return topology(surface.triangles, concurrency);
+  const auto [component, components] = facet_components(surface.adjacency, concurrency);
+  Topology_statistics result;
+  result.vertices = surface.points.size();
+  result.faces = surface.triangles.size();
+  result.components = components;
+  result.border_edges = surface.adjacency.border_edges;
+  result.edges = (3 * result.faces + result.border_edges) / 2;
+  for (const Component_topology& c :
+       component_topologies(surface, component, components, concurrency)) {
+    result.border_loops += c.border_loops;
+    result.euler_characteristic += c.euler_characteristic;
+  }
+  return result;
+}
+
+} // namespace internal
 } // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_QUALITY_TOPOLOGY_H
