@@ -19,9 +19,9 @@ using Vec3f = Vec3<float>;
 
 /// What a node knows of a neighbor's lattice.
 struct Lattice_edge {
-  int node;       ///< the neighbor; -1: there is none, nor any after it
-  int sixths;     ///< of a turn, from this node's axis to the neighbor's
-  Phasor turn[2]; ///< what its phasors are multiplied by
+  int node;             ///< the neighbor; -1: there is none, nor any after it
+  int sixths;           ///< of a turn, from this node's axis to the neighbor's
+  Short_phasor turn[2]; ///< what its phasors are multiplied by
 };
 
 /// The waves whose crests are the rows of a hexagonal lattice, in the three directions: wave k has

@@ -67,7 +67,7 @@ struct Smooth_direction {
     Phasor sum = view.directions[i];
     if (!is_fixed[i]) {
       for_each_edge(view, i, [&](const Lattice_edge& edge) {
-        sum = sum + edge.turn[0] * view.directions[edge.node];
+        sum = sum + Phasor(edge.turn[0]) * view.directions[edge.node];
       });
       sum = unit(sum);
     }

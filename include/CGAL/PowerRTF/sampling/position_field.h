@@ -76,7 +76,8 @@ CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
 /// The waves of the edge's node as they arrive.
 CGAL_POWER_RTF_HD inline Waves carried(const Lattice_edge& edge, const Waves& from)
 {
-  const Phasor turn[] = {edge.turn[0], edge.turn[1], conjugate(edge.turn[0] * edge.turn[1])};
+  const Phasor first = edge.turn[0], second = edge.turn[1];
+  const Phasor turn[] = {first, second, conjugate(first * second)};
   Waves to;
   for (int k = 0; k < Waves::size; ++k) {
     const Phasor wave = from.wave[(k + edge.sixths) % Waves::size];
