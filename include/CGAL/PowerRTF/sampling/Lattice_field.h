@@ -153,7 +153,7 @@ private:
   struct Level {
     int size = 0, free = 0;
     Buffer<Vec3d> points;
-    Buffer<Vec3f> normals, turning, next_turning, axes;
+    Buffer<Vec3f> normals, turning, axes;
     Buffer<int> components;
     Buffer<float> nodes_spacing, spacing;
     Buffer<unsigned char> is_directed;
@@ -201,9 +201,10 @@ private:
       backend.for_each(size, Set_crests{waves.data()}); // what sites have
       backend.for_each(size, Set_crests{next_waves.data()});
       turning.allocate(backend, size);
-      next_turning.allocate(backend, size);
       find_neighbors(backend, reach);
       backend.for_each(size, Set_turning{view()});
+      Buffer<Vec3f> next_turning;
+      next_turning.allocate(backend, size);
       for (int sweep = 0; sweep < turning_sweeps; ++sweep) {
         backend.for_each(size, Smooth_turning{view(), next_turning.data()});
         std::swap(turning, next_turning);

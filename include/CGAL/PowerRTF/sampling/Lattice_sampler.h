@@ -65,6 +65,7 @@ public:
     make_nodes();
     part.next(0.25);
     Field field(m_backend, m_levels, m_seed);
+    m_levels.resize(1); // the field has the others
     part.next(0.8);
     find_points(field);
     part.next(0.85);
