@@ -139,7 +139,7 @@ public:
 
 private:
   using Parameters = Improvement_parameters::Tracking;
-  static constexpr double min_normal_cosine = Improvement_parameters::Projection::min_normal_cosine;
+  using Projection = Improvement_parameters::Projection;
   static constexpr int chunk = 1024; // of the points
 
   // A face in a ball.
@@ -232,7 +232,7 @@ private:
       for (int k = begin; k < end; ++k) {
         Tracked_point& w = m_points[some[k]];
         const int hint = int(topology().face(w.face));
-        int f = m_tree->nearest(w.point, w.normal, min_normal_cosine, hint).facet;
+        int f = m_tree->nearest(w.point, w.normal, Projection::min_normal_cosine, hint).facet;
         if (f < 0) f = m_tree->nearest(w.point, hint).facet; // none agrees: any
         try_face(w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
       }
@@ -250,7 +250,7 @@ private:
   static bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c)
   {
     const Vec3d n = cross(b - a, c - a);
-    return dot(n, w.normal) > min_normal_cosine * length(n);
+    return dot(n, w.normal) > Projection::min_normal_cosine * length(n);
   }
 
   // Assigns the face of `h` to the point if it is nearer than `distance` and agrees, or if
@@ -277,7 +277,7 @@ private:
     try_face(w, w.face, Vertex(), {}, any);
     if (const auto [a, b, c] = m_mesh->points(w.face); !agrees(w, a, b, c))
       w.distance = disagreement; // worse than all that agree
-    for (int step = 0; step < Parameters::max_downhill_steps; ++step) {
+    for (int step = 0; step < Projection::max_downhill_steps; ++step) {
       const std::array<Halfedge, 3> around{w.face, mesh.next(w.face), mesh.prev(w.face)};
       int corner = -1, opposite = -1; // of the corners source, target, apex
       for (int k = 0; k < 3; ++k) {

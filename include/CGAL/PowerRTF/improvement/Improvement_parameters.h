@@ -40,13 +40,13 @@ struct Improvement_parameters {
   struct Projection {
     /// Between normals that agree: about 110 degrees.
     static constexpr double min_normal_cosine = -0.35;
+    static constexpr int max_downhill_steps = 30; ///< from facet to facet
   };
 
   /// Distance_tracker.h
   struct Tracking {
     static constexpr int max_points_per_vertex = 16;     ///< of the mesh
     static constexpr double tree_search_distance = 0.25; ///< in h: larger ones are exact
-    static constexpr int max_downhill_steps = 30;
   };
 
   /// smooth_mesh.h

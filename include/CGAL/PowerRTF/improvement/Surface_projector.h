@@ -37,8 +37,7 @@ public:
     if (agrees(start, normal))
       if (const Surface_point<double> near = descend(p, normal, start); near.facet >= 0)
         return place(near);
-    return place(
-        m_tree.nearest(p, normal, Improvement_parameters::Projection::min_normal_cosine, start));
+    return place(m_tree.nearest(p, normal, Parameters::min_normal_cosine, start));
   }
 
   bool are_on_one_patch(int facet, int other) const
@@ -51,21 +50,21 @@ public:
   const Facet_tree& tree() const { return m_tree; }
 
 private:
+  using Parameters = Improvement_parameters::Projection;
+
   bool agrees(int facet, const Vec3d& normal) const
   {
-    return dot(m_surface.facet_normals[facet], normal) >
-           Improvement_parameters::Projection::min_normal_cosine;
+    return dot(m_surface.facet_normals[facet], normal) > Parameters::min_normal_cosine;
   }
 
   /// Goes on to the nearest facet at the edge or corner where the nearest point is, as long as that
   /// is nearer. The facet is -1 if the way is too long.
   Surface_point<double> descend(const Vec3d& p, const Vec3d& normal, int start) const
   {
-    constexpr int max_steps = 32;
     const std::vector<int>& opposite = m_surface.adjacency.opposite;
     Triangle_part part;
     Surface_point<double> best = onto(start, p, part);
-    for (int step = 0; step < max_steps; ++step) {
+    for (int step = 0; step < Parameters::max_downhill_steps; ++step) {
       if (part.kind == Triangle_part::inside) return best;
       const int from = best.facet, h = 3 * from + part.index;
       const auto try_facet = [&](int o) {
