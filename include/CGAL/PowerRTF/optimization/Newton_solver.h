@@ -114,10 +114,10 @@ public:
   static constexpr int edge_capacity = 16;
   /// A direction is near enough when it would bring all areas within this part of the capacity
   /// interval around their targets, or leave this part of the residual's norm: what one step
-  /// leaves, the next one takes. On the host, where the cells take longer than the system, less is
-  /// left, so that the weights hardly leap when the input changes a little.
+  /// leaves, the next one takes. On the host, where the cells take longer than the system, only the
+  /// norm counts, so that the weights hardly leap when the input changes a little.
   static constexpr double part_of_interval = Backend::works_by_warps ? 0.5 : 0;
-  static constexpr double tolerance = Backend::works_by_warps ? 0.03 : 1e-3;
+  static constexpr double tolerance = 0.03;
 
   explicit Newton_solver(Backend& backend) : m_backend(backend), m_gradients(backend)
   {
