@@ -37,7 +37,7 @@ class Neighbor_lists {
 public:
   static constexpr int capacity = 40, max_near_leaves = 96;
   /// L, in radii of the cells: of the lists, and of the leaves that count as near.
-  static constexpr Real list_radius = 2, near_radius = 2.5;
+  static constexpr Real list_radius = Real(1.4), near_radius = Real(1.8);
 
   /// Bounds of what sites have done since the lists were made.
   struct Changes {
@@ -98,23 +98,55 @@ public:
     for (int k = 0; k < m_lists[i].size; ++k) f(m_lists[i].sites[k]);
   }
 
-  /// The cell of `i` by the edges that it had when it was last given to `set_edges()`, if that is
-  /// proved to be the cell: as `construct_cell()` would make it, with the status `ok`.
-  bool construct_from_edges(const Sites_view<Real>& view, int i, Real max_radius, Real cos_angle,
-                            const Tangent_frame<Real>& frame, Tangent_polygon<Real>& polygon) const;
+  /// The sites of the list without those of the edges.
+  template <class F>
+  void for_each_but_edges(int i, F&& f) const
+  {
+    for (int k = m_lists[i].edges; k < m_lists[i].size; ++k) f(m_lists[i].sites[k]);
+  }
+
+  /// Whether `j` is the site of an edge of `i`.
+  bool has_edge(int i, int j) const
+  {
+    const int* const end = m_lists[i].sites + m_lists[i].edges;
+    return std::find(m_lists[i].sites, end, j) != end;
+  }
+
+  /// A polygon that the edges of a cell make, which others may cut.
+  struct Edge_polygon {
+    Tangent_polygon<Real> polygon;
+    Real squared_radius;  ///< of its farthest vertex
+    Real squared_nearest; ///< squared distance of the nearest of the edges' sites
+  };
+
+  /// The polygon of the edges that `i` had when it was last given to `set_edges()`; `false` if they
+  /// make none.
+  bool chain_edges(const Sites_view<Real>& view, int i, Real cos_angle,
+                   const Tangent_frame<Real>& frame, Edge_polygon& result) const;
+
+  /// Whether the polygon of `chain_edges()` is proved to be the cell, as `construct_cell()` would
+  /// make it with the status `ok`. `for_each_other(f)`: calls `f(j)` for all other sites that may
+  /// cut a cell of `max_radius` or are within twice that, and maybe for more.
+  template <class For_each_other>
+  bool is_cell(const Sites_view<Real>& view, int i, Real max_radius, Real cos_angle,
+               const Tangent_frame<Real>& frame, const Edge_polygon& edges,
+               For_each_other&& for_each_other) const;
 
   /// A cell that was constructed otherwise.
   void set_edges(int i, const Tangent_polygon<Real>& polygon)
   {
     List& list = m_lists[i];
+    list.edges = 0;
+    if (list.size == 0 && polygon.size <= capacity) {
+      std::copy(polygon.neighbor, polygon.neighbor + polygon.size, list.sites);
+      list.edges = polygon.size;
+      return;
+    }
     int edges = 0;
     for (int k = 0; k < polygon.size; ++k) {
       int* const end = list.sites + list.size;
       int* const found = std::find(list.sites + edges, end, polygon.neighbor[k]);
-      if (found == end) {
-        edges = 0;
-        break;
-      }
+      if (found == end) return;
       std::swap(list.sites[edges++], *found);
     }
     list.edges = edges;
@@ -141,15 +173,36 @@ private:
   static constexpr long max_misses = 8; // one of so many: lists cost as much as some searches
 
   struct List {
-    int sites[capacity]; // the edges first, in their order
-    int size = 0, edges = 0;
-    Real radius = 0; // L
+    int sites[capacity]; // those of the edges first, in their order
+    int size = 0;        // 0: there is no list
+    int edges = 0;       // 0: they are not known
+    Real radius = 0;     // L
   };
   struct Near_leaves {
     int leaves[max_near_leaves];
     int size = 0;    // 0: too many
     Real radius = 0; // L of the sites of all others
   };
+
+  /// The line of site `j` in the tangent plane of `i`.
+  struct Site_line {
+    Real squared_distance; ///< of the sites
+    Edge_line<Real> line;
+
+    Site_line(const Sites_view<Real>& view, int i, int j, const Tangent_frame<Real>& frame)
+    {
+      const Site<Real>&site = view.sites[i], &other = view.sites[j];
+      const Vec3<Real> offset = other.point - site.point;
+      squared_distance = squared_length(offset);
+      line = {dot(offset, frame.u), dot(offset, frame.v),
+              (squared_distance + (site.weight - other.weight)) / 2};
+    }
+  };
+
+  static bool is_compatible(const Sites_view<Real>& view, int i, int j, Real cos_angle)
+  {
+    return cos_angle <= -1 || dot(view.normals[i], view.normals[j]) > cos_angle;
+  }
 
   void clear(const Sites_view<Real>& view, int cells)
   {
@@ -204,7 +257,7 @@ private:
         });
     for (int i = begin; i < end; ++i) {
       if (are_too_many)
-        m_lists[i].size = m_lists[i].edges = 0;
+        m_lists[i].size = 0;
       else
         make_list(view, i, list_radius * radii[i], gathered, near);
     }
@@ -273,45 +326,49 @@ private:
 };
 
 template <class Real, class Backend>
-bool Neighbor_lists<Real, Backend>::construct_from_edges(const Sites_view<Real>& view, int i,
-                                                         Real max_radius, Real cos_angle,
-                                                         const Tangent_frame<Real>& frame,
-                                                         Tangent_polygon<Real>& polygon) const
+bool Neighbor_lists<Real, Backend>::chain_edges(const Sites_view<Real>& view, int i, Real cos_angle,
+                                                const Tangent_frame<Real>& frame,
+                                                Edge_polygon& result) const
 {
   const List& list = m_lists[i];
-  if (list.edges < 3 || !(max_radius > 0)) return false;
-  const Site<Real> site = view.sites[i];
-  const Vec3<Real> normal = view.normals[i];
-  Real nearest2 = 4 * max_radius * max_radius; // sites that are not listed are no nearer
-  const auto is_compatible = [&](int j) {
-    return cos_angle <= -1 || dot(normal, view.normals[j]) > cos_angle;
-  };
-  const auto line = [&](int j) {
-    const Vec3<Real> offset = view.sites[j].point - site.point;
-    const Real d2 = squared_length(offset);
-    nearest2 = (std::min)(nearest2, d2);
-    return Edge_line<Real>{dot(offset, frame.u), dot(offset, frame.v),
-                           (d2 + (site.weight - view.sites[j].weight)) / 2};
-  };
-  Edge_chain<Tangent_polygon<Real>, false> chain(polygon, 1);
+  if (list.edges < 3) return false;
+  Edge_chain<Tangent_polygon<Real>, false> chain(result.polygon, 1);
+  result.squared_nearest = std::numeric_limits<Real>::infinity();
   for (int k = 0; k < list.edges; ++k) {
     const int j = list.sites[k];
-    if (!view.same_patch(i, j) || !is_compatible(j)) return false;
-    polygon.neighbor[k] = j;
-    chain.add(k, line(j), 1);
+    if (!view.same_patch(i, j) || !is_compatible(view, i, j, cos_angle)) return false;
+    const Site_line line(view, i, j, frame);
+    result.squared_nearest = (std::min)(result.squared_nearest, line.squared_distance);
+    result.polygon.neighbor[k] = j;
+    chain.add(k, line.line, 1);
   }
   if (!chain.close(list.edges)) return false;
-  const Real radius2 = chain.result().radius2;
-  for (int k = list.edges; k < list.size; ++k) {
-    const int j = list.sites[k];
-    if (!view.same_patch(i, j)) continue;
-    const Edge_line<Real> l = line(j);
-    if (l.c > 0 && l.c * l.c > radius2 * (l.a * l.a + l.b * l.b)) continue;
-    if (!is_compatible(j)) continue;
-    if (!(l.a * l.a + l.b * l.b > 0) || !polygon.is_chain_inside(l.a, l.b, l.c)) return false;
-  }
-  return radius2 <= max_radius * max_radius &&
-         radius2 <= view.guard_factor * view.guard_factor * nearest2;
+  result.squared_radius = chain.result().radius2;
+  return true;
+}
+
+template <class Real, class Backend>
+template <class For_each_other>
+bool Neighbor_lists<Real, Backend>::is_cell(const Sites_view<Real>& view, int i, Real max_radius,
+                                            Real cos_angle, const Tangent_frame<Real>& frame,
+                                            const Edge_polygon& edges,
+                                            For_each_other&& for_each_other) const
+{
+  const Real radius2 = edges.squared_radius;
+  if (!(max_radius > 0 && radius2 <= max_radius * max_radius)) return false;
+  Real squared_nearest = (std::min)(edges.squared_nearest, 4 * max_radius * max_radius);
+  bool is_cut = false;
+  for_each_other([&](int j) {
+    if (is_cut || j == i || !view.same_patch(i, j)) return;
+    const Site_line site(view, i, j, frame);
+    squared_nearest = (std::min)(squared_nearest, site.squared_distance);
+    const Edge_line<Real>& l = site.line;
+    const Real t2 = l.a * l.a + l.b * l.b;
+    if ((l.c > 0 && l.c * l.c > radius2 * t2) || has_edge(i, j)) return;
+    is_cut = is_compatible(view, i, j, cos_angle) &&
+             (!(t2 > 0) || !edges.polygon.is_chain_inside(l.a, l.b, l.c));
+  });
+  return !is_cut && radius2 <= view.guard_factor * view.guard_factor * squared_nearest;
 }
 
 } // namespace CGAL::PowerRTF

@@ -61,7 +61,7 @@ CGAL_POWER_RTF_HD inline void refit_sites_node(const Packed_tree_layout& tree, i
 }
 
 /// Calls `f(j)` for every site that may cut a cell of radius at most `radius` whose site lies in
-/// `box` and weighs at least `min_weight`.
+/// `box` and weighs at least `min_weight`, and for every site within twice that radius.
 ///
 /// The plane of a site at distance d with weight w is (d^2 + w_i - w) / (2 d) away from s_i. It
 /// reaches a ball of radius R only if d^2 - 2 d R <= w - w_i, that is d <= R + sqrt(R^2 + w - w_i).
@@ -76,9 +76,8 @@ CGAL_POWER_RTF_HD inline void for_each_possible_neighbor(const Sites_view<FT>& v
   traverse(
       view.tree,
       [&](int node) {
-        const FT square = radius * radius + (view.max_weights[node] - min_weight);
-        if (square < 0) return false;
-        const FT reach = (radius + std::sqrt(square)) * margin;
+        const FT more = internal::larger(view.max_weights[node] - min_weight, FT(0));
+        const FT reach = (radius + std::sqrt(radius * radius + more)) * margin;
         return squared_distance(view.boxes[node], box) <= reach * reach;
       },
       [&](int begin, int end) {

@@ -59,7 +59,7 @@ template <class Real, class Backend, class Construction = Inexact_construction>
 class Tree_cells {
 public:
   /// Keeps a reference to `backend`. `cos_angle`: the cosine of Theta; -2: all sites are
-  /// compatible. `radius`: the first guess of the cells' radii.
+  /// compatible. `radius`: the largest first guess of the cells' radii.
   Tree_cells(Backend& backend, int max_sites, Real cos_angle, Real radius,
              const Remeshing_options& options)
       : m_backend(backend), m_cos_angle(cos_angle), m_guard_factor(Real(options.guard_factor)),
@@ -141,6 +141,7 @@ public:
   {
     constexpr int leaves_per_chunk = 32, arity = Packed_tree_layout::arity;
     const Sites_view<Real> v = view();
+    if (!m_are_radii_known) guess_radii();
     m_lists.update(m_backend, v, size(), m_radii);
     m_backend.for_each_chunk(size(), leaves_per_chunk * arity, [&](int begin, int end) {
       std::vector<int> gathered;
@@ -151,7 +152,20 @@ public:
   }
 
 private:
+  using Edge_polygon = typename Neighbor_lists<Real, Backend>::Edge_polygon;
   static constexpr Real growth = Real(1.1); // after a step the radii differ by a few per cent
+
+  /// In proportion to the boxes of leaves, but no larger than the constructor's. A guess that is
+  /// too small is doubled, cell by cell.
+  void guess_radii()
+  {
+    constexpr Real share = Real(0.25) / growth, least = Real(1) / 16;
+    m_backend.for_each(size(), [&](int i) {
+      const Box3<Real>& box = m_boxes[i / Packed_tree_layout::arity];
+      m_radii[i] *= std::clamp(share * length(box.hi - box.lo) / m_radii[i], least, Real(1));
+    });
+    m_are_radii_known = true;
+  }
 
   /// Constructs the cells of one leaf, where the lists do not suffice from candidates gathered for
   /// all of them at once.
@@ -161,36 +175,40 @@ private:
   {
     const int leaf = begin / Packed_tree_layout::arity;
     const auto near = m_lists.near_changes(leaf);
-    Real group_radius = -1; // not gathered yet
+    Real gathered_radius = -1; // not gathered yet
     const auto gather = [&] {
-      Real min_weight = std::numeric_limits<Real>::infinity();
-      group_radius = 0;
-      for (int i = begin; i < end; ++i) {
-        group_radius = (std::max)(group_radius, growth * m_radii[i]);
-        min_weight = (std::min)(min_weight, m_in.sites[i].weight);
-      }
-      gathered.clear();
-      for_each_possible_neighbor(v, m_boxes[leaf], min_weight, group_radius,
-                                 [&](int j) { gathered.push_back(j); });
+      if (gathered_radius < 0) gathered_radius = gather_near_leaf(v, begin, end, gathered);
     };
     int misses = 0;
     for (int i = begin; i < end; ++i) {
-      const Real listed_radius = m_lists.radius(v, i, near);
+      const Real listed_radius = m_lists.radius(v, i, near), radius = growth * m_radii[i];
+      bool is_missed = radius > listed_radius, is_made = false;
       if constexpr (!Filtered) {
+        Edge_polygon edges;
         const Tangent_frame<Real> frame(v.normals[i]);
-        Tangent_polygon<Real> polygon;
-        if (m_lists.construct_from_edges(v, i, listed_radius, m_cos_angle, frame, polygon)) {
-          m_radii[i] = std::sqrt(polygon.squared_radius());
-          sink(i, Cell_status::ok, polygon, frame);
-          continue;
+        const auto is_cell = [&](Real max_radius, auto&& for_each_other) {
+          return m_lists.is_cell(v, i, max_radius, m_cos_angle, frame, edges, for_each_other);
+        };
+        if (const Real edges_radius = radius_by_edges(v, i, frame, edges); edges_radius > 0) {
+          is_missed = edges_radius > listed_radius;
+          if (is_missed) gather();
+          is_made =
+              is_missed
+                  ? is_cell(gathered_radius,
+                            [&](auto&& f) { std::for_each(gathered.begin(), gathered.end(), f); })
+                  : is_cell(listed_radius, [&](auto&& f) { m_lists.for_each_but_edges(i, f); });
+          if (is_made) {
+            m_radii[i] = edges_radius;
+            sink(i, Cell_status::ok, edges.polygon, frame);
+          }
         }
       }
-      const Real radius = growth * m_radii[i];
-      misses += radius > listed_radius;
+      misses += is_missed;
+      if (is_made) continue;
       const auto candidates = [&](Real wanted, auto&& f) {
         if (wanted <= listed_radius) return m_lists.for_each(i, f);
-        if (group_radius < 0) gather();
-        if (wanted <= group_radius) {
+        gather();
+        if (wanted <= gathered_radius) {
           for (const int j : gathered) f(j);
           return;
         }
@@ -211,6 +229,35 @@ private:
     m_lists.set_misses(leaf, misses);
   }
 
+  /// The radius of the polygon that the cell's former edges make now; 0 if they make none, or one
+  /// that is much larger than the cell was.
+  Real radius_by_edges(const Sites_view<Real>& v, int i, const Tangent_frame<Real>& frame,
+                       Edge_polygon& edges) const
+  {
+    constexpr Real rounded_up = 1 + 4 * internal::epsilon<Real>(), most = 4;
+    if (!m_lists.chain_edges(v, i, m_cos_angle, frame, edges)) return 0;
+    const Real radius = rounded_up * std::sqrt(edges.squared_radius);
+    return radius < most * m_radii[i] ? radius : 0;
+  }
+
+  /// Finds the sites that may cut the cells of a leaf. \returns the radius up to which the cells
+  /// may be as large
+  Real gather_near_leaf(const Sites_view<Real>& v, int begin, int end,
+                        std::vector<int>& gathered) const
+  {
+    Real radius = 0, min_weight = std::numeric_limits<Real>::infinity();
+    for (int i = begin; i < end; ++i) {
+      Edge_polygon edges; // weights may have made it larger than it was
+      radius = (std::max)({radius, growth * m_radii[i],
+                           radius_by_edges(v, i, Tangent_frame<Real>(v.normals[i]), edges)});
+      min_weight = (std::min)(min_weight, m_in.sites[i].weight);
+    }
+    gathered.clear();
+    for_each_possible_neighbor(v, m_boxes[begin / Packed_tree_layout::arity], min_weight, radius,
+                               [&](int j) { gathered.push_back(j); });
+    return radius;
+  }
+
   Backend& m_backend;
   Real m_cos_angle, m_guard_factor;
   Construction m_construction;
@@ -218,7 +265,8 @@ private:
   Packed_tree_layout m_tree;
   std::vector<Box3<Real>> m_boxes;
   std::vector<Real> m_max_weights;
-  std::vector<Real> m_radii; // of the last construction: the next one's guess
+  std::vector<Real> m_radii;      // of the last construction: the next one's guess
+  bool m_are_radii_known = false; // or first guesses
   Neighbor_lists<Real, Backend> m_lists;
 };
 
