@@ -104,7 +104,8 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
   const Point_tree tree(backend, flat.points.data(), static_cast<int>(flat.points.size()));
   Lattice_view view = flat.view();
   view.edges = edges.data();
-  for (int i = 0; i < view.size; ++i) Find_lattice_neighbors{view, tree.view(), 0, 0.85f}(i);
+  for (int leaf = 0; leaf < tree.view().leaves(); ++leaf)
+    Find_lattice_neighbors{view, tree.view(), 0, 0.85f}(leaf);
   std::vector<double> errors;
   for (int i = 0; i < view.size; ++i) {
     Set_turning{view}(i);

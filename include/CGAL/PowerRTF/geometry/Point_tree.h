@@ -15,11 +15,21 @@ struct Box_of_point {
   CGAL_POWER_RTF_HD Box3<double> operator()(int i) const { return {points[i], points[i]}; }
 };
 
+/// Some of the points.
+struct Near_points {
+  static constexpr int capacity = 128;
+  int items[capacity];
+  int count = 0;
+};
+
 /// Non-owning.
 struct Point_tree_view {
   const Vec3d* points = nullptr;
   Packed_tree_layout tree;
   const Child_boxes* nodes = nullptr;
+
+  /// Of the tree, each with the points from `tree.children_begin(leaf)` on.
+  CGAL_POWER_RTF_HD int leaves() const { return tree.levels > 0 ? tree.nodes(0) : 0; }
 
   /// Writes the `K` nearest points to `p`, at most `radius` away, of those that `counts(i)`
   /// accepts, by increasing distance, equal distances by place. Returns their number.
@@ -29,12 +39,46 @@ struct Point_tree_view {
     double distances[K];
     Nearest_items<double> nearest{K, distances, found};
     visit_near(
-        tree, nodes, p,
+        tree, nodes, Point_query(p),
         [&]() { return bound_of(nearest.is_full() ? nearest.farthest() : radius * radius); },
         [&](int i) {
           const double d = squared_length(points[i] - p);
           if (nearest.takes(d, i) && counts(i)) nearest.insert(d, i);
         });
+    return nearest.count;
+  }
+
+  /// Finds all points no farther than `radius` from the box of the points [`begin`, `end`).
+  /// \returns `false` if they are too many
+  CGAL_POWER_RTF_HD bool find_near(int begin, int end, double radius, Near_points& near) const
+  {
+    Box3<double> box{points[begin], points[begin]};
+    for (int i = begin + 1; i < end; ++i) box.add(points[i]);
+    const float bound = bound_of(radius * radius);
+    near.count = 0;
+    visit_near(
+        tree, nodes, Box_query(box),
+        [&]() { return near.count <= Near_points::capacity ? bound : -1.f; },
+        [&](int i) {
+          if (near.count < Near_points::capacity) near.items[near.count] = i;
+          ++near.count;
+        });
+    return near.count <= Near_points::capacity;
+  }
+
+  /// `nearest()` among the points of `near`.
+  template <int K, class Counts>
+  CGAL_POWER_RTF_HD int nearest_of(const Near_points& near, const Vec3d& p, double radius,
+                                   int* found, Counts counts) const
+  {
+    double squared[Near_points::capacity], distances[K];
+    for (int k = 0; k < near.count; ++k) squared[k] = squared_length(points[near.items[k]] - p);
+    Nearest_items<double> nearest{K, distances, found};
+    for (int k = 0; k < near.count; ++k) {
+      const int i = near.items[k];
+      if (squared[k] <= radius * radius && nearest.takes(squared[k], i) && counts(i))
+        nearest.insert(squared[k], i);
+    }
     return nearest.count;
   }
 
@@ -44,7 +88,7 @@ struct Point_tree_view {
   {
     bool found = false;
     visit_near(
-        tree, nodes, p, [&]() { return found ? -1.f : bound_of(radius * radius); },
+        tree, nodes, Point_query(p), [&]() { return found ? -1.f : bound_of(radius * radius); },
         [&](int i) {
           found = found || (squared_length(points[i] - p) <= radius * radius && is_it(i));
         });

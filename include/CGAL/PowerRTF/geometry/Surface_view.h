@@ -107,7 +107,7 @@ project_to_nearest_facet(const Surface_view<Real>& view, const Vec3<Real>& p,
   };
   if (hint >= 0) test(hint);
   visit_near(
-      view.facet_tree, view.facet_nodes, p, [&]() { return bound; },
+      view.facet_tree, view.facet_nodes, Point_query(p), [&]() { return bound; },
       [&](int place) {
         if (place != hint) test(place);
       });
@@ -129,7 +129,7 @@ CGAL_POWER_RTF_HD inline int nearest_vertices(const Surface_view<Real>& view, co
   if (k <= 0) return 0;
   Nearest_items<Real> nearest{k, distances, found};
   visit_near(
-      view.vertex_tree, view.vertex_nodes, p,
+      view.vertex_tree, view.vertex_nodes, Point_query(p),
       [&]() { return nearest.is_full() ? bound_of(nearest.farthest()) : 3e38f; },
       [&](int v) {
         const Real d = squared_length(view.vertices[v] - p);

@@ -70,6 +70,26 @@ CGAL_POWER_RTF_HD inline Vec3<FT> nearest_point_on_triangle(const Vec3<FT>& p, c
   return nearest_point_on_triangle(p, a, b, c, ignored);
 }
 
+/// What boxes of a tree are near to, with the coordinates of the unit box.
+struct Point_query {
+  float point[3];
+
+  template <class Real>
+  CGAL_POWER_RTF_HD explicit Point_query(const Vec3<Real>& p)
+      : point{float(p.x), float(p.y), float(p.z)}
+  {}
+};
+struct Box_query {
+  float center[3], half[3];
+
+  CGAL_POWER_RTF_HD explicit Box_query(const Box3<double>& box)
+      : center{float(0.5 * (box.lo.x + box.hi.x)), float(0.5 * (box.lo.y + box.hi.y)),
+               float(0.5 * (box.lo.z + box.hi.z))},
+        half{float(0.5 * (box.hi.x - box.lo.x)), float(0.5 * (box.hi.y - box.lo.y)),
+             float(0.5 * (box.hi.z - box.lo.z))}
+  {}
+};
+
 /// The boxes of a tree node's children side by side, so that one loop over them is one run of
 /// vector instructions. Single precision and rounded outwards: distances to them are lower bounds.
 struct Child_boxes {
@@ -92,12 +112,27 @@ struct Child_boxes {
   }
 
   /// Lower bounds of the squared distances to a point.
-  CGAL_POWER_RTF_HD void squared_distances(const float (&p)[3], float (&d)[size]) const
+  CGAL_POWER_RTF_HD void squared_distances(const Point_query& p, float (&d)[size]) const
+  {
+    squared_distances(
+        p.point, [&](int axis, int child) { return half[axis][child]; }, d);
+  }
+  /// Lower bounds of the squared distances to a box.
+  CGAL_POWER_RTF_HD void squared_distances(const Box_query& b, float (&d)[size]) const
+  {
+    squared_distances(
+        b.center, [&](int axis, int child) { return half[axis][child] + b.half[axis]; }, d);
+  }
+
+private:
+  template <class Half>
+  CGAL_POWER_RTF_HD void squared_distances(const float (&p)[3], Half half_of,
+                                           float (&d)[size]) const
   {
     for (int child = 0; child < size; ++child) {
       float sum = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        const float outside = std::fabs(p[axis] - center[axis][child]) - half[axis][child];
+        const float outside = std::fabs(p[axis] - center[axis][child]) - half_of(axis, child);
         const float twice = outside + std::fabs(outside); // 2 max(outside, 0), without a branch
         sum += twice * twice;
       }
@@ -172,14 +207,13 @@ std::vector<Child_boxes> child_boxes(const Packed_tree_layout& tree, const Box_o
   return nodes;
 }
 
-/// Calls `visit(item)` for the items of a tree whose boxes are no farther from `query` than
-/// `bound()`, near ones first; the bound may shrink meanwhile.
-template <class Real, class Bound, class Visit>
+/// Calls `visit(item)` for the items of a tree whose boxes are no farther from `query`, a point or
+/// a box, than `bound()`, near ones first; the bound may shrink meanwhile.
+template <class Query, class Bound, class Visit>
 CGAL_POWER_RTF_HD inline void visit_near(const Packed_tree_layout& tree, const Child_boxes* nodes,
-                                         const Vec3<Real>& query, Bound bound, Visit visit)
+                                         const Query& query, Bound bound, Visit visit)
 {
   if (tree.items == 0) return;
-  const float q[3] = {float(query.x), float(query.y), float(query.z)};
   struct Pending {
     int level, node;
     float squared_distance;
@@ -192,7 +226,7 @@ CGAL_POWER_RTF_HD inline void visit_near(const Packed_tree_layout& tree, const C
     if (top.squared_distance > bound()) continue;
     const int begin = tree.children_begin(top.node), end = tree.children_end(top.level, top.node);
     float d[Child_boxes::size];
-    nodes[tree.first[top.level] + top.node].squared_distances(q, d);
+    nodes[tree.first[top.level] + top.node].squared_distances(query, d);
     const int bottom = size;
     CGAL_POWER_RTF_UNROLL
     for (int k = 0; k < Child_boxes::size; ++k) {

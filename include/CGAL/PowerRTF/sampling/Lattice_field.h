@@ -214,7 +214,7 @@ private:
     void find_neighbors(Backend& backend, float reach)
     {
       const Point_tree<Backend> tree(backend, points.data(), size);
-      backend.for_each(size,
+      backend.for_each(tree.view().leaves(),
                        Find_lattice_neighbors{view(), tree.view(), cos_neighbor_angle, reach});
     }
   };

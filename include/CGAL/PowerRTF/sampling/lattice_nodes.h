@@ -90,26 +90,37 @@ CGAL_POWER_RTF_HD inline Vec3f carried(const Vec3f& v, const Vec3f& a, const Vec
   return v - (dot(v, b) / (1 + dot(a, b))) * (a + b);
 }
 
-/// The nearest nodes of the same component whose normals agree (NVISPC).
+/// The nearest nodes of the same component whose normals agree (NVISPC), for the nodes of a leaf of
+/// the tree, which have most of those that are near in common.
 struct Find_lattice_neighbors {
   Lattice_view view;
   Point_tree_view tree;
   float cos_angle;
   float reach; ///< distance within which most have so many, relative to the spacing
 
-  CGAL_POWER_RTF_HD void operator()(int i) const
+  CGAL_POWER_RTF_HD void operator()(int leaf) const
   {
-    constexpr int enough = 4;
-    int found[Lattice_view::degree], count = 0;
-    for (double radius = reach * view.spacing[i]; count < enough; radius = 4) { // the unit box's
-      count = tree.nearest<Lattice_view::degree>(view.points[i], radius, found, [&](int j) {
+    constexpr int enough = 4, degree = Lattice_view::degree;
+    constexpr double everywhere = 4; // the coordinates are those of the unit box
+    const int begin = tree.tree.children_begin(leaf), end = tree.tree.children_end(0, leaf);
+    float largest = 0;
+    for (int i = begin; i < end; ++i) largest = internal::larger(largest, reach * view.spacing[i]);
+    Near_points near;
+    const bool are_known = tree.find_near(begin, end, largest, near);
+    for (int i = begin; i < end; ++i) {
+      const auto counts = [&](int j) {
         return j != i && view.components[j] == view.components[i] &&
                dot(view.normals[i], view.normals[j]) > cos_angle;
-      });
-      if (radius >= 4) break;
+      };
+      const Vec3d p = view.points[i];
+      const double radius = reach * view.spacing[i];
+      int found[degree];
+      int count = are_known ? tree.nearest_of<degree>(near, p, radius, found, counts)
+                            : tree.nearest<degree>(p, radius, found, counts);
+      if (count < enough) count = tree.nearest<degree>(p, everywhere, found, counts);
+      Lattice_edge* const edges = view.first_edge(i);
+      for (int e = 0; e < degree; ++e) edges[e].node = e < count ? found[e] : -1;
     }
-    Lattice_edge* const edges = view.first_edge(i);
-    for (int e = 0; e < Lattice_view::degree; ++e) edges[e].node = e < count ? found[e] : -1;
   }
 };
 

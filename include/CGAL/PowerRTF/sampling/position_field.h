@@ -44,17 +44,20 @@ CGAL_POWER_RTF_HD inline Lattice_step lattice_step(const Lattice_view& from, int
   const Phasor turned = // from the axis of i to that of j
       Phasor{dot(axis, to.axes[i]), dot(axis, cross(n, to.axes[i]))} *
       phasor_at(0.159154943f * turning_between(from, j, to, i));
+  // Of the axes at 0, 1 and 2 sixths of a turn, the one that is nearest, or its opposite.
+  constexpr float half = 0.5f, root = 0.866025404f; // sqrt 3 / 2
+  const float cosines[3] = {1, half, -half}, sines[3] = {0, root, root};
   int sixths = 0;
-  Phasor best{1, 0};
-  for (int k = 1; k < 6; ++k) {
-    constexpr float half = 0.5f, root = 0.866025404f; // sqrt 3 / 2
-    const float cosines[6] = {1, half, -half, -1, -half, half};
-    const float sines[6] = {0, root, root, 0, -root, -root};
-    if (turned.x * cosines[k] + turned.y * sines[k] <= turned.x * best.x + turned.y * best.y)
-      continue;
-    best = {cosines[k], sines[k]};
+  float most = turned.x;
+  for (int k = 1; k < 3; ++k) {
+    const float along = turned.x * cosines[k] + turned.y * sines[k];
+    if (!(std::fabs(along) > std::fabs(most))) continue;
+    most = along;
     sixths = k;
   }
+  const float sign = most < 0 ? -1.f : 1.f;
+  const Phasor best{sign * cosines[sixths], sign * sines[sixths]};
+  if (most < 0) sixths += 3;
   const Vec3f d = step_between(from, j, to, i);
   const float distance = length(d);
   const Lattice_vector here = unrolled(to, i, d, distance), there = unrolled(from, j, d, distance);
