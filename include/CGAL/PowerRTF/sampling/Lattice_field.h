@@ -47,7 +47,7 @@ template <class Backend>
 class Lattice_field {
 public:
   /// `levels`: from fine to coarse; free nodes of all levels are in the same order along the
-  /// surface.
+  /// surface. A backend of the host keeps references to them.
   Lattice_field(Backend& backend, const std::vector<Lattice_nodes>& levels, std::uint64_t seed)
       : m_backend(backend), m_seed(seed)
   {
@@ -72,6 +72,7 @@ public:
       else
         m_backend.for_each(view.free, Refine_direction{m_levels[l + 1].view(), view});
       m_backend.for_each(view.size, Set_direction_edges{view});
+      level.next_directions.allocate(m_backend, view.size);
       const bool is_coarsest = l + 1 == m_levels.size();
       const int sweeps = is_coarsest ? coarsest_sweeps : direction_sweeps;
       for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -80,6 +81,7 @@ public:
                                                        level.next_directions.data()});
         std::swap(level.directions, level.next_directions);
       }
+      level.next_directions = {};
       m_backend.for_each(view.size, Set_axis{level.view()});
     }
   }
@@ -91,6 +93,10 @@ public:
       const internal::Progress_part level_part(share_down_to(l));
       internal::Progress_part part(0.2);
       Level& level = m_levels[l];
+      for (Buffer<Waves>* waves : {&level.waves, &level.next_waves}) {
+        waves->allocate(m_backend, level.size);
+        m_backend.for_each(level.size, Set_crests{waves->data()}); // what sites have
+      }
       const Lattice_view view = level.view();
       m_backend.for_each(view.size,
                          Scale_spacing{level.nodes_spacing.data(), factor, level.spacing.data()});
@@ -106,6 +112,7 @@ public:
                                                    sweep == 0 ? 1 : wave_acceleration});
         std::swap(level.waves, level.next_waves);
       }
+      level.next_waves = {};
     }
   }
 
@@ -150,13 +157,35 @@ private:
     float* to;
     CGAL_POWER_RTF_HD void operator()(int i) const { to[i] = factor * from[i]; }
   };
+  /// An array of the nodes where the backend sees it.
+  template <class T>
+  class Given {
+  public:
+    void set(Backend& backend, const internal::Unset_vector<T>& from)
+    {
+      m_data = from.data();
+      if constexpr (!Backend::is_host) {
+        m_copy.allocate(backend, from.size());
+        backend.upload(m_copy.data(), from.data(), from.size());
+        m_data = m_copy.data();
+      }
+    }
+    const T* data() const { return m_data; }
+
+  private:
+    const T* m_data = nullptr;
+    Buffer<T> m_copy;
+  };
+
   struct Level {
     int size = 0, free = 0;
-    Buffer<Vec3d> points;
-    Buffer<Vec3f> normals, turning, axes;
-    Buffer<int> components;
-    Buffer<float> nodes_spacing, spacing;
-    Buffer<unsigned char> is_directed;
+    Given<Vec3d> points;
+    Given<Vec3f> normals;
+    Given<int> components;
+    Given<float> nodes_spacing;
+    Given<unsigned char> is_directed;
+    Buffer<Vec3f> turning, axes;
+    Buffer<float> spacing;
     Buffer<Phasor> directions, next_directions;
     Buffer<Waves> waves, next_waves;
     Buffer<Lattice_edge> edges;
@@ -182,24 +211,17 @@ private:
     {
       size = nodes.size();
       free = nodes.free;
-      const auto upload = [&](auto& to, const auto& from) {
-        to.allocate(backend, from.size());
-        backend.upload(to.data(), from.data(), from.size());
-      };
-      upload(points, nodes.points);
-      upload(normals, nodes.normals);
-      upload(components, nodes.components);
-      upload(nodes_spacing, nodes.spacing);
-      upload(spacing, nodes.spacing);
-      upload(is_directed, nodes.is_directed);
-      upload(directions, nodes.directions);
-      next_directions.allocate(backend, size);
+      points.set(backend, nodes.points);
+      normals.set(backend, nodes.normals);
+      components.set(backend, nodes.components);
+      nodes_spacing.set(backend, nodes.spacing);
+      is_directed.set(backend, nodes.is_directed);
+      spacing.allocate(backend, size);
+      backend.upload(spacing.data(), nodes.spacing.data(), size);
+      directions.allocate(backend, size);
+      backend.upload(directions.data(), nodes.directions.data(), size);
       axes.allocate(backend, size);
       edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
-      waves.allocate(backend, size);
-      next_waves.allocate(backend, size);
-      backend.for_each(size, Set_crests{waves.data()}); // what sites have
-      backend.for_each(size, Set_crests{next_waves.data()});
       turning.allocate(backend, size);
       find_neighbors(backend, reach);
       backend.for_each(size, Set_turning{view()});

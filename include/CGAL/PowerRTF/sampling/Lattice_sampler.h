@@ -17,6 +17,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
 #include <CGAL/PowerRTF/sampling/Lattice_fields.h>
 #include <CGAL/PowerRTF/sampling/Surface_strata.h>
@@ -31,6 +32,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -65,7 +67,6 @@ public:
     make_nodes();
     part.next(0.25);
     Field field(m_backend, m_levels, m_seed);
-    m_levels.resize(1); // the field has the others
     part.next(0.8);
     find_points(field);
     part.next(0.85);
@@ -120,6 +121,10 @@ private:
   {
     const Surface_strata strata(m_surface, m_component, m_shares, m_backend.concurrency());
     double count = nodes_per_sample * static_cast<double>(m_size);
+    if (count + static_cast<double>(m_features.sites.size()) >= Lattice_edge::none)
+      throw Invalid_input_error(
+          std::to_string(m_size) +
+          " samples are more than a lattice can have: use another `sampling`");
     for (int level = 0;; ++level, count /= coarsening) {
       m_levels.emplace_back();
       add_strata(strata, static_cast<int>(std::ceil(count)), m_levels.back());

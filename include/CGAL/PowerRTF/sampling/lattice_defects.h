@@ -73,7 +73,7 @@ private:
     for (int ring = 0; ring < 3; ++ring) {
       for (std::size_t k = 0, inside = nodes.size(); k < inside; ++k)
         for_each_edge(view, nodes[k],
-                      [&](const Lattice_edge& edge) { nodes.push_back(edge.node); });
+                      [&](const Lattice_edge& edge) { nodes.push_back(int(edge.node)); });
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }

@@ -19,8 +19,10 @@ using Vec3f = Vec3<float>;
 
 /// What a node knows of a neighbor's lattice.
 struct Lattice_edge {
-  int node;             ///< the neighbor; -1: there is none, nor any after it
-  int sixths;           ///< of a turn, from this node's axis to the neighbor's
+  static constexpr unsigned none = (1u << 29) - 1;
+
+  unsigned node : 29;   ///< the neighbor; `none`: there is none, nor any after it
+  unsigned sixths : 3;  ///< of a turn, from this node's axis to the neighbor's
   Short_phasor turn[2]; ///< what its phasors are multiplied by
 };
 
@@ -119,7 +121,8 @@ struct Find_lattice_neighbors {
                             : tree.nearest<degree>(p, radius, found, counts);
       if (count < enough) count = tree.nearest<degree>(p, everywhere, found, counts);
       Lattice_edge* const edges = view.first_edge(i);
-      for (int e = 0; e < degree; ++e) edges[e].node = e < count ? found[e] : -1;
+      for (int e = 0; e < degree; ++e)
+        edges[e].node = e < count ? unsigned(found[e]) : Lattice_edge::none;
     }
   }
 };
@@ -129,7 +132,7 @@ template <class F>
 CGAL_POWER_RTF_HD inline void for_each_edge(const Lattice_view& view, int i, F&& f)
 {
   Lattice_edge* const edges = view.first_edge(i);
-  for (int e = 0; e < Lattice_view::degree && edges[e].node >= 0; ++e) f(edges[e]);
+  for (int e = 0; e < Lattice_view::degree && edges[e].node != Lattice_edge::none; ++e) f(edges[e]);
 }
 
 /// How fast a lattice turns whose spacing varies. Rows of a lattice that is deformed without shear
@@ -143,7 +146,7 @@ struct Set_turning {
     const Tangent_frame<float> frame(view.normals[i]);
     float xx = 0, xy = 0, yy = 0, xh = 0, yh = 0; // least squares over the neighbors
     for_each_edge(view, i, [&](const Lattice_edge& edge) {
-      const Vec3f d = step_between(view, i, view, edge.node);
+      const Vec3f d = step_between(view, i, view, int(edge.node));
       const float x = dot(d, frame.u), y = dot(d, frame.v);
       const float growth = std::log(view.spacing[edge.node] / view.spacing[i]);
       xx += x * x;

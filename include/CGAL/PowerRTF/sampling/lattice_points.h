@@ -46,7 +46,7 @@ struct Choose_points {
       const Seen_point other = seen[edge.node];
       const double squared = squared_length(other.point - own.point);
       if (squared > same * same * h * h) return;
-      if (other.distance < own.distance || (other.distance == own.distance && edge.node < i))
+      if (other.distance < own.distance || (other.distance == own.distance && int(edge.node) < i))
         is_nearest = false;
       if (squared > sure * sure * h * h) return;
       sum += other.point;

@@ -40,7 +40,7 @@ struct Set_direction_edges {
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
     for_each_edge(view, i, [&](Lattice_edge& edge) {
-      edge.turn[0] = direction_turn(view, edge.node, view, i);
+      edge.turn[0] = direction_turn(view, int(edge.node), view, i);
     });
   }
 };

@@ -73,7 +73,11 @@ CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
                                                 const Lattice_view& to, int i)
 {
   const Lattice_step step = lattice_step(from, j, to, i);
-  return {j, step.sixths, {phasor_at(step.phases[0]), phasor_at(step.phases[1])}};
+  Lattice_edge edge;
+  edge.node = unsigned(j);
+  edge.sixths = unsigned(step.sixths);
+  for (int k = 0; k < 2; ++k) edge.turn[k] = phasor_at(step.phases[k]);
+  return edge;
 }
 
 /// The waves of the edge's node as they arrive.
@@ -83,7 +87,7 @@ CGAL_POWER_RTF_HD inline Waves carried(const Lattice_edge& edge, const Waves& fr
   const Phasor turn[] = {first, second, conjugate(first * second)};
   Waves to;
   for (int k = 0; k < Waves::size; ++k) {
-    const Phasor wave = from.wave[(k + edge.sixths) % Waves::size];
+    const Phasor wave = from.wave[(unsigned(k) + edge.sixths) % Waves::size];
     to.wave[k] = turn[k] * (edge.sixths % 2 ? conjugate(wave) : wave);
   }
   return to;
@@ -94,7 +98,8 @@ struct Set_wave_edges {
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
-    for_each_edge(view, i, [&](Lattice_edge& edge) { edge = wave_edge(view, edge.node, view, i); });
+    for_each_edge(view, i,
+                  [&](Lattice_edge& edge) { edge = wave_edge(view, int(edge.node), view, i); });
   }
 };
 
