@@ -142,7 +142,7 @@ TEST_CASE("a flat piece gets one lattice, whatever it begins from")
   }
   Host_backend<CGAL::Sequential_tag> backend;
   for (unsigned seed = 0; seed < 3; ++seed) {
-    Lattice_field<Host_backend<CGAL::Sequential_tag>> field(backend, levels, seed);
+    Lattice_field<Host_backend<CGAL::Sequential_tag>> field(backend, levels, true, seed);
     field.orient();
     field.place(1);
     const Lattice_view view = field.view();

@@ -19,6 +19,13 @@
 
 namespace CGAL::PowerRTF {
 
+/// Whether the density is the same at all vertices.
+inline bool has_uniform_density(const Surface& surface)
+{
+  const std::vector<double>& rho = surface.vertex_density;
+  return std::all_of(rho.begin(), rho.end(), [&rho](double r) { return r == rho.front(); });
+}
+
 /// The integral of the vertex density over the surface (linear on every facet).
 inline double density_integral(const Surface& surface,
                                internal::Concurrency concurrency = Sequential_tag())

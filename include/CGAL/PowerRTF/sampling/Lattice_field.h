@@ -48,13 +48,16 @@ class Lattice_field {
 public:
   /// `levels`: from fine to coarse; free nodes of all levels are in the same order along the
   /// surface. A backend of the host keeps references to them.
-  Lattice_field(Backend& backend, const std::vector<Lattice_nodes>& levels, std::uint64_t seed)
+  /// `is_even`: the spacing is the same everywhere.
+  Lattice_field(Backend& backend, const std::vector<Lattice_nodes>& levels, bool is_even,
+                std::uint64_t seed)
       : m_backend(backend), m_seed(seed)
   {
     float reach = neighbor_reach;
     for (const Lattice_nodes& nodes : levels) {
       m_levels.emplace_back();
       m_levels.back().set_nodes(m_backend, nodes, reach);
+      if (!is_even) m_levels.back().find_turning(m_backend);
       reach *= 2;
     }
   }
@@ -200,7 +203,7 @@ private:
       v.components = components.data();
       v.spacing = spacing.data();
       v.edges = edges.data();
-      v.turning = turning.data();
+      v.turning = turning.size() > 0 ? turning.data() : nullptr;
       v.directions = directions.data();
       v.axes = axes.data();
       v.waves = waves.data();
@@ -222,8 +225,12 @@ private:
       backend.upload(directions.data(), nodes.directions.data(), size);
       axes.allocate(backend, size);
       edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
-      turning.allocate(backend, size);
       find_neighbors(backend, reach);
+    }
+
+    void find_turning(Backend& backend)
+    {
+      turning.allocate(backend, size);
       backend.for_each(size, Set_turning{view()});
       Buffer<Vec3f> next_turning;
       next_turning.allocate(backend, size);

@@ -14,6 +14,7 @@
 #define CGAL_POWER_RTF_SAMPLING_LATTICE_SAMPLER_H
 
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -66,7 +67,7 @@ public:
     internal::Progress_part part(0.05);
     make_nodes();
     part.next(0.25);
-    Field field(m_backend, m_levels, m_seed);
+    Field field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
     part.next(0.8);
     find_points(field);
     part.next(0.85);
@@ -82,7 +83,7 @@ public:
   Lattice_fields fields()
   {
     make_nodes();
-    Field field(m_backend, m_levels, m_seed);
+    Field field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
     find_points(field);
     return described(field.view());
   }

@@ -47,7 +47,7 @@ struct Lattice_view {
   const float* spacing = nullptr;  ///< h, the distance between neighbors in the lattice
   Lattice_edge* edges = nullptr;   ///< `degree` per node, by increasing distance
 
-  Vec3f* turning = nullptr;     ///< angle of the lattice per length; see `Set_turning`
+  Vec3f* turning = nullptr;     ///< angle of the lattice per length (`Set_turning`); null: none
   Phasor* directions = nullptr; ///< of the axes in their `Tangent_frame`, six times the angle
   Vec3f* axes = nullptr;        ///< unit tangents along a row of the lattice
   Waves* waves = nullptr;
@@ -77,6 +77,7 @@ CGAL_POWER_RTF_HD inline Vec3f step_between(const Lattice_view& from, int j, con
 CGAL_POWER_RTF_HD inline float turning_between(const Lattice_view& from, int j,
                                                const Lattice_view& to, int i)
 {
+  if (!to.turning) return 0;
   return 0.5f * dot(from.turning[j] + to.turning[i], step_between(from, j, to, i));
 }
 
