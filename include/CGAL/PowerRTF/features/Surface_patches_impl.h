@@ -33,7 +33,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
                             facet_components(surface.adjacency, concurrency).second == 1;
   // Means over the nearest vertices would depend on how finely a facet is split.
   const bool splits = options.attributes == Attributes::facet;
-  if (is_one_patch && !(splits && has_long_bent_facets(surface, n))) {
+  if (is_one_patch && !(splits && has_long_bent_facets(surface, n, concurrency))) {
     smooth_normals(surface, n, options.normal_smoothing, concurrency);
     return;
   }
@@ -48,7 +48,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
     m_own = std::move(cut.surface);
     originals = std::move(cut.originals);
   }
-  if (splits) m_parents = split_bent_facets(*m_own, n);
+  if (splits) m_parents = split_bent_facets(*m_own, n, concurrency);
   place_features();
   smooth_normals(*m_own, n, options.normal_smoothing, concurrency);
   surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});

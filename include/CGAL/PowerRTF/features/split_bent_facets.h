@@ -10,11 +10,13 @@
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/surface_geometry.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -23,35 +25,39 @@ namespace internal {
 class Bent_facet_splitter {
 public:
   /// \param spacing C of the spacing C / sqrt(rho)
-  Bent_facet_splitter(Surface& surface, double spacing) : m(surface), m_spacing(spacing) {}
+  Bent_facet_splitter(Surface& surface, double spacing, Concurrency concurrency)
+      : m(surface), m_spacing(spacing), m_concurrency(concurrency)
+  {}
 
   /// Whether `run()` would find an edge.
-  bool is_needed() const
-  {
-    for (int h = 0; h < 3 * int(m.triangles.size()); ++h)
-      if (is_bent(h / 3) && is_long(h)) return true;
-    return false;
-  }
+  bool is_needed() const { return !long_edges().empty(); }
 
   /// Halves all long edges of bent facets. \param parents of the facets, if they have some
   /// \returns whether there were any
   bool run(std::vector<int>& parents)
   {
-    const std::size_t halved = halve_edges();
-    if (halved == 0) return false;
-    std::vector<Triangle> triangles;
-    std::vector<int> of_triangles, patches;
-    triangles.reserve(m.triangles.size() + 2 * halved);
-    for (std::size_t f = 0; f < m.triangles.size(); ++f) {
-      split(m.triangles[f], {m_middles[3 * f], m_middles[3 * f + 1], m_middles[3 * f + 2]},
-            triangles);
-      of_triangles.resize(triangles.size(), parents.empty() ? int(f) : parents[f]);
-      if (!m.facet_patches.empty()) patches.resize(triangles.size(), m.facet_patches[f]);
-    }
+    if (!halve_edges()) return false;
+    const int facets = int(m.triangles.size());
+    std::vector<int> first(facets + 1, 0); // of a facet's pieces
+    for_each_index(m_concurrency, facets, [&](int f) {
+      const auto middles = middles_of(f);
+      first[f] = int(4 - std::count(middles.begin(), middles.end(), -1));
+    });
+    exclusive_scan(m_concurrency, facets + 1, first.data());
+    std::vector<Triangle> triangles(first.back());
+    std::vector<int> of_triangles(first.back());
+    std::vector<int> patches(m.facet_patches.empty() ? 0 : first.back());
+    for_each_index(m_concurrency, facets, [&](int f) {
+      split(m.triangles[f], middles_of(f), &triangles[first[f]]);
+      for (int k = first[f]; k < first[f + 1]; ++k) {
+        of_triangles[k] = parents.empty() ? f : parents[f];
+        if (!patches.empty()) patches[k] = m.facet_patches[f];
+      }
+    });
     m.triangles.swap(triangles);
     m.facet_patches.swap(patches);
-    m.adjacency = facet_adjacency(m.triangles, m.points.size());
-    compute_geometry(m);
+    m.adjacency = facet_adjacency(m.triangles, m.points.size(), m_concurrency);
+    compute_geometry(m, m_concurrency);
     parents.swap(of_triangles);
     return true;
   }
@@ -74,64 +80,92 @@ private:
            longest * longest * m_spacing * m_spacing;
   }
 
-  std::size_t halve_edges()
+  /// A halfedge of each long edge of a bent facet.
+  std::vector<int> long_edges() const
   {
     const std::vector<int>& opposite = m.adjacency.opposite;
-    m_middles.assign(opposite.size(), -1);
-    std::size_t halved = 0;
-    for (int h = 0; h < int(opposite.size()); ++h) {
+    return select(m_concurrency, int(opposite.size()), [&](int h) {
       const int o = opposite[h];
-      if (m_middles[h] >= 0 || !is_bent(h / 3) || !is_long(h)) continue;
-      const int a = halfedge_source(m.triangles, h), b = halfedge_target(m.triangles, h);
-      m_middles[h] = int(m.points.size());
-      if (o != Facet_adjacency::none) m_middles[o] = m_middles[h];
-      m.points.push_back((m.points[a] + m.points[b]) * 0.5);
-      m.vertex_density.push_back((m.vertex_density[a] + m.vertex_density[b]) / 2);
-      m.input_vertices.push_back(m.input_vertices[a]);
-      ++halved;
-    }
-    return halved;
+      const bool is_first = o == Facet_adjacency::none || h < o;
+      return is_first && is_long(h) &&
+             (is_bent(h / 3) || (o != Facet_adjacency::none && is_bent(o / 3)));
+    });
   }
 
-  /// Cuts `t` at the middles of its edges (-1: not halved).
-  void split(Triangle t, std::array<int, 3> middles, std::vector<Triangle>& pieces) const
+  /// \returns whether there was one
+  bool halve_edges()
+  {
+    const std::vector<int>& opposite = m.adjacency.opposite;
+    const std::vector<int> edges = long_edges();
+    const std::size_t old = m.points.size();
+    if (edges.empty()) return false;
+    m_middles.assign(opposite.size(), -1);
+    m.points.resize(old + edges.size());
+    m.vertex_density.resize(m.points.size());
+    m.input_vertices.resize(m.points.size());
+    for_each_index(m_concurrency, int(edges.size()), [&](int k) {
+      const int h = edges[k], o = opposite[h], middle = int(old) + k;
+      const int a = halfedge_source(m.triangles, h), b = halfedge_target(m.triangles, h);
+      m_middles[h] = middle;
+      if (o != Facet_adjacency::none) m_middles[o] = middle;
+      m.points[middle] = (m.points[a] + m.points[b]) * 0.5;
+      m.vertex_density[middle] = (m.vertex_density[a] + m.vertex_density[b]) / 2;
+      m.input_vertices[middle] = m.input_vertices[a];
+    });
+    return true;
+  }
+
+  std::array<int, 3> middles_of(int f) const
+  {
+    return {m_middles[3 * f], m_middles[3 * f + 1], m_middles[3 * f + 2]};
+  }
+
+  /// Cuts `t` at the middles of its edges (-1: not halved), into one piece more than there are middles.
+  void split(Triangle t, std::array<int, 3> middles, Triangle* pieces) const
   {
     const auto count = 3 - std::count(middles.begin(), middles.end(), -1);
     const auto turn = [&] {
       std::rotate(t.begin(), t.begin() + 1, t.end());
       std::rotate(middles.begin(), middles.begin() + 1, middles.end());
     };
+    const auto put = [&pieces](std::initializer_list<Triangle> all) {
+      pieces = std::copy(all.begin(), all.end(), pieces);
+    };
     if (count == 0) {
-      pieces.push_back(t);
+      put({t});
     } else if (count == 1) {
       while (middles[0] < 0) turn();
-      pieces.insert(pieces.end(), {{t[0], middles[0], t[2]}, {middles[0], t[1], t[2]}});
+      put({{t[0], middles[0], t[2]}, {middles[0], t[1], t[2]}});
     } else if (count == 2) { // the quadrangle t0, t1, m1, m2 by its shorter diagonal
       while (middles[0] >= 0) turn();
       const auto [m0, m1, m2] = middles;
-      pieces.push_back({m1, t[2], m2});
+      put({{m1, t[2], m2}});
       if (squared_length(m.points[t[0]] - m.points[m1]) <
           squared_length(m.points[t[1]] - m.points[m2]))
-        pieces.insert(pieces.end(), {{t[0], t[1], m1}, {t[0], m1, m2}});
+        put({{t[0], t[1], m1}, {t[0], m1, m2}});
       else
-        pieces.insert(pieces.end(), {{t[0], t[1], m2}, {t[1], m1, m2}});
+        put({{t[0], t[1], m2}, {t[1], m1, m2}});
     } else {
       const auto [m0, m1, m2] = middles;
-      pieces.insert(pieces.end(), {{t[0], m0, m2}, {m0, t[1], m1}, {m2, m1, t[2]}, {m0, m1, m2}});
+      put({{t[0], m0, m2}, {m0, t[1], m1}, {m2, m1, t[2]}, {m0, m1, m2}});
     }
   }
 
   Surface& m;
   double m_spacing;
+  Concurrency m_concurrency;
   std::vector<int> m_middles; // by halfedge: the vertex that halves it, or -1
 };
 
 } // namespace internal
 
 /// Whether `split_bent_facets()` would split one.
-inline bool has_long_bent_facets(Surface& surface, std::size_t n)
+inline bool has_long_bent_facets(Surface& surface, std::size_t n,
+                                 internal::Concurrency concurrency = Sequential_tag())
 {
-  return internal::Bent_facet_splitter(surface, spacing_constant(surface, n)).is_needed();
+  return internal::Bent_facet_splitter(surface, spacing_constant(surface, n, concurrency),
+                                       concurrency)
+      .is_needed();
 }
 
 /// Splits the facets of `surface` until none that has an edge longer than three times the local
@@ -139,11 +173,13 @@ inline bool has_long_bent_facets(Surface& surface, std::size_t n)
 /// makes no more than 16 n + 4 #F facets). The surface stays where it is; its first vertices are
 /// the old ones. It must have no creases. Normals and areas are computed anew. \returns for each
 /// facet the one that it is a part of; empty: nothing was split
-inline std::vector<int> split_bent_facets(Surface& surface, std::size_t n)
+inline std::vector<int> split_bent_facets(Surface& surface, std::size_t n,
+                                          internal::Concurrency concurrency = Sequential_tag())
 {
   const std::size_t most = 16 * n + 4 * surface.triangles.size();
   std::vector<int> parents;
-  internal::Bent_facet_splitter splitter(surface, spacing_constant(surface, n));
+  internal::Bent_facet_splitter splitter(surface, spacing_constant(surface, n, concurrency),
+                                         concurrency);
   while (surface.triangles.size() < most / 4 && splitter.run(parents)) {
   }
   return parents;
