@@ -14,6 +14,9 @@
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/helpers.h>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -215,7 +218,7 @@ TEST_CASE(
   CHECK(one_by_one[0] != one_by_one[1]);
 }
 
-TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as a whole")
+TEST_CASE("what is undone since a checkpoint is as it was, with or without a trace")
 {
   const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
   const Facet_tree tree(c.surface.points, c.surface.triangles);
@@ -242,32 +245,58 @@ TEST_CASE("flips and moves that are undone leave no trace; a copy is restored as
   for (const auto e : m.edges()) {
     if (!mesh.working().is_flippable(e)) continue;
     ++flips;
-    const auto memory = mesh.before_flip(e);
+    const auto corners = mesh.corners(e);
+    internal::Star_mesh::Checkpoint start(mesh);
     std::vector<internal::Star_mesh::State> states;
-    for (const Vertex v : memory.corners) states.push_back(mesh.state_around(v));
+    for (const Vertex v : corners) states.push_back(mesh.state_around(v));
     mesh.flip(e);
     for (int k = 0; k < 4; ++k) {
-      const Vertex v = memory.corners[k];
+      const Vertex v = corners[k];
       CHECK(mesh.state_around(v) != states[k]);
-      mesh.move(v, mesh.project(v, 0.9 * mesh.point(v) + 0.1 * mesh.point(memory.corners[0])));
+      mesh.move(v, mesh.project(v, 0.9 * mesh.point(v) + 0.1 * mesh.point(corners[0])));
     }
     CHECK(state(true) != before);
-    mesh.undo_flip(memory);
+    start.rewind();
     CHECK(state(true) == before);
   }
   CHECK(flips > 500);
 
   const std::vector<double> all = state(false);
-  const internal::Star_mesh copy = mesh;
+  internal::Star_mesh::Checkpoint start(mesh);
   std::vector<internal::Star_mesh::State> states;
   for (const Vertex u : m.vertices()) states.push_back(mesh.state_around(u));
   const Vertex v(7);
   mesh.pin(v);
   REQUIRE(mesh.move_off(v, 1.05 * mesh.point(v)));
-  mesh.restore(copy);
+  start.restore();
   CHECK(state(false) == all);
   for (const Vertex u : m.vertices()) {
     const bool is_near = u == v || mesh.working().are_adjacent(u, v);
     CHECK((mesh.state_around(u) != states[u]) == is_near);
   }
+
+  // a vertex goes elsewhere; the new elements have the numbers of the old ones
+  const auto collapsible = [&] {
+    for (const auto h : m.halfedges())
+      if (CGAL::Euler::does_satisfy_link_condition(m.edge(h), m)) return h;
+    return internal::Star_mesh::Halfedge();
+  };
+  REQUIRE(collapsible().is_valid());
+  mesh.collapse(collapsible());
+  const std::vector<double> collapsed = state(false);
+  {
+    internal::Star_mesh::Checkpoint after(mesh);
+    for (int pass = 0; pass < 2; ++pass) {
+      const auto h = m.halfedge(*(m.vertices_begin() + 50));
+      mesh.pin(mesh.split(
+          h, projector.nearest(0.5 * (mesh.point(m.source(h)) + mesh.point(m.target(h))))));
+      CHECK(m.number_of_vertices() == mesh.size());
+      CHECK(CGAL::is_valid_polygon_mesh(m));
+      after.restore();
+      CHECK(state(false) == collapsed);
+    }
+  }
+  start.restore();
+  CHECK(state(false) == all);
+  CHECK(CGAL::is_valid_polygon_mesh(m));
 }

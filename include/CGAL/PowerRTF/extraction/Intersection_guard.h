@@ -187,7 +187,7 @@ private:
   bool is_within_patch(const Faces& old, const Triangles& fresh) const
   {
     constexpr double clearly = 0.99; // cosine
-    const int patch = m.patches[old[0]];
+    const int patch = m.patches.empty() ? -1 : m.patches[old[0]];
     if (patch < 0) return false;
     Vec3d normal{0, 0, 0};
     for (const Face f : old) {

@@ -35,19 +35,28 @@ struct Working_mesh {
   Mesh mesh;
   std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
-  std::vector<int> patches;   ///< by face: the surface's flat patch it is a part of; -1: of none
+  std::vector<int>
+      patches; ///< by face: the surface's flat patch it is a part of; -1, or empty: of none
 
   /// \throw Invalid_input_error if the triangles are no oriented 2-manifold
   explicit Working_mesh(Refined_surface&& surface, Concurrency concurrency = Sequential_tag())
-      : normals(std::move(surface.normals)), samples(std::move(surface.samples)),
-        patches(std::move(surface.patches))
+      : Working_mesh(surface.points, surface.triangles, concurrency)
   {
+    normals = std::move(surface.normals);
+    samples = std::move(surface.samples);
+    patches = std::move(surface.patches);
     patches.resize(surface.triangles.size(), -1);
     for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
-    if (!connect_halfedges(mesh, surface.triangles, int(surface.points.size()), concurrency))
+  }
+
+  /// The same of triangles alone.
+  Working_mesh(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
+               Concurrency concurrency)
+  {
+    if (!connect_halfedges(mesh, triangles, int(points.size()), concurrency))
       throw Invalid_input_error("the surface is not an oriented 2-manifold");
-    for_each_index(concurrency, int(surface.points.size()), [&](int v) {
-      const Vec3d& p = surface.points[v];
+    for_each_index(concurrency, int(points.size()), [&](int v) {
+      const Vec3d& p = points[v];
       mesh.point(Vertex(v)) = Point(p.x, p.y, p.z);
     });
   }

@@ -63,11 +63,10 @@ public:
     find_far();
   }
 
-  /// Measures the distance to a copy of that mesh from now on.
-  void track(const Star_mesh& copy)
+  /// After the mesh has become another one with the same number of faces.
+  void update_all()
   {
-    m_mesh = &copy;
-    m_seen.assign(copy.size(), 0);
+    m_seen.assign(m_mesh->size(), 0);
     update();
   }
 
@@ -83,6 +82,13 @@ public:
         m_mesh->concurrency(), size(), 0.,
         [&](double& d, int i) { d = std::max(d, m_points[i].distance); },
         [](double& d, double part) { d = std::max(d, part); });
+  }
+
+  /// The points that are farther away, in order.
+  std::vector<int> farther_than(double distance) const
+  {
+    return select(m_mesh->concurrency(), size(),
+                  [&](int i) { return m_points[i].distance > distance; });
   }
 
   /// After any changes of the mesh.
@@ -211,9 +217,7 @@ private:
   // Those that seem to be far are searched for in the whole mesh.
   void find_far()
   {
-    const std::vector<int> far = select(m_mesh->concurrency(), size(), [&](int i) {
-      return m_points[i].distance > m_tree_search_distance;
-    });
+    const std::vector<int> far = farther_than(m_tree_search_distance);
     if (!far.empty()) search_mesh(far);
     assign();
   }

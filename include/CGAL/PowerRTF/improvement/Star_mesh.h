@@ -14,9 +14,8 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Independent_vertices.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
+#include <CGAL/PowerRTF/improvement/Undoable_edits.h>
 #include <CGAL/PowerRTF/internal/mixed_bits.h>
-
-#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -24,7 +23,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -52,13 +50,15 @@ public:
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
             Concurrency concurrency = Sequential_tag())
-      : m_concurrency(concurrency), m_projector(&projector), m(refined(mesh), concurrency),
-        m_facets(mesh.points.size()), m_heights(mesh.points.size(), 0),
-        m_locked(mesh.points.size(), false), m_movable(mesh.points.size()),
-        m_pinned(mesh.points.size(), false), m_on_feature(mesh.points.size(), false),
-        m_changes(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
+      : m_concurrency(concurrency), m_projector(&projector),
+        m(mesh.points, mesh.triangles, concurrency), m_facets(mesh.points.size()),
+        m_heights(mesh.points.size(), 0), m_locked(mesh.points.size(), false),
+        m_movable(mesh.points.size()), m_pinned(mesh.points.size(), false),
+        m_on_feature(mesh.points.size(), false), m_changes(mesh.points.size(), 1),
+        m_is_feature(m.mesh.number_of_edges(), false)
   {
     const std::size_t n = mesh.points.size();
+    m.normals.resize(n);
     for (const auto& [a, b] : mesh.feature_edges) {
       m_on_feature[a] = m_on_feature[b] = true;
       const Halfedge h =
@@ -84,12 +84,11 @@ public:
   /// Undoes `lock()`.
   void unlock()
   {
-    for (std::size_t i = 0; i < size(); ++i) {
-      const Vertex v = Vertex(Vertex::size_type(i));
+    for (const Vertex v : m.mesh.vertices()) {
       if (!m_locked[v]) continue;
+      touch(v);
       m_locked[v] = false;
       m_movable[v] = is_interior(v);
-      touch(v);
     }
   }
 
@@ -102,17 +101,17 @@ public:
   /// A pinned vertex does not move until it is released.
   void pin(Vertex v)
   {
+    touch(v);
     m_movable[v] = false;
     m_pinned[v] = true;
-    touch(v);
   }
   /// \returns whether `v` was pinned.
   bool release(Vertex v)
   {
     if (!m_pinned[v]) return false;
+    touch(v);
     m_pinned[v] = false;
     m_movable[v] = true;
-    touch(v);
     return true;
   }
 
@@ -126,8 +125,14 @@ public:
     for (const Halfedge h : halfedges_around_target(v, m.mesh)) sum += state(m.mesh.source(h));
     return sum;
   }
-  /// `v` counts as changed.
-  void touch(Vertex v) { ++m_changes[v]; }
+  /// `v` counts as changed. Comes before each change of it.
+  void touch(Vertex v)
+  {
+    if (m_edits.are_noted())
+      m_past.push_back(
+          {v, place(v), m_heights[v], m_changes[v], m_locked[v], m_movable[v], m_pinned[v]});
+    ++m_changes[v];
+  }
 
   Vec3d point(Vertex v) const { return m.point(v); }
   /// The corners of the face at `h`.
@@ -238,52 +243,49 @@ public:
   void flip(Edge e)
   {
     for (const Vertex v : corners(e)) touch(v);
-    Euler::flip_edge(m.mesh.halfedge(e), m.mesh);
+    m_edits.flip(m.mesh, e);
   }
 
-  /// What is around an edge, to bring it back after a flip and moves of its four corners.
-  struct Before_flip {
-    Edge edge;
-    std::array<Vertex, 4> corners;
-    std::array<Surface_projector::Place, 4> places;
-    std::array<unsigned, 4> changes;
-    std::array<Halfedge, 4> at_corners;
-    std::array<Halfedge, 2> at_faces;
+  /// As long as one lives, what happens to the mesh, one by one, is noted and can be undone.
+  class Checkpoint {
+  public:
+    explicit Checkpoint(Star_mesh& mesh)
+        : m(mesh), m_edits(mesh.m_edits.size()), m_past(mesh.m_past.size())
+    {
+      m.m_edits.note();
+    }
+    ~Checkpoint()
+    {
+      m.m_edits.forget();
+      if (!m.m_edits.are_noted()) m.m_past.clear();
+    }
+    Checkpoint(const Checkpoint&) = delete;
+
+    /// Brings back all that was. What has changed since then counts as changed now.
+    void restore()
+    {
+      undo([this](const Vertex_state& s) { ++m.m_changes[s.vertex]; });
+    }
+    /// The same; but nothing tells that there was a change.
+    void rewind()
+    {
+      undo([this](const Vertex_state& s) { m.m_changes[s.vertex] = s.changes; });
+    }
+
+  private:
+    template <class F>
+    void undo(F&& f)
+    {
+      m.m_edits.undo(m.m.mesh, m_edits);
+      for (; m.m_past.size() > m_past; m.m_past.pop_back()) {
+        m.restore(m.m_past.back());
+        f(m.m_past.back());
+      }
+    }
+
+    Star_mesh& m;
+    std::size_t m_edits, m_past; // the numbers of them
   };
-
-  Before_flip before_flip(Edge e) const
-  {
-    Before_flip b{e, corners(e), {}, {}, {}, {}};
-    for (int k = 0; k < 4; ++k) {
-      b.places[k] = place(b.corners[k]);
-      b.changes[k] = m_changes[b.corners[k]];
-      b.at_corners[k] = m.mesh.halfedge(b.corners[k]);
-    }
-    for (int k = 0; k < 2; ++k) b.at_faces[k] = m.mesh.halfedge(m.mesh.face(m.mesh.halfedge(e, k)));
-    return b;
-  }
-
-  /// \pre since `before_flip()`, no more has happened than the flip and moves on the surface.
-  void undo_flip(const Before_flip& b)
-  {
-    const Halfedge h = m.mesh.halfedge(b.edge);
-    for (int k = 0; k < 3; ++k) Euler::flip_edge(h, m.mesh); // four turns are a whole one
-    for (const Halfedge g : b.at_faces) m.mesh.set_halfedge(m.mesh.face(g), g);
-    for (int k = 0; k < 4; ++k) {
-      m.mesh.set_halfedge(b.corners[k], b.at_corners[k]);
-      move(b.corners[k], b.places[k]);
-      m_changes[b.corners[k]] = b.changes[k];
-    }
-  }
-
-  /// Brings back all that was in a copy. What has changed since then counts as changed now.
-  void restore(const Star_mesh& copy)
-  {
-    const std::vector<unsigned> changes = std::move(m_changes);
-    *this = copy;
-    for (std::size_t v = 0; v < size(); ++v)
-      if (changes[v] != m_changes[v]) m_changes[v] = changes[v] + 1;
-  }
 
   /// Takes a vertex out of the mesh: of the two ends of `h` one stays, as its target was.
   /// \pre both may move, the link condition holds, no feature is near
@@ -291,9 +293,10 @@ public:
   Vertex collapse(Halfedge h)
   {
     const Vertex target = m.mesh.target(h);
+    for (const Vertex v : {m.mesh.source(h), target}) touch(v);
     const Surface_projector::Place there = place(target);
     const double height = m_heights[target];
-    const Vertex kept = Euler::collapse_edge(m.mesh.edge(h), m.mesh);
+    const Vertex kept = m_edits.collapse(m, h);
     move(kept, there);
     touch_around(kept);
     m_heights[kept] = height;
@@ -304,10 +307,7 @@ public:
   /// been taken out.
   Vertex split(Halfedge h, const Surface_projector::Place& place)
   {
-    const Halfedge o = m.mesh.opposite(h), first = Euler::split_edge(h, m.mesh);
-    Euler::split_face(first, m.mesh.next(h), m.mesh);
-    Euler::split_face(o, m.mesh.next(m.mesh.opposite(first)), m.mesh);
-    const Vertex v = m.mesh.target(first);
+    const Vertex v = m_edits.split(m.mesh, h);
     move(v, place);
     touch_around(v);
     m_heights[v] = 0;
@@ -326,9 +326,9 @@ public:
   /// To the point of the grid that is nearest to `p`.
   void set_point(Vertex v, const Vec3d& p)
   {
+    touch(v);
     const Vec3d q = m_projector->surface().normalization.snapped(p);
     m.mesh.point(v) = Working_mesh::Point(q.x, q.y, q.z);
-    touch(v);
   }
 
   /// Calls `f(v)` for all vertices, many at once: it may change `v` and read its neighbors.
@@ -346,23 +346,31 @@ public:
   }
 
 private:
-  static Refined_surface refined(const Extracted_mesh& mesh)
-  {
-    Refined_surface r;
-    r.points = mesh.points;
-    r.normals.assign(mesh.points.size(), {0, 0, 0});
-    r.samples.resize(mesh.points.size());
-    std::iota(r.samples.begin(), r.samples.end(), 0);
-    r.triangles = mesh.triangles;
-    return r;
-  }
-
   State state(Vertex v) const { return mixed_bits(State(v) << 32 | m_changes[v]); }
 
   // On neither feature nor border.
   bool is_interior(Vertex v) const
   {
     return !m_on_feature[v] && !m.mesh.is_isolated(v) && !m.mesh.is_border(v);
+  }
+
+  // What a vertex is, but for its edges.
+  struct Vertex_state {
+    Vertex vertex;
+    Surface_projector::Place place;
+    double height;
+    unsigned changes;
+    char is_locked, is_movable, is_pinned;
+  };
+
+  void restore(const Vertex_state& s)
+  {
+    const Vertex v = s.vertex;
+    m.mesh.point(v) = Working_mesh::Point(s.place.point.x, s.place.point.y, s.place.point.z);
+    m.normals[v] = s.place.normal;
+    m_facets[v] = s.place.facet;
+    m_heights[v] = s.height;
+    m_locked[v] = s.is_locked, m_movable[v] = s.is_movable, m_pinned[v] = s.is_pinned;
   }
 
   void touch_around(Vertex v)
@@ -379,6 +387,8 @@ private:
   std::vector<unsigned> m_changes; // by vertex: of it or its edges
   std::vector<char> m_is_feature;  // by edge
   Independent_vertices m_independent;
+  Undoable_edits m_edits;
+  std::vector<Vertex_state> m_past; // of those that were touched while the edits are noted
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -36,8 +36,7 @@ public:
   {
     const double least = share * m_tracker.max_distance();
     std::vector<std::pair<double, int>> far;
-    for (int i = 0; i < m_tracker.size(); ++i)
-      if (m_tracker[i].distance > least) far.push_back({-m_tracker[i].distance, i});
+    for (const int i : m_tracker.farther_than(least)) far.push_back({-m_tracker[i].distance, i});
     std::sort(far.begin(), far.end());
     std::size_t covered = 0, tried = 0;
     for (const auto& [d, i] : far) {

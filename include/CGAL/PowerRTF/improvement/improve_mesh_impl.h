@@ -45,6 +45,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,39 +54,38 @@ namespace internal {
 
 class Mesh_improver {
 public:
-  /// \throw Invalid_input_error if `raw` is not an oriented 2-manifold
-  Mesh_improver(const Surface& surface, const Facet_tree& tree, const Extracted_mesh& raw,
+  /// \throw Invalid_input_error if `mesh` is not an oriented 2-manifold
+  Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                 Concurrency concurrency)
-      : m_surface(surface), m_projector(surface, tree), m_raw(raw),
-        m_locked(raw.points.size(), false), m_raw_stars(raw, m_projector, concurrency),
-        m_tracker(m_raw_stars), m_flat(surface),
-        m_spacing(std::sqrt(surface.area / double(raw.points.size()))),
+      : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_concurrency(concurrency),
+        m_locked(mesh.points.size(), false), m_stars(std::in_place, mesh, m_projector, concurrency),
+        m_tracker(*m_stars), m_flat(surface),
+        m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
 
-  /// The improved mesh. If an improvement has broken something, it is made anew: at first with less
+  /// Improves the mesh. If an improvement has broken something, it is made anew: at first with less
   /// smoothing, which may already do, then with what was broken locked, as little of it as does.
-  Extracted_mesh run()
+  void run()
   {
-    Extracted_mesh mesh = m_raw;
     Progress_part part(0.93); // the first attempt, which mostly does
     for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
-      Star_mesh stars = m_raw_stars;
+      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_concurrency);
+      Star_mesh& stars = *m_stars;
       stars.lock(m_locked);
       improve(stars, Schedule::smoothing_passes - (attempt == 1 ? 1 : 0));
       if (attempt == 0) part.next(0.97);
       const std::vector<Face> broken = find_broken(stars);
       if (broken.empty()) {
         if (attempt > 1) optimize_locked(stars);
-        stars.write(mesh);
-        return mesh;
+        stars.write(m_mesh);
+        return;
       }
       if (attempt == 1)
         lock_farthest(stars, broken);
       else if (attempt > 1)
         lock(stars, broken, attempt - 2);
     }
-    return mesh;
   }
 
 private:
@@ -109,7 +109,7 @@ private:
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
     part.next(0.6);
     optimize();
-    if (!m_raw.feature_edges.empty()) {
+    if (!m_mesh.feature_edges.empty()) {
       Feature_slider slider(stars, m_surface);
       for (int pass = 0; pass < Schedule::sliding_passes; ++pass) {
         slider.run(Schedule::sliding_rounds);
@@ -117,7 +117,7 @@ private:
       }
     }
     part.next(0.63);
-    m_tracker.track(stars);
+    m_tracker.update_all();
     part.next(0.66);
     Tip_coverer(stars, m_tracker, Schedule::healable_badness).run(Schedule::far_share);
     optimize();
@@ -135,13 +135,13 @@ private:
   // The triangles between locked vertices, too, as far as no faces intersect.
   void optimize_locked(Star_mesh& stars)
   {
-    const Star_mesh before = stars;
+    Star_mesh::Checkpoint before(stars);
     stars.unlock();
     Intersection_guard guard(stars.working(), std::vector<Intersection_guard::Sight>(
                                                   stars.size(), Intersection_guard::watched));
     Bad_triangle_optimizer(stars, &guard).run(Schedule::optimization_rounds);
     m_tracker.update();
-    if (!find_too_far(stars).empty()) stars.restore(before);
+    if (!find_too_far(stars).empty()) before.restore();
   }
 
   // Puts vertices from flat parts into far places.
@@ -156,16 +156,16 @@ private:
       m_tracker.update();
     }
     if (relocator.farthest() > very_far && !optimizer.is_needed()) {
-      const Star_mesh before = stars;
+      Star_mesh::Checkpoint before(stars);
       if (relocator.run(Schedule::far_share, Schedule::healable_relocation_badness))
         optimizer.run(Schedule::optimization_rounds);
-      if (optimizer.is_needed()) stars.restore(before);
+      if (optimizer.is_needed()) before.restore();
       m_tracker.update();
     }
     if (optimizer.is_needed()) {
-      const Star_mesh before = stars;
+      Star_mesh::Checkpoint before(stars);
       if (relocator.mend() && !find_too_far(stars).empty()) {
-        stars.restore(before);
+        before.restore();
         m_tracker.update();
       }
     }
@@ -175,9 +175,8 @@ private:
   std::vector<Face> find_too_far(const Star_mesh& stars) const
   {
     std::vector<Face> faces;
-    for (int i = 0; i < m_tracker.size(); ++i)
-      if (m_tracker[i].distance > m_largest_distance)
-        faces.push_back(stars.working().mesh.face(m_tracker[i].face));
+    for (const int i : m_tracker.farther_than(m_largest_distance))
+      faces.push_back(stars.working().mesh.face(m_tracker[i].face));
     return faces;
   }
 
@@ -202,7 +201,7 @@ private:
   // Locks the vertex of each face that has moved farthest.
   void lock_farthest(const Star_mesh& stars, const std::vector<Face>& broken)
   {
-    const auto moved = [&](Vertex v) { return squared_length(stars.point(v) - m_raw.points[v]); };
+    const auto moved = [&](Vertex v) { return squared_length(stars.point(v) - m_mesh.points[v]); };
     const Mesh& mesh = stars.working().mesh;
     for (const Face f : broken) {
       const auto corners = mesh.vertices_around_face(mesh.halfedge(f));
@@ -225,9 +224,10 @@ private:
 
   const Surface& m_surface;
   Surface_projector m_projector;
-  const Extracted_mesh& m_raw;
+  Extracted_mesh& m_mesh; // as it was extracted, until it is improved
+  Concurrency m_concurrency;
   std::vector<char> m_locked;
-  Star_mesh m_raw_stars;
+  std::optional<Star_mesh> m_stars; // of the attempt
   Distance_tracker m_tracker;
   Flat_patches m_flat;
   double m_spacing, m_largest_distance;
@@ -243,7 +243,7 @@ CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree
     internal::Progress_part part(0.12);
     internal::Mesh_improver improver(surface, tree, mesh, concurrency);
     part.next(0.98);
-    mesh = improver.run();
+    improver.run();
     mesh.sort_triangles(concurrency);
   } catch (const Invalid_input_error&) {
     return false;

@@ -282,7 +282,7 @@ private:
     State state = 0;
     for (const Vertex v : corners) state += m.state_around(v);
     if (state == m_failed_flips[e] || (m_guard && m_guard->forbids_flip(e))) return false;
-    const Star_mesh::Before_flip before = m.before_flip(e);
+    Star_mesh::Checkpoint before(m);
     std::array<State, 4> failed_searches;
     for (int k = 0; k < 4; ++k) failed_searches[k] = m_failed_searches[corners[k]];
     const double agreement = patch_agreement(corners), energy_before = patch_energy(corners);
@@ -296,7 +296,7 @@ private:
             std::min(Parameters::min_agreement, agreement - Parameters::agreement_loss))
       return true;
     if (m_guard) m_guard->erase_around(corners);
-    m.undo_flip(before);
+    before.rewind();
     if (m_guard) m_guard->insert_around(corners);
     for (int k = 0; k < 4; ++k) m_failed_searches[corners[k]] = failed_searches[k];
     m_failed_flips[e] = state;

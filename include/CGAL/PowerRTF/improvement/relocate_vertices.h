@@ -48,33 +48,33 @@ public:
     std::vector<Vec3d> places;
     for (const Tip& tip : tips) places.push_back(tip.point);
     const std::vector<Vertex> spare = find_spare(places);
-    const Star_mesh before = m;
+    Star_mesh::Checkpoint before(m);
     std::size_t next = 0;
     bool changed = false;
     for (const Tip& tip : tips) {
       Cancellation::poll();
-      const Star_mesh now = m;
+      Star_mesh::Checkpoint now(m);
       if (tip.is_edge) {
         if (flip(tip) && !intersects_near(tip.point)) {
           changed = true;
           continue;
         }
-        m.restore(now);
+        now.restore();
       }
       bool removed = false;
-      while (next < spare.size() && !(removed = remove(spare[next++]))) m.restore(now);
+      while (next < spare.size() && !(removed = remove(spare[next++]))) now.restore();
       if (removed && insert(tip) && !intersects_near(tip.point)) {
         changed = true;
         continue;
       }
-      m.restore(now);
+      now.restore();
       if (!changed) return false; // the farthest stays
     }
     if (!changed) return false;
     m_tracker.update();
     tips = find_tips(share);
     if (tips.empty() || tips.front().distance < farthest) return true;
-    m.restore(before);
+    before.restore();
     m_tracker.update();
     return false;
   }
@@ -91,11 +91,11 @@ public:
       if (mesh.is_removed(f) || !(m_optimizer.badness(f) > m_tolerable))
         continue; // mended with another
       const Vec3d center = middle(f);
-      const Star_mesh now = m;
+      Star_mesh::Checkpoint now(m);
       if (fill(f) && !intersects_near(center))
         changed = true;
       else
-        m.restore(now);
+        now.restore();
     }
     if (changed) m_tracker.update();
     return changed;
@@ -132,10 +132,9 @@ private:
   {
     double least = Parameters::min_distance * m_spacing;
     std::vector<Tip> all;
-    for (int i = 0; i < m_tracker.size(); ++i)
-      if (m_tracker[i].distance > least)
-        all.push_back({m_tracker[i].distance, m_tracker[i].point, m_tracker[i].nearest,
-                       m_tracker[i].face, false});
+    for (const int i : m_tracker.farther_than(least))
+      all.push_back({m_tracker[i].distance, m_tracker[i].point, m_tracker[i].nearest,
+                     m_tracker[i].face, false});
     const auto& mesh = m.working().mesh;
     for (const int e : select(m.concurrency(), int(mesh.num_edges()), [&](int e) {
            return !mesh.is_removed(Edge(e)) && m.is_free(Edge(e)) &&
@@ -220,20 +219,20 @@ private:
   bool fill(Working_mesh::Face f)
   {
     const Halfedge near = m.working().mesh.halfedge(f);
-    const Star_mesh before = m;
+    Star_mesh::Checkpoint before(m);
     int tries = 0;
     for (const Vertex spare : find_spare({middle(f)})) {
       if (tries++ == Parameters::max_tries) break;
       if (!remove(spare)) {
-        m.restore(before);
+        before.restore();
         continue;
       }
-      const Star_mesh removed = m;
+      Star_mesh::Checkpoint removed(m);
       for (const Halfedge h : edges_to_split(near, [this](Halfedge g) { return middle(g); })) {
         const Vertex v = m.split(h, m.projector().nearest(middle(h)));
         release_around(v);
         if (is_good_around(v)) return true;
-        m.restore(removed);
+        removed.restore();
       }
       return false;
     }
@@ -294,7 +293,7 @@ private:
   // part of the way.
   bool insert(const Tip& tip)
   {
-    const Star_mesh before = m;
+    Star_mesh::Checkpoint before(m);
     for (const double share : {1., 0.6, 0.3}) {
       const Vec3d p = tip.mesh_point + share * (tip.point - tip.mesh_point);
       for (const Halfedge h : edges_to_split(tip.near, [&p](Halfedge) { return p; })) {
@@ -303,7 +302,7 @@ private:
         release_around(v);
         m.pin(v);
         if (is_good_around(v)) return true;
-        m.restore(before);
+        before.restore();
       }
     }
     return false;
