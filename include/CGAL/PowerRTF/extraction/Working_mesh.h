@@ -35,8 +35,7 @@ struct Working_mesh {
   Mesh mesh;
   std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
-  std::vector<int>
-      patches; ///< by face: the surface's flat patch it is a part of; -1, or empty: of none
+  std::vector<int> patches;   ///< by face: the surface's flat patch; -1, or empty: of none
 
   /// \throw Invalid_input_error if the triangles are no oriented 2-manifold
   explicit Working_mesh(Refined_surface&& surface, Concurrency concurrency = Sequential_tag())
@@ -73,14 +72,15 @@ struct Working_mesh {
   Corners corners(Halfedge h) const { return {mesh.source(h), mesh.target(h), apex(h)}; }
   Corners corners(Face f) const { return corners(mesh.halfedge(f)); }
 
-  std::vector<Triangle> triangles() const
+  std::vector<Triangle> triangles(Concurrency concurrency = Sequential_tag()) const
   {
-    std::vector<Triangle> result;
-    result.reserve(mesh.number_of_faces());
-    for (const Face f : mesh.faces()) {
-      const auto [a, b, c] = corners(f);
-      result.push_back({int(a), int(b), int(c)});
-    }
+    const std::vector<int> faces = select(concurrency, int(mesh.num_faces()),
+                                          [&](int f) { return !mesh.is_removed(Face(f)); });
+    std::vector<Triangle> result(faces.size());
+    for_each_index(concurrency, int(faces.size()), [&](int k) {
+      const auto [a, b, c] = corners(Face(faces[k]));
+      result[k] = {int(a), int(b), int(c)};
+    });
     return result;
   }
 

@@ -8,11 +8,16 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 #define CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <boost/container/small_vector.hpp>
+#include <boost/range/iterator_range.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +25,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -31,15 +37,13 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Face = Working_mesh::Face;
 
-  /// A point of the surface and where the mesh is nearest to it.
+  /// A vertex of the surface and where the mesh is nearest to it.
   struct Tracked_point {
-    Vec3d point, normal;
-    double weight; ///< area of the surface that it stands for, of its vertices
-    Halfedge face;
-    std::array<double, 3> barycentric; ///< of the nearest point: source, target, apex of `face`
     Vec3d nearest;
     double distance;
-    int facet; ///< of the surface, at the point
+    Halfedge face;
+    int vertex, facet; ///< of the surface
+    float weight;      ///< area of the surface that it stands for, of its vertices
   };
 
   /// \pre `mesh` has a face
@@ -72,9 +76,19 @@ public:
 
   int size() const { return int(m_points.size()); }
   const Tracked_point& operator[](int i) const { return m_points[i]; }
+  /// Of the surface, as its normal.
+  const Vec3d& point(int i) const { return surface().points[m_points[i].vertex]; }
+  const Vec3d& normal(int i) const { return surface().vertex_normals[m_points[i].vertex]; }
 
   /// Those that are nearest to a face.
-  const auto& at_face(Face f) const { return m_at_face[f]; }
+  boost::iterator_range<const int*> at_face(Face f) const
+  {
+    if (!m_moved.empty())
+      if (const auto moved = m_moved.find(f); moved != m_moved.end())
+        return {moved->second.data(), moved->second.data() + moved->second.size()};
+    const int* points = m_at_face->entries.data();
+    return {points + m_at_face->first[f], points + m_at_face->first[f + 1]};
+  }
 
   double max_distance() const
   {
@@ -117,7 +131,7 @@ public:
     double farthest = 0;
     for (const Halfedge h : halfedges_around_target(v, topology()))
       if (!topology().is_border(h))
-        for (const int i : m_at_face[topology().face(h)]) {
+        for (const int i : at_face(topology().face(h))) {
           Tracked_point w = m_points[i];
           search_faces(w, faces, v, p);
           farthest = std::max(farthest, w.distance);
@@ -133,13 +147,15 @@ public:
     boost::container::small_vector<int, 64> tracked;
     for (const Halfedge h : halfedges_around_target(v, topology())) {
       if (topology().is_border(h)) continue;
-      auto& here = m_at_face[topology().face(h)];
+      const auto here = at_face(topology().face(h));
       tracked.insert(tracked.end(), here.begin(), here.end());
-      here.clear();
+      m_moved[topology().face(h)].clear();
     }
     for (const int i : tracked) {
       search_faces(m_points[i], faces, v, m_mesh->point(v));
-      m_at_face[topology().face(m_points[i].face)].push_back(i);
+      const Face f = topology().face(m_points[i].face);
+      const auto there = at_face(f);
+      m_moved.try_emplace(f, there.begin(), there.end()).first->second.push_back(i);
     }
   }
 
@@ -157,50 +173,60 @@ private:
   using Faces = boost::container::small_vector<Bounded_face, 32>;
 
   const Working_mesh::Mesh& topology() const { return m_mesh->working().mesh; }
+  const Surface& surface() const { return m_mesh->projector().surface(); }
 
-  // In spatial order. Of a surface with very many vertices, every k-th.
+  // In spatial order: that in which the facets of the tree come to them. Of a surface with very
+  // many vertices, every k-th.
   void choose_points()
   {
-    const Surface& surface = m_mesh->projector().surface();
-    const std::size_t vertices = surface.points.size();
-    const std::size_t stride = 1 + vertices / (Parameters::max_points_per_vertex * m_mesh->size());
-    std::vector<int> numbers(vertices, -1); // of the points
-    std::vector<char> seen(vertices, false);
-    std::size_t order = 0;
-    for (const int f : m_mesh->projector().tree().order())
-      for (const int v : surface.triangles[f]) {
-        if (!std::exchange(seen[v], true) && order++ % stride == 0) {
-          numbers[v] = size();
-          m_points.push_back({surface.points[v],
-                              surface.vertex_normals[v],
-                              0,
-                              Halfedge(),
-                              {1, 0, 0},
-                              surface.points[v],
-                              0,
-                              f});
-        }
-        if (numbers[v] >= 0) m_points[numbers[v]].weight += surface.facet_areas[f] / 3;
-      }
+    const Concurrency concurrency = m_mesh->concurrency();
+    const Facet_tree& tree = m_mesh->projector().tree();
+    const int vertices = int(surface().points.size()), places = int(tree.order().size());
+    const auto corners = vertex_corners(surface().triangles, vertices, concurrency);
+    const auto for_each_corner = [&](int v, auto&& f) {
+      for (int c = corners.first[v]; c < corners.first[v + 1]; ++c) f(corners.entries[c]);
+    };
+    const auto vertex = [&](int rank) {
+      return surface().triangles[tree.order()[rank / 3]][rank % 3];
+    };
+    std::vector<int> ranks(vertices, std::numeric_limits<int>::max()); // of the first corners
+    for_each_index(concurrency, vertices, [&](int v) {
+      for_each_corner(v,
+                      [&](int c) { ranks[v] = std::min(ranks[v], 3 * tree.place(c / 3) + c % 3); });
+    });
+    const std::vector<int> first =
+        select(concurrency, 3 * places, [&](int rank) { return ranks[vertex(rank)] == rank; });
+    const int stride = 1 + int(vertices / (Parameters::max_points_per_vertex * m_mesh->size()));
+    m_points.resize((first.size() + stride - 1) / stride);
+    for_each_index(concurrency, size(), [&](int i) {
+      const int rank = first[i * stride], v = vertex(rank);
+      double area = 0;
+      for_each_corner(v, [&](int c) { area += surface().facet_areas[c / 3] / 3; });
+      m_points[i] = {surface().points[v], 0, Halfedge(), v, tree.order()[rank / 3], float(area)};
+    });
   }
 
   // By chunk of the points: a face near its first.
   std::vector<Halfedge> first_faces() const
   {
+    const Concurrency concurrency = m_mesh->concurrency();
     const Facet_tree& tree = m_mesh->projector().tree();
-    std::vector<Vertex> at_place(tree.order().size()); // of the tree: one that its facet carries
-    for (const Vertex v : topology().vertices())
-      if (!topology().is_isolated(v)) at_place[tree.place(m_mesh->facet(v))] = v;
-    std::vector<Halfedge> faces;
-    for (int first = 0; first < size(); first += chunk) {
-      const int place = tree.place(m_points[first].facet), places = int(at_place.size());
+    const int places = int(tree.order().size());
+    std::vector<int> at_place(places, -1); // of the tree: the last vertex that its facet carries
+    for_each_index(concurrency, int(m_mesh->size()), [&](int v) {
+      if (!topology().is_isolated(Vertex(v)))
+        atomic_max(&at_place[tree.place(m_mesh->facet(Vertex(v)))], v);
+    });
+    std::vector<Halfedge> faces((size() + chunk - 1) / chunk);
+    for_each_chunk(concurrency, int(faces.size()), 1, [&](int k, int) {
+      const int place = tree.place(m_points[k * chunk].facet);
+      const auto is_at = [&](int at) { return at >= 0 && at < places && at_place[at] >= 0; };
       int distance = 0;
-      const auto is_at = [&](int at) { return at >= 0 && at < places && at_place[at] != Vertex(); };
       while (!is_at(place - distance) && !is_at(place + distance)) ++distance;
       const Halfedge h = topology().halfedge(
-          at_place[is_at(place - distance) ? place - distance : place + distance]);
-      faces.push_back(topology().is_border(h) ? topology().opposite(h) : h);
-    }
+          Vertex(at_place[is_at(place - distance) ? place - distance : place + distance]));
+      faces[k] = topology().is_border(h) ? topology().opposite(h) : h;
+    });
     return faces;
   }
 
@@ -225,9 +251,10 @@ private:
   // \pre all faces are there: what has been taken out has been put back elsewhere
   void search_mesh(const std::vector<int>& some)
   {
-    std::vector<Vec3d> points;
-    const std::vector<Triangle> triangles = m_mesh->working().triangles();
-    for (const Vertex v : topology().vertices()) points.push_back(m_mesh->point(v));
+    std::vector<Vec3d> points(m_mesh->size());
+    for_each_index(m_mesh->concurrency(), int(points.size()),
+                   [&](int v) { points[v] = m_mesh->point(Vertex(v)); });
+    const std::vector<Triangle> triangles = m_mesh->working().triangles(m_mesh->concurrency());
     if (!m_tree)
       m_tree.emplace(points, triangles, std::vector<int>(), m_mesh->concurrency());
     else
@@ -236,8 +263,9 @@ private:
       for (int k = begin; k < end; ++k) {
         Tracked_point& w = m_points[some[k]];
         const int hint = int(topology().face(w.face));
-        int f = m_tree->nearest(w.point, w.normal, Projection::min_normal_cosine, hint).facet;
-        if (f < 0) f = m_tree->nearest(w.point, hint).facet; // none agrees: any
+        const Vec3d &p = point(some[k]), &n = normal(some[k]);
+        int f = m_tree->nearest(p, n, Projection::min_normal_cosine, hint).facet;
+        if (f < 0) f = m_tree->nearest(p, hint).facet; // none agrees: any
         try_face(w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
       }
     });
@@ -245,59 +273,59 @@ private:
 
   void assign()
   {
-    m_at_face.resize(topology().number_of_faces());
-    for_each_index(m_mesh->concurrency(), int(m_at_face.size()),
-                   [&](int f) { m_at_face[f].clear(); });
-    for (int i = 0; i < size(); ++i) m_at_face[topology().face(m_points[i].face)].push_back(i);
+    m_moved.clear();
+    m_at_face.emplace(
+        m_mesh->concurrency(), size(), topology().num_faces(),
+        [this](int i) { return int(topology().face(m_points[i].face)); }, [](int i) { return i; });
   }
 
-  static bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+  bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c) const
   {
     const Vec3d n = cross(b - a, c - a);
-    return dot(n, w.normal) > Projection::min_normal_cosine * length(n);
+    return dot(n, surface().vertex_normals[w.vertex]) > Projection::min_normal_cosine * length(n);
   }
 
   // Assigns the face of `h` to the point if it is nearer than `distance` and agrees, or if
-  // `distance` is `any`. With v at p.
-  bool try_face(Tracked_point& w, Halfedge h, Vertex v, const Vec3d& p, double distance) const
+  // `distance` is `any`. With v at p. Returns where on the face the nearest point is.
+  std::optional<Triangle_part> try_face(Tracked_point& w, Halfedge h, Vertex v, const Vec3d& p,
+                                        double distance) const
   {
     const auto [a, b, c] = corners(h, v, p);
-    const Vec3d y = nearest_point_on_triangle(w.point, a, b, c);
-    const double d = length(y - w.point);
-    if (distance < any && !(d < distance && agrees(w, a, b, c))) return false;
-    double beta, gamma;
-    barycentric_coordinates(y, a, b, c, beta, gamma);
+    const Vec3d& x = surface().points[w.vertex];
+    Triangle_part part;
+    const Vec3d y = nearest_point_on_triangle(x, a, b, c, part);
+    const double d = length(y - x);
+    if (distance < any && !(d < distance && agrees(w, a, b, c))) return {};
     w.face = h;
     w.nearest = y;
     w.distance = d;
-    w.barycentric = {1 - beta - gamma, beta, gamma};
-    return true;
+    return part;
   }
 
   // Goes from the face on to those at the edge or corner where the nearest point is.
   void descend(Tracked_point& w) const
   {
     const auto& mesh = topology();
-    try_face(w, w.face, Vertex(), {}, any);
+    Triangle_part part = *try_face(w, w.face, Vertex(), {}, any);
     if (const auto [a, b, c] = m_mesh->points(w.face); !agrees(w, a, b, c))
       w.distance = disagreement; // worse than all that agree
     for (int step = 0; step < Projection::max_downhill_steps; ++step) {
+      if (part.kind == Triangle_part::inside) return;
       const std::array<Halfedge, 3> around{w.face, mesh.next(w.face), mesh.prev(w.face)};
-      int corner = -1, opposite = -1; // of the corners source, target, apex
-      for (int k = 0; k < 3; ++k) {
-        if (w.barycentric[k] >= 1 - rounding)
-          corner = k;
-        else if (w.barycentric[k] <= rounding)
-          opposite = k;
-      }
       bool nearer = false;
-      if (corner >= 0) {
-        for (const Halfedge h : halfedges_around_target(around[(corner + 2) % 3], mesh))
-          if (!mesh.is_border(h) && mesh.face(h) != mesh.face(w.face))
-            nearer |= try_face(w, h, Vertex(), {}, clearly_less * w.distance);
-      } else if (opposite >= 0) {
-        const Halfedge h = mesh.opposite(around[(opposite + 1) % 3]);
-        if (!mesh.is_border(h)) nearer = try_face(w, h, Vertex(), {}, clearly_less * w.distance);
+      const auto try_next = [&](Halfedge h) {
+        if (mesh.is_border(h)) return;
+        if (const auto there = try_face(w, h, Vertex(), {}, clearly_less * w.distance)) {
+          part = *there;
+          nearer = true;
+        }
+      };
+      if (part.kind == Triangle_part::edge) {
+        try_next(mesh.opposite(around[part.index]));
+      } else { // the corners are source, target and apex of the face
+        const Face from = mesh.face(w.face);
+        for (const Halfedge h : halfedges_around_target(around[(part.index + 2) % 3], mesh))
+          if (mesh.face(h) != from) try_next(h);
       }
       if (!nearer) return;
     }
@@ -330,21 +358,21 @@ private:
   {
     try_face(w, w.face, v, p, any);
     for (const Bounded_face& f : faces) {
-      const double reach = clearly_less * length(w.point - f.center) - f.radius;
+      const double reach = clearly_less * length(surface().points[w.vertex] - f.center) - f.radius;
       if (reach < w.distance) try_face(w, f.halfedge, v, p, w.distance);
     }
   }
 
   static constexpr double disagreement = std::numeric_limits<double>::max();
   static constexpr double any = std::numeric_limits<double>::infinity();
-  static constexpr double rounding = 1e-9; // of barycentric coordinates
 
   const Star_mesh* m_mesh;
   std::optional<Facet_tree> m_tree; // of the mesh's faces
   double m_tree_search_distance;    // the least distance that is searched for in the whole mesh
   std::vector<unsigned> m_seen;     // by vertex: its changes at the last update
-  std::vector<Tracked_point> m_points;
-  std::vector<boost::container::small_vector<int, 12>> m_at_face; // by face: the points
+  Unset_vector<Tracked_point> m_points;
+  std::optional<Buckets<int>> m_at_face;              // the points by face
+  std::unordered_map<Face, std::vector<int>> m_moved; // since then: all points of such faces
 };
 
 } // namespace CGAL::PowerRTF::internal

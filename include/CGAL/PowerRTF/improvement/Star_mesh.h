@@ -342,7 +342,7 @@ public:
   {
     for_each_index(m_concurrency, int(size()),
                    [&](int v) { mesh.points[v] = m.point(Vertex(Vertex::size_type(v))); });
-    mesh.triangles = m.triangles();
+    mesh.triangles = m.triangles(m_concurrency);
   }
 
 private:

@@ -54,7 +54,7 @@ private:
   bool cover(int i)
   {
     const auto& mesh = m.working().mesh;
-    const Vec3d x = m_tracker[i].point;
+    const Vec3d x = m_tracker.point(i);
     struct {
       double distance;
       Vertex v;

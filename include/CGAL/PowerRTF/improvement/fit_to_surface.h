@@ -7,7 +7,8 @@
 // vertices on the surface, a curved part has all triangles on one side of it: to move along the
 // normals halves the mean distance. Where the normals vary, on ridges and tips, the vertices are
 // also drawn sideways to where they are needed (quadrics: Garland and Heckbert, "Surface
-// simplification using quadric error metrics", 1997).
+// simplification using quadric error metrics", 1997). What is kept of each vertex, edge and face is
+// in single precision: these are moves and distances, small beside the triangles.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_FIT_TO_SURFACE_H
 #define CGAL_POWER_RTF_IMPROVEMENT_FIT_TO_SURFACE_H
 
@@ -16,39 +17,47 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
 /// A symmetric matrix of size 3.
+template <class FT>
 struct Symmetric_matrix {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  FT xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 
   /// Adds w d d^T.
-  void add(const Vec3d& d, double w)
+  void add(const Vec3<FT>& d, FT w)
   {
     xx += w * d.x * d.x, xy += w * d.x * d.y, xz += w * d.x * d.z;
     yy += w * d.y * d.y, yz += w * d.y * d.z, zz += w * d.z * d.z;
   }
-  void add_identity(double w) { xx += w, yy += w, zz += w; }
+  void add_identity(FT w) { xx += w, yy += w, zz += w; }
 
-  Vec3d operator*(const Vec3d& v) const
+  Vec3<FT> operator*(const Vec3<FT>& v) const
   {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
             xz * v.x + yz * v.y + zz * v.z};
   }
 
-  /// The x with A x = r; 0 if A is not positive definite.
-  Vec3d solve(const Vec3d& r) const
+  /// 0 if the matrix is not positive definite.
+  Symmetric_matrix inverse() const
   {
-    const Vec3d a{xx, xy, xz}, b{xy, yy, yz}, c{xz, yz, zz}, bc = cross(b, c);
-    const double determinant = dot(a, bc);
-    if (!(determinant > 0)) return {0, 0, 0};
-    return Vec3d{dot(r, bc), dot(r, cross(c, a)), dot(r, cross(a, b))} * (1 / determinant);
+    const Vec3<FT> a{xx, xy, xz}, b{xy, yy, yz}, c{xz, yz, zz};
+    const Vec3<FT> bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+    const FT determinant = dot(a, bc);
+    if (!(determinant > 0)) return {};
+    const FT i = 1 / determinant;
+    return {i * bc.x, i * bc.y, i * bc.z, i * ca.y, i * ca.z, i * ab.z};
+  }
+
+  Symmetric_matrix<float> rounded() const
+  {
+    return {float(xx), float(xy), float(xz), float(yy), float(yz), float(zz)};
   }
 };
 
@@ -66,10 +75,13 @@ public:
       : m(mesh), m_tracker(tracker), m_flat(flat), m_badness_limit(limit),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size()))),
         m_tangential_weight(is_even(mesh.projector().surface()) ? Parameters::even_tangential_weight
-                                                                : Parameters::tangential_weight),
-        m_centroids(mesh.working().mesh.num_faces()), m_middles(mesh.working().mesh.num_edges()),
-        m_unknowns(mesh.size()), m_coupling(mesh.working().mesh.num_edges())
-  {}
+                                                                : Parameters::tangential_weight)
+  {
+    m_centroids.resize(mesh.working().mesh.num_faces());
+    m_middles.resize(mesh.working().mesh.num_edges());
+    m_unknowns.resize(mesh.size());
+    m_coupling.resize(mesh.working().mesh.num_edges());
+  }
 
   void run()
   {
@@ -88,28 +100,35 @@ private:
 
   // A point of the mesh is to move by `distance` along `direction`, to a place of the surface.
   struct Target {
-    Vec3d direction{0, 0, 0}, place{0, 0, 0};
-    double distance = 0, weight = 0;
+    Vec3<float> direction{0, 0, 0};
+    float distance = 0, weight = 0;
     int facet = -1; // of the place; -1: there is none
   };
 
   struct Unknown {
-    Symmetric_matrix matrix;
-    Vec3d right{0, 0, 0}, move{0, 0, 0};
-    Vec3d normal{0, 0, 0}; // of the surface at the vertex, as it is there
+    Symmetric_matrix<float> inverse; // of its own part of the matrix
+    Vec3<float> right{0, 0, 0}, move{0, 0, 0};
+    float longest = 0;
+    bool is_flat = false; // it lies in a flat patch
+  };
+
+  // What is gathered around a vertex.
+  struct Equations {
+    Symmetric_matrix<double> matrix;
+    Vec3d right{0, 0, 0};
     double weight = 0, longest = 0;
     double around = 0, level = 0; // area of the star, and of what is in the plane of the vertex
-
-    bool is_flat() const { return level > Parameters::flat_share * around; }
 
     // Of a point with the coordinate `b` at the vertex.
     void add(const Target& t, double b)
     {
       if (t.facet < 0 || !(b > 0)) return;
-      matrix.add(t.direction, t.weight * b * b);
-      right += (t.weight * b * t.distance) * t.direction;
-      weight += t.weight * b * b;
-      if (b > 0.1) longest = std::max(longest, std::abs(t.distance));
+      const Vec3d direction = to_double(t.direction);
+      const double w = t.weight * b;
+      matrix.add(direction, w * b);
+      right += (w * t.distance) * direction;
+      weight += w * b;
+      if (b > 0.1) longest = std::max(longest, std::abs(double(t.distance)));
     }
   };
 
@@ -167,33 +186,38 @@ private:
     Unknown u;
     const auto& mesh = m.working().mesh;
     if (!m.is_movable(v)) return u;
-    const Vec3d normal_now = m.normal(v);
+    Equations sum;
+    const Vec3d p = m.point(v), n = m.normal(v);
     for (const Halfedge h : halfedges_around_target(v, mesh)) {
-      const Target& middle = m_middles[mesh.edge(h)];
-      u.add(middle, 0.5);
-      note_level(u, v, middle);
-      const Face f = mesh.face(h);
-      u.add(m_centroids[f], 1 / 3.);
-      note_level(u, v, m_centroids[f]);
-      u.add({normal_now, {}, -m.height(v), m_centroids[f].weight / 9, 0}, 1);
-      for (const int i : m_tracker.at_face(f)) u.add(tracked(i), barycentric(i, v));
+      const Target &middle = m_middles[mesh.edge(h)], &centroid = m_centroids[mesh.face(h)];
+      const Vec3d to_source = m.point(mesh.source(h)) - p,
+                  to_apex = m.point(m.working().apex(h)) - p;
+      sum.add(middle, 0.5);
+      note_level(sum, v, middle, 0.5 * to_source);
+      sum.add(centroid, 1 / 3.);
+      note_level(sum, v, centroid, (1 / 3.) * (to_source + to_apex));
+      sum.add({to_real<float>(n), float(-m.height(v)), centroid.weight / 9, 0}, 1);
+      for (const int i : m_tracker.at_face(mesh.face(h))) sum.add(tracked(i), barycentric(i, v));
     }
-    u.normal = u.is_flat() ? m.projector().surface().facet_normals[m.facet(v)] : normal_now;
-    u.matrix.add_identity(m_tangential_weight * u.weight);
-    u.matrix.add(u.normal,
-                 ((u.is_flat() ? Parameters::flat_normal_weight : Parameters::normal_weight) -
-                  m_tangential_weight) *
-                     u.weight);
+    u.is_flat = sum.level > Parameters::flat_share * sum.around;
+    sum.matrix.add_identity(m_tangential_weight * sum.weight);
+    sum.matrix.add(u.is_flat ? m.projector().surface().facet_normals[m.facet(v)] : n,
+                   ((u.is_flat ? Parameters::flat_normal_weight : Parameters::normal_weight) -
+                    m_tangential_weight) *
+                       sum.weight);
+    u.inverse = sum.matrix.inverse().rounded();
+    u.right = to_real<float>(sum.right);
+    u.longest = float(sum.longest);
     return u;
   }
 
   // Of the two ends of an edge.
-  Symmetric_matrix coupling(Edge e) const
+  Symmetric_matrix<float> coupling(Edge e) const
   {
     const auto& mesh = m.working().mesh;
-    Symmetric_matrix sum;
+    Symmetric_matrix<double> sum;
     const auto add = [&sum](const Target& t, double b, double c) {
-      if (t.facet >= 0 && b > 0 && c > 0) sum.add(t.direction, t.weight * b * c);
+      if (t.facet >= 0 && b > 0 && c > 0) sum.add(to_double(t.direction), t.weight * b * c);
     };
     add(m_middles[e], 0.5, 0.5);
     for (const Halfedge h : {mesh.halfedge(e, 0), mesh.halfedge(e, 1)}) {
@@ -202,22 +226,27 @@ private:
       for (const int i : m_tracker.at_face(mesh.face(h)))
         add(tracked(i), barycentric(i, mesh.source(h)), barycentric(i, mesh.target(h)));
     }
-    return sum;
+    return sum.rounded();
   }
 
   Target tracked(int i) const
   {
     const auto& w = m_tracker[i];
-    return {w.distance > 0 ? (w.point - w.nearest) * (1 / w.distance) : w.normal, w.point,
-            w.distance, m_tracked_weight * w.weight, w.facet};
+    const Vec3d direction =
+        w.distance > 0 ? (m_tracker.point(i) - w.nearest) * (1 / w.distance) : m_tracker.normal(i);
+    return {to_real<float>(direction), float(w.distance), float(m_tracked_weight * w.weight),
+            w.facet};
   }
 
-  // Of the tracked point: its coordinate at a corner of its face.
+  // Of the place of the mesh that is nearest to a tracked point: its coordinate at a corner.
   double barycentric(int i, Vertex v) const
   {
     const auto& w = m_tracker[i];
     const auto corners = m.working().corners(w.face);
-    return w.barycentric[std::find(corners.begin(), corners.end(), v) - corners.begin()];
+    const auto [a, b, c] = m.points(w.face);
+    double beta, gamma;
+    barycentric_coordinates(w.nearest, a, b, c, beta, gamma);
+    return v == corners[1] ? beta : v == corners[2] ? gamma : 1 - beta - gamma;
   }
 
   double area(Halfedge h) const
@@ -241,31 +270,33 @@ private:
       if (nearest < 0 || barycentric[k] > barycentric[nearest]) nearest = k;
     }
     Target result;
-    result.weight = weight;
+    result.weight = float(weight);
     if (nearest < 0) return result; // no corner can move
     const Vertex guide = mesh.source(edges[nearest]);
     n = squared_length(n) > 0 ? normalized(n) : m.normal(guide); // the middle of a feature edge
     const auto place = m.projector().project(p, n, near_facet(mesh.face(edges[0]), p, n, guide));
     result.facet = place.facet;
     if (place.facet < 0) return result;
-    result.place = place.point;
-    result.distance = length(place.point - p);
-    result.direction = result.distance > 0 ? (place.point - p) * (1 / result.distance) : n;
+    const double distance = length(place.point - p);
+    result.distance = float(distance);
+    result.direction = to_real<float>(distance > 0 ? (place.point - p) * (1 / distance) : n);
     return result;
   }
 
-  // Whether a place of the surface is in the plane of the facet that carries `v`.
-  void note_level(Unknown& u, Vertex v, const Target& t) const
+  // Whether a place of the surface is in the plane of the facet that carries `v`. `offset`: from
+  // there to the point of the mesh.
+  void note_level(Equations& sum, Vertex v, const Target& t, Vec3d offset) const
   {
     if (t.facet < 0) return;
     const auto& normals = m.projector().surface().facet_normals;
-    const Vec3d &n = normals[m.facet(v)], offset = t.place - m.point(v);
+    const Vec3d& n = normals[m.facet(v)];
+    offset += double(t.distance) * to_double(t.direction);
     const double height = dot(offset, n);
-    u.around += t.weight;
+    sum.around += t.weight;
     if (m_flat.width(m.facet(v)) > Parameters::flat_width * m_spacing &&
         dot(normals[t.facet], n) > Parameters::coplanar_cosine &&
         height * height < (1 - Parameters::coplanar_cosine) * squared_length(offset))
-      u.level += t.weight;
+      sum.level += t.weight;
   }
 
   // A facet near the point `p` of a face: that of `guide`, or of a point that is tracked there, on
@@ -276,8 +307,8 @@ private:
     double least = squared_length(m.point(guide) - p);
     for (const int i : m_tracker.at_face(f)) {
       const auto& w = m_tracker[i];
-      const double d = squared_length(w.point - p);
-      if (!(d < least) || !(dot(w.normal, n) > Parameters::sheet_cosine) ||
+      const double d = squared_length(m_tracker.point(i) - p);
+      if (!(d < least) || !(dot(m_tracker.normal(i), n) > Parameters::sheet_cosine) ||
           !m.projector().are_on_one_patch(w.facet, m.facet(guide)))
         continue;
       facet = w.facet;
@@ -293,11 +324,11 @@ private:
       m.for_each_vertex([&](Vertex v) {
         if (!m.is_movable(v)) return;
         Unknown& u = m_unknowns[v];
-        Vec3d right = u.right;
+        Vec3<float> right = u.right;
         for (const Halfedge h : halfedges_around_target(v, mesh))
           right -= m_coupling[mesh.edge(h)] * m_unknowns[mesh.source(h)].move;
-        u.move = u.matrix.solve(right);
-        const double l = length(u.move);
+        u.move = u.inverse * right;
+        const float l = length(u.move);
         if (l > u.longest) u.move *= u.longest / l;
       });
   }
@@ -305,8 +336,8 @@ private:
   void move(Vertex v)
   {
     const Unknown& u = m_unknowns[v];
-    const Vec3d n = u.is_flat() ? u.normal : Vec3d{0, 0, 0};
-    const Vec3d p = m.point(v), q = p + u.move - dot(u.move, n) * n;
+    const Vec3d n = u.is_flat ? m.projector().surface().facet_normals[m.facet(v)] : Vec3d{0, 0, 0};
+    const Vec3d p = m.point(v), step = to_double(u.move), q = p + step - dot(step, n) * n;
     for (const Star::Corner& c : m.star(v).corners) {
       const Vec3d before = cross(c.a - p, c.b - p), after = cross(c.a - q, c.b - q);
       if (!(dot(before, after) > Parameters::max_turn_cosine * length(before) * length(after)))
@@ -321,11 +352,11 @@ private:
   const Distance_tracker& m_tracker;
   const Flat_patches& m_flat;
   double m_badness_limit, m_spacing, m_tangential_weight, m_tracked_weight = 0;
-  std::vector<Target> m_centroids; // by face
-  std::vector<Target> m_middles;   // by edge
+  Unset_vector<Target> m_centroids; // by face
+  Unset_vector<Target> m_middles;   // by edge
   // the normal equations, and their solution
-  std::vector<Unknown> m_unknowns;          // by vertex
-  std::vector<Symmetric_matrix> m_coupling; // by edge
+  Unset_vector<Unknown> m_unknowns;                 // by vertex
+  Unset_vector<Symmetric_matrix<float>> m_coupling; // by edge
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -133,7 +133,7 @@ private:
     double least = Parameters::min_distance * m_spacing;
     std::vector<Tip> all;
     for (const int i : m_tracker.farther_than(least))
-      all.push_back({m_tracker[i].distance, m_tracker[i].point, m_tracker[i].nearest,
+      all.push_back({m_tracker[i].distance, m_tracker.point(i), m_tracker[i].nearest,
                      m_tracker[i].face, false});
     const auto& mesh = m.working().mesh;
     for (const int e : select(m.concurrency(), int(mesh.num_edges()), [&](int e) {

@@ -32,6 +32,15 @@ CGAL_POWER_RTF_HD inline void atomic_add(long long* p, long long x)
 /// Returns the value before.
 inline int atomic_exchange(int* p, int x) { return __atomic_exchange_n(p, x, __ATOMIC_RELAXED); }
 
+/// Writes `x` if it is larger than what stands there.
+inline void atomic_max(int* p, int x)
+{
+  int before = __atomic_load_n(p, __ATOMIC_RELAXED);
+  while (before < x &&
+         !__atomic_compare_exchange_n(p, &before, x, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+  }
+}
+
 inline double atomic_load(const double* p)
 {
   double x;
