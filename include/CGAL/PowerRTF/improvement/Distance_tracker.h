@@ -8,11 +8,10 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 #define CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 
-#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/tracked_points.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
-#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -37,33 +36,16 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Face = Working_mesh::Face;
 
-  /// A vertex of the surface and where the mesh is nearest to it.
-  struct Tracked_point {
-    Vec3d nearest;
-    double distance;
-    Halfedge face;
-    int vertex, facet; ///< of the surface
-    float weight;      ///< area of the surface that it stands for, of its vertices
-  };
-
   /// \pre `mesh` has a face
   explicit Distance_tracker(const Star_mesh& mesh)
       : m_mesh(&mesh),
         m_tree_search_distance(Parameters::tree_search_distance *
                                std::sqrt(mesh.projector().surface().area / double(mesh.size()))),
-        m_seen(mesh.size(), 0)
+        m_seen(mesh.size(), 0),
+        m_points(tracked_points(surface(), mesh.projector().tree(),
+                                Parameters::max_points_per_vertex * mesh.size(),
+                                mesh.concurrency()))
   {
-    choose_points();
-    const std::vector<Halfedge> starts = first_faces();
-    for_each_chunk(mesh.concurrency(), size(), chunk, [&](int begin, int end) {
-      Halfedge start = starts[begin / chunk];
-      for (int i = begin; i < end; ++i) { // in spatial order: most often it is not far
-        Tracked_point& w = m_points[i];
-        w.face = start;
-        descend(w);
-        if (w.distance <= m_tree_search_distance) start = w.face;
-      }
-    });
     find_far();
   }
 
@@ -111,14 +93,14 @@ public:
     const int vertices = int(m_mesh->size());
     std::vector<char> changed(vertices); // by vertex: its star
     for_each_index(m_mesh->concurrency(), vertices,
-                   [&](int i) { changed[i] = has_changed_around(Vertex(Vertex::size_type(i))); });
+                   [&](int i) { changed[i] = has_changed_around(Vertex(i)); });
     for_each_index(m_mesh->concurrency(), size(), [&](int i) {
       Tracked_point& w = m_points[i];
       const auto [a, b, c] = m_mesh->working().corners(w.face);
       if (changed[a] || changed[b] || changed[c]) descend(w);
     });
     for_each_index(m_mesh->concurrency(), vertices,
-                   [&](int i) { m_seen[i] = m_mesh->changes(Vertex(Vertex::size_type(i))); });
+                   [&](int i) { m_seen[i] = m_mesh->changes(Vertex(i)); });
     find_far();
   }
 
@@ -162,7 +144,6 @@ public:
 private:
   using Parameters = Improvement_parameters::Tracking;
   using Projection = Improvement_parameters::Projection;
-  static constexpr int chunk = 1024; // of the points
 
   // A face in a ball.
   struct Bounded_face {
@@ -175,39 +156,9 @@ private:
   const Working_mesh::Mesh& topology() const { return m_mesh->working().mesh; }
   const Surface& surface() const { return m_mesh->projector().surface(); }
 
-  // In spatial order: that in which the facets of the tree come to them. Of a surface with very
-  // many vertices, every k-th.
-  void choose_points()
-  {
-    const Concurrency concurrency = m_mesh->concurrency();
-    const Facet_tree& tree = m_mesh->projector().tree();
-    const int vertices = int(surface().points.size()), places = int(tree.order().size());
-    const auto corners = vertex_corners(surface().triangles, vertices, concurrency);
-    const auto for_each_corner = [&](int v, auto&& f) {
-      for (int c = corners.first[v]; c < corners.first[v + 1]; ++c) f(corners.entries[c]);
-    };
-    const auto vertex = [&](int rank) {
-      return surface().triangles[tree.order()[rank / 3]][rank % 3];
-    };
-    std::vector<int> ranks(vertices, std::numeric_limits<int>::max()); // of the first corners
-    for_each_index(concurrency, vertices, [&](int v) {
-      for_each_corner(v,
-                      [&](int c) { ranks[v] = std::min(ranks[v], 3 * tree.place(c / 3) + c % 3); });
-    });
-    const std::vector<int> first =
-        select(concurrency, 3 * places, [&](int rank) { return ranks[vertex(rank)] == rank; });
-    const int stride = 1 + int(vertices / (Parameters::max_points_per_vertex * m_mesh->size()));
-    m_points.resize((first.size() + stride - 1) / stride);
-    for_each_index(concurrency, size(), [&](int i) {
-      const int rank = first[i * stride], v = vertex(rank);
-      double area = 0;
-      for_each_corner(v, [&](int c) { area += surface().facet_areas[c / 3] / 3; });
-      m_points[i] = {surface().points[v], 0, Halfedge(), v, tree.order()[rank / 3], float(area)};
-    });
-  }
-
-  // By chunk of the points: a face near its first.
-  std::vector<Halfedge> first_faces() const
+  // Descends, for some points, from vertices of the mesh that the facet of the surface there
+  // carries, or those near in the order of the tree, until a point is not far.
+  void descend_from_carriers(const std::vector<int>& some)
   {
     const Concurrency concurrency = m_mesh->concurrency();
     const Facet_tree& tree = m_mesh->projector().tree();
@@ -217,17 +168,21 @@ private:
       if (!topology().is_isolated(Vertex(v)))
         atomic_max(&at_place[tree.place(m_mesh->facet(Vertex(v)))], v);
     });
-    std::vector<Halfedge> faces((size() + chunk - 1) / chunk);
-    for_each_chunk(concurrency, int(faces.size()), 1, [&](int k, int) {
-      const int place = tree.place(m_points[k * chunk].facet);
-      const auto is_at = [&](int at) { return at >= 0 && at < places && at_place[at] >= 0; };
-      int distance = 0;
-      while (!is_at(place - distance) && !is_at(place + distance)) ++distance;
-      const Halfedge h = topology().halfedge(
-          Vertex(at_place[is_at(place - distance) ? place - distance : place + distance]));
-      faces[k] = topology().is_border(h) ? topology().opposite(h) : h;
+    for_each_index(concurrency, int(some.size()), [&](int k) {
+      Tracked_point& best = m_points[some[k]];
+      const int place = tree.place(best.facet);
+      for (int distance = 0, tries = 0; distance < places; ++distance)
+        for (const int at : {place - distance, place + distance}) {
+          if (at < 0 || at >= places || at_place[at] < 0) continue;
+          Tracked_point w = best;
+          const Halfedge h = topology().halfedge(Vertex(at_place[at]));
+          w.face = topology().is_border(h) ? topology().opposite(h) : h;
+          descend(w);
+          if (w.distance < best.distance) best = w;
+          if (best.distance <= m_tree_search_distance || ++tries == Parameters::max_carriers)
+            return;
+        }
     });
-    return faces;
   }
 
   // Since the last update.
@@ -243,7 +198,9 @@ private:
   // Those that seem to be far are searched for in the whole mesh.
   void find_far()
   {
-    const std::vector<int> far = farther_than(m_tree_search_distance);
+    std::vector<int> far = farther_than(m_tree_search_distance);
+    if (!far.empty()) descend_from_carriers(far);
+    far = farther_than(m_tree_search_distance);
     if (!far.empty()) search_mesh(far);
     assign();
   }
@@ -251,23 +208,56 @@ private:
   // \pre all faces are there: what has been taken out has been put back elsewhere
   void search_mesh(const std::vector<int>& some)
   {
-    std::vector<Vec3d> points(m_mesh->size());
-    for_each_index(m_mesh->concurrency(), int(points.size()),
-                   [&](int v) { points[v] = m_mesh->point(Vertex(v)); });
-    const std::vector<Triangle> triangles = m_mesh->working().triangles(m_mesh->concurrency());
-    if (!m_tree)
-      m_tree.emplace(points, triangles, std::vector<int>(), m_mesh->concurrency());
-    else
-      m_tree->refit(points, triangles);
-    for_each_chunk(m_mesh->concurrency(), int(some.size()), 16, [&](int begin, int end) {
+    const Concurrency concurrency = m_mesh->concurrency();
+    if (some.size() <= few)
+      for (const int i : some)
+        if (m_points[i].distance == disagreement)
+          m_points[i].distance = least_distance(m_points[i]);
+    const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
+      return some.size() > few || is_in_reach(Face(f), some);
+    });
+    std::vector<Vec3d> points(3 * faces.size());
+    std::vector<Triangle> triangles(faces.size());
+    for_each_index(concurrency, int(faces.size()), [&](int k) {
+      const auto corners = m_mesh->points(topology().halfedge(Face(faces[k])));
+      std::copy(corners.begin(), corners.end(), &points[3 * k]);
+      triangles[k] = {3 * k, 3 * k + 1, 3 * k + 2};
+    });
+    const Facet_tree tree(points, triangles, {}, concurrency);
+    for_each_chunk(concurrency, int(some.size()), 16, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         Tracked_point& w = m_points[some[k]];
-        const int hint = int(topology().face(w.face));
         const Vec3d &p = point(some[k]), &n = normal(some[k]);
-        int f = m_tree->nearest(p, n, Projection::min_normal_cosine, hint).facet;
-        if (f < 0) f = m_tree->nearest(p, hint).facet; // none agrees: any
-        try_face(w, topology().halfedge(Face(Face::size_type(f))), Vertex(), {}, any);
+        int f = tree.nearest(p, n, Projection::min_normal_cosine, -1).facet;
+        if (f < 0) f = tree.nearest(p).facet; // none agrees: any
+        try_face(w, topology().halfedge(Face(faces[f])), Vertex(), {}, any);
       }
+    });
+  }
+
+  // To the faces that agree.
+  double least_distance(const Tracked_point& w) const
+  {
+    return reduce(
+        m_mesh->concurrency(), int(topology().num_faces()), disagreement,
+        [&](double& least, int f) {
+          Tracked_point there = w;
+          if (try_face(there, topology().halfedge(Face(f)), Vertex(), {}, least))
+            least = there.distance;
+        },
+        [](double& least, double part) { least = std::min(least, part); });
+  }
+
+  // Whether the face may be nearer to one of the points than what was found.
+  bool is_in_reach(Face f, const std::vector<int>& some) const
+  {
+    const auto [a, b, c] = m_mesh->points(topology().halfedge(f));
+    Box3<double> box{a, a};
+    box.add(b);
+    box.add(c);
+    return std::any_of(some.begin(), some.end(), [&](int i) {
+      const double reach = m_points[i].distance;
+      return clearly_less * squared_distance(box, point(i)) <= reach * reach;
     });
   }
 
@@ -364,12 +354,12 @@ private:
   }
 
   static constexpr double disagreement = std::numeric_limits<double>::max();
+  static constexpr std::size_t few = 64; // points: each is compared with all faces
   static constexpr double any = std::numeric_limits<double>::infinity();
 
   const Star_mesh* m_mesh;
-  std::optional<Facet_tree> m_tree; // of the mesh's faces
-  double m_tree_search_distance;    // the least distance that is searched for in the whole mesh
-  std::vector<unsigned> m_seen;     // by vertex: its changes at the last update
+  double m_tree_search_distance; // the least distance that is searched for in the whole mesh
+  std::vector<unsigned> m_seen;  // by vertex: its changes at the last update
   Unset_vector<Tracked_point> m_points;
   std::optional<Buckets<int>> m_at_face;              // the points by face
   std::unordered_map<Face, std::vector<int>> m_moved; // since then: all points of such faces

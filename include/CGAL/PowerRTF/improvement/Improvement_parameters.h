@@ -47,6 +47,7 @@ struct Improvement_parameters {
   struct Tracking {
     static constexpr int max_points_per_vertex = 16;     ///< of the mesh
     static constexpr double tree_search_distance = 0.25; ///< in h: larger ones are exact
+    static constexpr int max_carriers = 8; ///< vertices from which a far point is looked for
   };
 
   /// smooth_mesh.h
