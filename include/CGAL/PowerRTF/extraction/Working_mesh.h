@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -101,20 +102,32 @@ struct Working_mesh {
     return faces_at(mesh.vertices_around_target(mesh.halfedge(v)));
   }
 
-  /// Adds the neighbors of the vertices, and sorts all.
-  void add_neighbors(std::vector<Vertex>& vertices) const
+  /// Adds the vertices that are at most so many edges away, and sorts all.
+  void add_neighbors(std::vector<Vertex>& vertices, int rings = 1) const
   {
-    add_neighbors(vertices, [](Vertex) { return true; });
+    add_neighbors(vertices, rings, [](Vertex) { return true; });
   }
-  /// The same for those that `is_wanted()`.
+  /// The same for those that `is_wanted()`, and only through such.
   template <class IsWanted>
-  void add_neighbors(std::vector<Vertex>& vertices, IsWanted&& is_wanted) const
+  void add_neighbors(std::vector<Vertex>& vertices, int rings, IsWanted&& is_wanted) const
   {
     sort_uniquely(vertices);
-    for (std::size_t k = 0, size = vertices.size(); k < size; ++k)
-      for (const Halfedge h : halfedges_around_target(vertices[k], mesh))
-        if (is_wanted(mesh.source(h))) vertices.push_back(mesh.source(h));
-    sort_uniquely(vertices);
+    std::vector<Vertex> last = vertices, next, all;
+    for (int ring = 0; ring < rings; ++ring) {
+      next.clear();
+      for (const Vertex v : last)
+        for (const Halfedge h : halfedges_around_target(v, mesh)) next.push_back(mesh.source(h));
+      sort_uniquely(next);
+      last.clear();
+      std::set_difference(next.begin(), next.end(), vertices.begin(), vertices.end(),
+                          std::back_inserter(last));
+      last.erase(std::remove_if(last.begin(), last.end(), [&](Vertex v) { return !is_wanted(v); }),
+                 last.end());
+      all.clear();
+      std::set_union(vertices.begin(), vertices.end(), last.begin(), last.end(),
+                     std::back_inserter(all));
+      vertices.swap(all);
+    }
   }
 
   /// The neighbors of `v` along creases and borders that must stay.

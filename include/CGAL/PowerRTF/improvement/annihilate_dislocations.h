@@ -222,9 +222,8 @@ private:
     std::vector<Vertex> near;
     for (const Edge e : edges)
       for (const Vertex v : m.corners(e)) near.push_back(v);
-    for (int ring = 0; ring < rings; ++ring)
-      m.working().add_neighbors(
-          near, [this](Vertex v) { return degree(v) < Parameters::irregular_degree; });
+    m.working().add_neighbors(
+        near, rings, [this](Vertex v) { return degree(v) < Parameters::irregular_degree; });
     return near;
   }
 

@@ -218,7 +218,7 @@ private:
     std::vector<Vertex> locked;
     for (const Face f : broken)
       for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) locked.push_back(v);
-    for (int ring = 0; ring < rings; ++ring) stars.working().add_neighbors(locked);
+    stars.working().add_neighbors(locked, rings);
     for (const Vertex v : locked) m_locked[v] = true;
   }
 
