@@ -92,13 +92,11 @@ private:
   {
     const Star star = m.star(v);
     const Vec3d p = m.point(v), n = m.normal(v);
-    const double agreement = m.agreement(star, p, n);
-    const double least = std::min(Parameters::min_agreement, agreement);
 
     // gradient and Hessian in the plane (u, w); areas are linear there but for the curvature
     const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
                 w = cross(n, u);
-    double gu = 0, gw = 0, huu = 0, huw = 0, hww = 0, shortest = -1;
+    double now = 0, gu = 0, gw = 0, huu = 0, huw = 0, hww = 0, shortest = -1;
     for (const Star::Corner& c : star.corners) {
       const Vec3d e = c.a - p, f = c.b - p, area = cross(e, f);
       const double a = length(area), ee = squared_length(e), ff = squared_length(f),
@@ -108,6 +106,7 @@ private:
       const Vec3d dl = -2 * (e + f), da = cross(e - f, area) * (1 / a);
       const double lu = dot(dl, u), lw = dot(dl, w), au = dot(da, u), aw = dot(da, w), i = 1 / a,
                    i2 = i * i, i3 = 2 * l * i2 * i;
+      now += l / a;
       gu += lu * i - l * au * i2;
       gw += lw * i - l * aw * i2;
       huu += 4 * i - 2 * lu * au * i2 + i3 * au * au;
@@ -122,13 +121,13 @@ private:
     if (!(size > Parameters::min_step * unit)) return;
     if (size > limit) su *= limit / size, sw *= limit / size;
 
-    const double now = energy(star, p);
     for (int halving = 0; halving < 3; ++halving, su /= 2, sw /= 2) {
       const Vec3d q = p + su * u + sw * w;
       if (!(energy(star, q) < now)) continue;
       const auto place = m.project(v, q);
       if (place.facet < 0 || !(energy(star, place.point) < now)) continue;
-      if (m.agreement(star, place.point, place.normal) < least) continue;
+      const double agreement = m.agreement(star, place.point, place.normal);
+      if (agreement < Parameters::min_agreement && agreement < m.agreement(star, p, n)) continue;
       m.move(v, place);
       return;
     }
