@@ -29,11 +29,17 @@ public:
   using Mesh = Working_mesh::Mesh;
   using Vertex = Working_mesh::Vertex;
 
+  /// After an edge has changed; many may at once.
+  void note_change()
+  {
+    if (atomic_load(&m_is_current)) atomic_store(&m_is_current, false);
+  }
+
   /// Calls `f(v)` for all vertices of the mesh as it is now.
   template <class F>
   void for_each(const Mesh& mesh, Concurrency concurrency, F&& f)
   {
-    update(mesh, concurrency);
+    if (!m_is_current) update(mesh, concurrency);
     for_each_chunk(concurrency, int(m_colors.size()), block, [&](int begin, int end) {
       for (int v = begin; v < end; ++v)
         if (m_colors[v] == inside) f(Vertex(v));
@@ -78,6 +84,7 @@ private:
       m_classes.resize(std::max(m_classes.size(), std::size_t(m_colors[v]) + 1));
       m_classes[m_colors[v]].push_back(Vertex(v));
     }
+    m_is_current = true;
   }
 
   static bool is_inside(const Mesh& mesh, Vertex v)
@@ -126,6 +133,7 @@ private:
     return false;
   }
 
+  int m_is_current = false;                   // has been updated since the last change
   std::vector<int> m_colors;                  // by vertex
   std::vector<std::vector<Vertex>> m_classes; // by color
 };

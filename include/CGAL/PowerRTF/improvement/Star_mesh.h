@@ -61,15 +61,16 @@ public:
     m.normals.resize(n);
     for (const auto& [a, b] : mesh.feature_edges) {
       m_on_feature[a] = m_on_feature[b] = true;
-      const Halfedge h =
-          m.mesh.halfedge(Vertex(Vertex::size_type(a)), Vertex(Vertex::size_type(b)));
+      const Halfedge h = m.mesh.halfedge(Vertex(a), Vertex(b));
       if (h.is_valid()) m_is_feature[m.mesh.edge(h)] = true;
     }
-    for_each_index(concurrency, int(n), [&](int v) {
-      const auto place = projector.nearest(mesh.points[v]);
-      m_facets[v] = place.facet;
-      m.normals[v] = place.normal;
-      m_movable[v] = is_interior(Vertex(Vertex::size_type(v)));
+    for_each_chunk(concurrency, int(n), 256, [&](int begin, int end) {
+      for (int v = begin; v < end; ++v) {
+        const auto place = projector.nearest(mesh.points[v], v > begin ? m_facets[v - 1] : -1);
+        m_facets[v] = place.facet;
+        m.normals[v] = place.normal;
+        m_movable[v] = is_interior(Vertex(v));
+      }
     });
   }
 
@@ -77,8 +78,9 @@ public:
   void lock(const std::vector<char>& locked)
   {
     m_locked = locked;
-    for (std::size_t v = 0; v < size(); ++v)
+    for_each_index(m_concurrency, int(size()), [&](int v) {
       if (locked[v]) m_movable[v] = false;
+    });
   }
 
   /// Undoes `lock()`.
@@ -87,8 +89,7 @@ public:
     for (const Vertex v : m.mesh.vertices()) {
       if (!m_locked[v]) continue;
       touch(v);
-      m_locked[v] = false;
-      m_movable[v] = is_interior(v);
+      m_locked[v] = false, m_movable[v] = is_interior(v);
     }
   }
 
@@ -102,16 +103,14 @@ public:
   void pin(Vertex v)
   {
     touch(v);
-    m_movable[v] = false;
-    m_pinned[v] = true;
+    m_movable[v] = false, m_pinned[v] = true;
   }
   /// \returns whether `v` was pinned.
   bool release(Vertex v)
   {
     if (!m_pinned[v]) return false;
     touch(v);
-    m_pinned[v] = false;
-    m_movable[v] = true;
+    m_movable[v] = true, m_pinned[v] = false;
     return true;
   }
 
@@ -243,6 +242,7 @@ public:
   void flip(Edge e)
   {
     for (const Vertex v : corners(e)) touch(v);
+    m_independent.note_change();
     m_edits.flip(m.mesh, e);
   }
 
@@ -276,6 +276,7 @@ public:
     template <class F>
     void undo(F&& f)
     {
+      m.m_independent.note_change();
       m.m_edits.undo(m.m.mesh, m_edits);
       for (; m.m_past.size() > m_past; m.m_past.pop_back()) {
         m.restore(m.m_past.back());
@@ -294,6 +295,7 @@ public:
   {
     const Vertex target = m.mesh.target(h);
     for (const Vertex v : {m.mesh.source(h), target}) touch(v);
+    m_independent.note_change();
     const Surface_projector::Place there = place(target);
     const double height = m_heights[target];
     const Vertex kept = m_edits.collapse(m, h);
@@ -307,6 +309,7 @@ public:
   /// been taken out.
   Vertex split(Halfedge h, const Surface_projector::Place& place)
   {
+    m_independent.note_change();
     const Vertex v = m_edits.split(m.mesh, h);
     move(v, place);
     touch_around(v);
@@ -340,8 +343,7 @@ public:
 
   void write(Extracted_mesh& mesh) const
   {
-    for_each_index(m_concurrency, int(size()),
-                   [&](int v) { mesh.points[v] = m.point(Vertex(Vertex::size_type(v))); });
+    for_each_index(m_concurrency, int(size()), [&](int v) { mesh.points[v] = m.point(Vertex(v)); });
     mesh.triangles = m.triangles(m_concurrency);
   }
 

@@ -26,8 +26,11 @@ public:
       : m_surface(surface), m_tree(tree)
   {}
 
-  /// The nearest place to `p`.
-  Place nearest(const Vec3d& p) const { return place(m_tree.nearest(p)); }
+  /// The nearest place to `p`. `hint`: a facet that is probably near, or -1.
+  Place nearest(const Vec3d& p, int hint = -1) const
+  {
+    return place(m_tree.nearest_anywhere(p, hint));
+  }
 
   /// The nearest place to `p` on the facets of the patch of `start` that agree with `normal`, found
   /// by descent from facet to facet: the nearest around. If facet `start` does not agree, the
