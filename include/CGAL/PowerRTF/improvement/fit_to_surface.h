@@ -81,6 +81,7 @@ public:
     m_middles.resize(mesh.working().mesh.num_edges());
     m_unknowns.resize(mesh.size());
     m_coupling.resize(mesh.working().mesh.num_edges());
+    m_moves.resize(mesh.size());
   }
 
   void run()
@@ -107,7 +108,7 @@ private:
 
   struct Unknown {
     Symmetric_matrix<float> inverse; // of its own part of the matrix
-    Vec3<float> right{0, 0, 0}, move{0, 0, 0};
+    Vec3<float> right{0, 0, 0};
     float longest = 0;
     bool is_flat = false; // it lies in a flat patch
   };
@@ -153,8 +154,10 @@ private:
     for_each_index(concurrency, int(mesh.num_edges()), [&](int e) {
       if (!mesh.is_removed(Edge(e))) m_middles[e] = middle(Edge(e));
     });
-    for_each_index(concurrency, int(mesh.num_vertices()),
-                   [&](int v) { m_unknowns[v] = unknown(Vertex(v)); });
+    for_each_index(concurrency, int(mesh.num_vertices()), [&](int v) {
+      m_unknowns[v] = unknown(Vertex(v));
+      m_moves[v] = {0, 0, 0};
+    });
     for_each_index(concurrency, int(mesh.num_edges()), [&](int e) {
       if (!mesh.is_removed(Edge(e))) m_coupling[e] = coupling(Edge(e));
     });
@@ -323,13 +326,14 @@ private:
     for (int sweep = 0; sweep < Parameters::sweeps; ++sweep)
       m.for_each_vertex([&](Vertex v) {
         if (!m.is_movable(v)) return;
-        Unknown& u = m_unknowns[v];
+        const Unknown& u = m_unknowns[v];
         Vec3<float> right = u.right;
         for (const Halfedge h : halfedges_around_target(v, mesh))
-          right -= m_coupling[mesh.edge(h)] * m_unknowns[mesh.source(h)].move;
-        u.move = u.inverse * right;
-        const float l = length(u.move);
-        if (l > u.longest) u.move *= u.longest / l;
+          right -= m_coupling[mesh.edge(h)] * m_moves[mesh.source(h)];
+        Vec3<float> move = u.inverse * right;
+        const float l = length(move);
+        if (l > u.longest) move *= u.longest / l;
+        m_moves[v] = move;
       });
   }
 
@@ -337,7 +341,7 @@ private:
   {
     const Unknown& u = m_unknowns[v];
     const Vec3d n = u.is_flat ? m.projector().surface().facet_normals[m.facet(v)] : Vec3d{0, 0, 0};
-    const Vec3d p = m.point(v), step = to_double(u.move), q = p + step - dot(step, n) * n;
+    const Vec3d p = m.point(v), step = to_double(m_moves[v]), q = p + step - dot(step, n) * n;
     for (const Star::Corner& c : m.star(v).corners) {
       const Vec3d before = cross(c.a - p, c.b - p), after = cross(c.a - q, c.b - q);
       if (!(dot(before, after) > Parameters::max_turn_cosine * length(before) * length(after)))
@@ -354,9 +358,10 @@ private:
   double m_badness_limit, m_spacing, m_tangential_weight, m_tracked_weight = 0;
   Unset_vector<Target> m_centroids; // by face
   Unset_vector<Target> m_middles;   // by edge
-  // the normal equations, and their solution
+  // the normal equations
   Unset_vector<Unknown> m_unknowns;                 // by vertex
   Unset_vector<Symmetric_matrix<float>> m_coupling; // by edge
+  Unset_vector<Vec3<float>> m_moves;                // by vertex: their solution
 };
 
 } // namespace CGAL::PowerRTF::internal

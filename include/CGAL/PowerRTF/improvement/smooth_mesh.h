@@ -122,9 +122,7 @@ private:
     if (size > limit) su *= limit / size, sw *= limit / size;
 
     for (int halving = 0; halving < 3; ++halving, su /= 2, sw /= 2) {
-      const Vec3d q = p + su * u + sw * w;
-      if (!(energy(star, q) < now)) continue;
-      const auto place = m.project(v, q);
+      const auto place = m.project(v, p + su * u + sw * w);
       if (place.facet < 0 || !(energy(star, place.point) < now)) continue;
       const double agreement = m.agreement(star, place.point, place.normal);
       if (agreement < Parameters::min_agreement && agreement < m.agreement(star, p, n)) continue;
