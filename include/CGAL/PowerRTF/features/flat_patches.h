@@ -7,73 +7,107 @@
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
 /// The maximal sets of connected facets whose normals differ from that of their first facet by less
-/// than an angle (its sine, by default a tenth of a degree).
+/// than an angle, of which the sine is given. Keeps a reference to the surface.
 class Flat_patches {
 public:
   /// Of normals of coplanar facets whose coordinates are rounded to binary32.
   static constexpr double coplanar_sine = 1e-7;
+  static constexpr double level_sine = 1.73e-3; ///< a tenth of a degree
 
-  explicit Flat_patches(const Surface& surface, double max_sine = 1.73e-3)
-      : m_max_sine(max_sine), m_patches(surface.triangles.size(), -1)
+  explicit Flat_patches(const Surface& surface, double max_sine = level_sine,
+                        internal::Concurrency concurrency = Sequential_tag())
+      : m_surface(surface), m_max_sine(max_sine)
   {
-    const std::vector<int>& opposite = surface.adjacency.opposite;
-    for (int f = 0; f < int(surface.triangles.size()); ++f) {
+    const int facets = int(surface.triangles.size());
+    m_patches.resize(facets);
+    m_widths.resize(facets);
+    internal::for_each_index(concurrency, facets, [&](int f) {
+      m_patches[f] = is_alone(f) ? f : none;
+      if (m_patches[f] == f) set_width(f, std::array<int, 1>{f}, [](int) { return true; });
+    });
+    for (const int f :
+         internal::select(concurrency, facets, [this](int f) { return m_patches[f] == none; })) {
       internal::Cancellation::poll_now_and_then();
-      if (m_patches[f] < 0) grow(surface, f);
-    }
-    m_perimeters.assign(m_areas.size(), 0);
-    const auto is_boundary = [&](int h) {
-      const int o = opposite[h];
-      return o == Facet_adjacency::none || m_patches[o / 3] != m_patches[h / 3];
-    };
-    for (int h = 0; h < int(opposite.size()); ++h) {
-      internal::Cancellation::poll_now_and_then();
-      if (is_boundary(h))
-        m_perimeters[m_patches[h / 3]] +=
-            length(surface.points[halfedge_target(surface.triangles, h)] -
-                   surface.points[halfedge_source(surface.triangles, h)]);
+      if (m_patches[f] == none) grow(f);
     }
   }
 
+  /// The first facet of the patch.
   int operator[](int facet) const { return m_patches[facet]; }
 
   /// The width of the patch of facet `f`: twice its area over its perimeter.
-  double width(int f) const { return 2 * m_areas[m_patches[f]] / m_perimeters[m_patches[f]]; }
+  double width(int f) const { return m_widths[m_patches[f]]; }
 
 private:
-  void grow(const Surface& surface, int seed)
+  static constexpr int none = -1;
+
+  bool are_flat(int f, int g, double max_sine) const
   {
-    const Vec3d& n = surface.facet_normals[seed];
-    const auto is_flat = [&](const Vec3d& m) {
-      return dot(m, n) > 0 && squared_length(cross(m, n)) < m_max_sine * m_max_sine;
-    };
-    const int patch = int(m_areas.size());
-    double area = 0;
-    std::vector<int> facets(1, seed);
-    m_patches[seed] = patch;
-    for (std::size_t k = 0; k < facets.size(); ++k) {
-      area += surface.facet_areas[facets[k]];
-      for (int h = 3 * facets[k]; h < 3 * facets[k] + 3; ++h) {
-        const int o = surface.adjacency.opposite[h];
-        if (o == Facet_adjacency::none || m_patches[o / 3] >= 0 ||
-            !is_flat(surface.facet_normals[o / 3]))
-          continue;
-        m_patches[o / 3] = patch;
-        facets.push_back(o / 3);
-      }
-    }
-    m_areas.push_back(area);
+    const Vec3d &m = m_surface.facet_normals[f], &n = m_surface.facet_normals[g];
+    return dot(m, n) > 0 && squared_length(cross(m, n)) < max_sine * max_sine;
   }
 
+  // Whether the facet is in no patch but its own. The normals of two facets of a patch differ by
+  // less than twice the angle.
+  bool is_alone(int f) const
+  {
+    constexpr double twice = 2.001; // and rounding
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int o = m_surface.adjacency.opposite[h];
+      if (o != Facet_adjacency::none && are_flat(f, o / 3, twice * m_max_sine)) return false;
+    }
+    return true;
+  }
+
+  void grow(int seed)
+  {
+    std::vector<int> facets(1, seed);
+    m_patches[seed] = seed;
+    for (std::size_t k = 0; k < facets.size(); ++k)
+      for (int h = 3 * facets[k]; h < 3 * facets[k] + 3; ++h) {
+        const int o = m_surface.adjacency.opposite[h];
+        if (o == Facet_adjacency::none || m_patches[o / 3] != none ||
+            !are_flat(o / 3, seed, m_max_sine))
+          continue;
+        m_patches[o / 3] = seed;
+        facets.push_back(o / 3);
+      }
+    const auto is_boundary = [&](int h) {
+      const int o = m_surface.adjacency.opposite[h];
+      return o == Facet_adjacency::none || m_patches[o / 3] != seed;
+    };
+    set_width(seed, facets, is_boundary);
+  }
+
+  // Of the patch of these facets.
+  template <class Facets, class IsBoundary>
+  void set_width(int seed, const Facets& facets, IsBoundary&& is_boundary)
+  {
+    double area = 0, perimeter = 0;
+    for (const int f : facets) {
+      area += m_surface.facet_areas[f];
+      for (int h = 3 * f; h < 3 * f + 3; ++h)
+        if (is_boundary(h))
+          perimeter += length(m_surface.points[halfedge_target(m_surface.triangles, h)] -
+                              m_surface.points[halfedge_source(m_surface.triangles, h)]);
+    }
+    m_widths[seed] = 2 * area / perimeter;
+  }
+
+  const Surface& m_surface;
   double m_max_sine;
-  std::vector<int> m_patches; // by facet
-  std::vector<double> m_areas, m_perimeters;
+  internal::Unset_vector<int> m_patches;   // by facet: the first of its patch
+  internal::Unset_vector<double> m_widths; // by first facet
 };
 
 } // namespace CGAL::PowerRTF
