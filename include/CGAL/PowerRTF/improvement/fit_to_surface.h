@@ -13,6 +13,7 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_FIT_TO_SURFACE_H
 
 #include <CGAL/PowerRTF/features/flat_patches.h>
+#include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
@@ -74,8 +75,9 @@ public:
                  double limit)
       : m(mesh), m_tracker(tracker), m_flat(flat), m_badness_limit(limit),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size()))),
-        m_tangential_weight(is_even(mesh.projector().surface()) ? Parameters::even_tangential_weight
-                                                                : Parameters::tangential_weight)
+        m_tangential_weight(has_uniform_density(mesh.projector().surface())
+                                ? Parameters::even_tangential_weight
+                                : Parameters::tangential_weight)
   {
     m_centroids.resize(mesh.working().mesh.num_faces());
     m_middles.resize(mesh.working().mesh.num_edges());
@@ -132,12 +134,6 @@ private:
       if (b > 0.1) longest = std::max(longest, std::abs(double(t.distance)));
     }
   };
-
-  static bool is_even(const Surface& surface)
-  {
-    const auto& density = surface.vertex_density;
-    return std::equal(density.begin() + 1, density.end(), density.begin());
-  }
 
   // All that says where the mesh should be, at faces and edges; then of each vertex and edge what
   // is around it.
