@@ -3,16 +3,24 @@
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/fields/smooth_normals.h>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <utility>
+#include <vector>
 
 using namespace CGAL::PowerRTF;
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Remeshing_options curvature_options(double power = 1, double gradation = 0)
 {
@@ -207,7 +215,10 @@ TEST_CASE("diffusion spreads a value as far as is asked for")
     const double sigma = width * std::sqrt(s.area / double(n));
     std::vector<double> values(s.points.size(), 0);
     values[center] = 1;
-    diffuse(edges, diffusion_times(s, edges, n, width), values);
+    diffuse(edges,
+            diffusion_times(
+                edges, [&](int) { return sigma * sigma; }, infinity),
+            4, values);
     double sum = 0, moment = 0, fourth = 0;
     for (std::size_t v = 0; v < values.size(); ++v) {
       sum += values[v];
@@ -229,17 +240,104 @@ TEST_CASE("diffusion keeps constants as they are and is stable")
     const Surface s = shapes::make_surface(soup);
     const Surface_edges edges = surface_edges(s);
     for (const double width : {0.3, 1., 3., 100.}) {
-      const std::vector<double> times = diffusion_times(s, edges, 500, width);
+      const double variance = diffusion_variance(s, 500, width);
+      const std::vector<double> times = diffusion_times(
+          edges, [&](int) { return variance; }, 4000);
       std::vector<double> values(s.points.size(), 0.1);
-      diffuse(edges, times, values);
+      diffuse(edges, times, 4, values);
       CHECK(values == std::vector<double>(s.points.size(), 0.1));
       std::mt19937_64 random(7);
       for (double& x : values) x = double(random() % 2);
-      diffuse(edges, times, values);
+      diffuse(edges, times, 4, values);
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
       CHECK(*low > -0.05);
       CHECK(*high < 1.05);
     }
+  }
+}
+
+TEST_CASE("clusters: centers of their own, in the order of no thread, edges both ways")
+{
+  const Surface s = shapes::make_surface(shapes::two_spheres(5));
+  const Surface_edges edges = surface_edges(s);
+  const double mean = std::accumulate(edges.length.begin(), edges.length.end(), 0.) /
+                      static_cast<double>(edges.length.size());
+  for (const double longest : {0., 1.5 * mean, 4 * mean}) {
+    const Vertex_clusters clusters = vertex_clusters(s.points, edges, longest);
+    const Vertex_clusters in_parallel =
+        vertex_clusters(s.points, edges, longest, CGAL::Parallel_if_available_tag());
+    CHECK(clusters.cluster_of == in_parallel.cluster_of);
+    CHECK(clusters.edges.neighbor == in_parallel.edges.neighbor);
+    CHECK(clusters.edges.length == in_parallel.edges.length);
+    const std::size_t size = clusters.centers.size();
+    if (longest == 0) CHECK(size == s.points.size());
+    if (longest > mean) CHECK(size < s.points.size() / 3);
+    if (longest > 3 * mean) CHECK(size < s.points.size() / 8);
+    for (std::size_t c = 0; c < size; ++c)
+      CHECK(clusters.cluster_of[clusters.centers[c]] == int(c));
+    std::map<std::pair<int, int>, double> lengths;
+    for (int c = 0; c < int(size); ++c)
+      for (int e = clusters.edges.first[c]; e < clusters.edges.first[c + 1]; ++e) {
+        lengths[{c, clusters.edges.neighbor[e]}] = clusters.edges.length[e];
+        CHECK(clusters.edges.length[e] ==
+              length(s.points[clusters.centers[c]] -
+                     s.points[clusters.centers[clusters.edges.neighbor[e]]]));
+      }
+    for (const auto& [ends, l] : lengths) CHECK(lengths.at({ends.second, ends.first}) == l);
+    for (int v = 0; v < int(s.points.size()); ++v) // neighbors in space and on the surface
+      for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) {
+        const int c = clusters.cluster_of[v], d = clusters.cluster_of[edges.neighbor[e]];
+        CHECK((c == d || lengths.count({c, d}) == 1));
+      }
+  }
+}
+
+TEST_CASE("fine input: clusters change the density by little, and no bound of its growth")
+{
+  const std::size_t n = 300;
+  Remeshing_options o = curvature_options();
+  o.number_of_samples = n;
+  Surface s = shapes::make_surface(shapes::ellipsoid(2, 1.5, 1, 6));
+  const Surface_edges edges = surface_edges(s);
+  set_density(s, o);
+  const std::vector<double> raw = s.vertex_density;
+  REQUIRE(internal::near_vertices(s, edges, n, CGAL::Sequential_tag()));
+  for (const double width : {0., 2.}) {
+    s.vertex_density = raw;
+    limit_gradation(s, edges, std::nullopt, 0.1, n);
+    if (width > 0)
+      internal::smooth_density(s, edges, std::nullopt, n, width, CGAL::Sequential_tag());
+    const std::vector<double> expected = s.vertex_density;
+    o.gradation = 0.1;
+    o.density_smoothing = width;
+    set_density(s, o);
+    CHECK(steepest_growth(s, n) <= (width > 0 ? 1.3 : 1.1) * o.gradation);
+    for (std::size_t v = 0; v < raw.size(); ++v)
+      CHECK(s.vertex_density[v] == doctest::Approx(expected[v]).epsilon(0.05));
+    const std::vector<double> sequential = s.vertex_density;
+    set_density(s, o, CGAL::Parallel_if_available_tag());
+    CHECK(s.vertex_density == sequential);
+  }
+}
+
+TEST_CASE("normals: those of a sphere stay, noise does not")
+{
+  const Surface sphere = shapes::make_surface(shapes::icosphere(5));
+  std::mt19937_64 random(3);
+  const auto noise = [&] { return 0.2 * (double(random() % 1001) / 500 - 1); };
+  for (const std::size_t n : {300u, 3000u}) {
+    Surface smooth = sphere, noisy = sphere;
+    for (Vec3d& m : noisy.vertex_normals) m = normalized(m + Vec3d{noise(), noise(), noise()});
+    const std::vector<Vec3d> before = noisy.vertex_normals;
+    for (Surface* s : {&smooth, &noisy}) smooth_normals(*s, n, 0.7);
+    double noise_before = 0, noise_after = 0;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      CHECK(length(smooth.vertex_normals[v] - sphere.vertex_normals[v]) < 0.03);
+      CHECK(length(noisy.vertex_normals[v]) == doctest::Approx(1).epsilon(1e-14));
+      noise_before += squared_length(before[v] - sphere.vertex_normals[v]);
+      noise_after += squared_length(noisy.vertex_normals[v] - sphere.vertex_normals[v]);
+    }
+    CHECK(noise_after < 0.1 * noise_before);
   }
 }
 
@@ -302,7 +400,6 @@ TEST_CASE("the user's own density, in the order of the input's vertices")
   CHECK(steepest_growth(s, 100) < 0.11);
 
   CHECK_THROWS_AS(set_density(s, o, {1, 1, 1, 1, 1, 1}), Invalid_input_error);
-  const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0., -1., std::nan(""), infinity})
     CHECK_THROWS_AS(set_density(s, o, {1, 1, 1, bad, 1, 1, 1}), Invalid_input_error);
   o.gradation = -1;

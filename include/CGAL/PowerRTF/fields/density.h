@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_FIELDS_DENSITY_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/fields/Vertex_clusters.h>
 #include <CGAL/PowerRTF/fields/curvature.h>
 #include <CGAL/PowerRTF/fields/diffusion.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,15 +35,50 @@ inline void normalize_density(std::vector<double>& density)
   for (double& rho : density) rho = (std::max)(smallest, rho / largest);
 }
 
+/// Clusters of vertices much nearer to each other than samples ever are; none, if there are few
+/// such vertices.
+inline std::optional<Vertex_clusters> near_vertices(const Surface& surface,
+                                                    const Surface_edges& edges, std::size_t n,
+                                                    Concurrency concurrency)
+{
+  constexpr double near = 0.5; // of the least spacing, which gradation makes larger only
+  const double least =
+      spacing_constant(surface, n, concurrency) /
+      std::sqrt(*std::max_element(surface.vertex_density.begin(), surface.vertex_density.end()));
+  Vertex_clusters clusters = vertex_clusters(surface.points, edges, near * least, concurrency);
+  if (2 * clusters.centers.size() > surface.points.size()) return std::nullopt;
+  return clusters;
+}
+
 /// Diffuses the densities' logarithms over `width` times the local spacing of `n` samples.
-inline void smooth_density(Surface& surface, const Surface_edges& edges, std::size_t n,
+inline void smooth_density(Surface& surface, const Surface_edges& edges,
+                           const std::optional<Vertex_clusters>& clusters, std::size_t n,
                            double width, Concurrency concurrency)
 {
+  constexpr double longest = 4000; // where edges are shorter than a 45th of the width, less is done
+  constexpr int steps = 4;
   std::vector<double>& rho = surface.vertex_density;
-  const std::vector<double> times = diffusion_times(surface, edges, n, width, concurrency);
-  std::transform(rho.begin(), rho.end(), rho.begin(), [](double x) { return std::log(x); });
-  diffuse(edges, times, rho, concurrency);
-  std::transform(rho.begin(), rho.end(), rho.begin(), [](double x) { return std::exp(x); });
+  const double variance = diffusion_variance(surface, n, width, concurrency);
+  const auto smooth = [&](const Surface_edges& graph, std::vector<double>& density) {
+    const int size = static_cast<int>(density.size());
+    const std::vector<double> times = diffusion_times(
+        graph, [&](int v) { return variance / density[v]; }, longest, concurrency);
+    for_each_index(concurrency, size, [&](int v) { density[v] = std::log(density[v]); });
+    diffuse(graph, times, steps, density, concurrency);
+    for_each_index(concurrency, size, [&](int v) { density[v] = std::exp(density[v]); });
+  };
+  if (!clusters) return smooth(edges, rho);
+  std::vector<double> coarse;
+  coarse.reserve(clusters->centers.size());
+  for (const int v : clusters->centers) coarse.push_back(rho[v]);
+  smooth(clusters->edges, coarse);
+  for_each_index(concurrency, static_cast<int>(rho.size()),
+                 [&](int v) { rho[v] = coarse[clusters->cluster_of[v]]; });
+  // Over about half the distance of two centers, so that no steps between clusters are left.
+  const double deviation = 0.7 * clusters->longest;
+  const std::vector<double> times = diffusion_times(
+      edges, [&](int) { return deviation * deviation; }, longest, concurrency);
+  diffuse(edges, times, 3, rho, concurrency);
 }
 
 } // namespace internal
@@ -75,11 +112,12 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
     density[v] = std::pow(density[v], options.density_power);
   });
   internal::normalize_density(surface.vertex_density);
+  const std::size_t n = options.number_of_samples;
+  const auto clusters = internal::near_vertices(surface, edges, n, concurrency);
   if (options.gradation > 0)
-    limit_gradation(surface, edges, options.gradation, options.number_of_samples, concurrency);
+    limit_gradation(surface, edges, clusters, options.gradation, n, concurrency);
   if (options.density_smoothing > 0)
-    internal::smooth_density(surface, edges, options.number_of_samples, options.density_smoothing,
-                             concurrency);
+    internal::smooth_density(surface, edges, clusters, n, options.density_smoothing, concurrency);
 }
 
 /// \ingroup PkgPowerRTFSurface
@@ -106,9 +144,12 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
     surface.vertex_density[v] = rho;
   }
   internal::normalize_density(surface.vertex_density);
-  if (options.gradation > 0)
-    limit_gradation(surface, surface_edges(surface, concurrency), options.gradation,
-                    options.number_of_samples, concurrency);
+  if (options.gradation > 0) {
+    const Surface_edges edges = surface_edges(surface, concurrency);
+    const std::size_t n = options.number_of_samples;
+    limit_gradation(surface, edges, internal::near_vertices(surface, edges, n, concurrency),
+                    options.gradation, n, concurrency);
+  }
 }
 
 } // namespace CGAL::PowerRTF

@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_FIELDS_GRADATION_H
 #define CGAL_POWER_RTF_FIELDS_GRADATION_H
 
+#include <CGAL/PowerRTF/fields/Vertex_clusters.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
@@ -14,7 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -96,24 +99,54 @@ inline void limit_growth(const Surface_edges& edges, double gradation, std::vect
   }
 }
 
+/// What `limit_growth()` makes of `h`, but for a little, by way of `clusters`.
+inline void estimate_limited_growth(const Surface& surface, const Vertex_clusters& clusters,
+                                    double gradation, std::vector<double>& h,
+                                    internal::Concurrency concurrency = Sequential_tag())
+{
+  const int vertices = static_cast<int>(h.size());
+  const auto distance = [&](int v) {
+    return length(surface.points[v] - surface.points[clusters.centers[clusters.cluster_of[v]]]);
+  };
+  std::vector<double> coarse(clusters.centers.size(), std::numeric_limits<double>::infinity());
+  internal::for_each_index(concurrency, vertices, [&](int v) {
+    atomic_min(&coarse[clusters.cluster_of[v]], h[v] + gradation * distance(v));
+  });
+  limit_growth(clusters.edges, gradation, coarse, concurrency);
+  internal::for_each_index(concurrency, vertices, [&](int v) {
+    h[v] = (std::min)(h[v], coarse[clusters.cluster_of[v]] + gradation * distance(v));
+  });
+}
+
 /// Raises `surface.vertex_density` where needed so that the spacing of `n` samples grows by at most
 /// `gradation` per unit of length. Raising the density makes all spacings larger, so the limit is
-/// applied 4 times.
-inline void limit_gradation(Surface& surface, const Surface_edges& edges, double gradation,
+/// applied until that is less than 2 %, at most 4 times, with `clusters` to an estimate but for the
+/// last time.
+inline void limit_gradation(Surface& surface, const Surface_edges& edges,
+                            const std::optional<Vertex_clusters>& clusters, double gradation,
                             std::size_t n, internal::Concurrency concurrency = Sequential_tag())
 {
   constexpr int passes = 4;
+  constexpr double least_growth = 1.02;
   const int vertices = static_cast<int>(surface.points.size());
-  std::vector<double> h(vertices);
-  for (int pass = 0; pass < passes; ++pass) {
+  std::vector<double>& rho = surface.vertex_density;
+  std::vector<double> unit(vertices), h(vertices); // spacing by C
+  internal::for_each_index(concurrency, vertices, [&](int v) { unit[v] = 1 / std::sqrt(rho[v]); });
+  double C = spacing_constant(surface, n, concurrency);
+  const auto limit = [&](bool to_estimate) {
+    internal::for_each_index(concurrency, vertices, [&](int v) { h[v] = C * unit[v]; });
+    to_estimate ? estimate_limited_growth(surface, *clusters, gradation, h, concurrency)
+                : limit_growth(edges, gradation, h, concurrency);
+    internal::for_each_index(concurrency, vertices, [&](int v) { rho[v] = C * C / (h[v] * h[v]); });
+    C = spacing_constant(surface, n, concurrency);
+  };
+  double before = 0;
+  for (int pass = 0; pass < passes && C > least_growth * before; ++pass) {
     const internal::Progress_part part(double(pass + 1) / passes);
-    const double C = spacing_constant(surface, n, concurrency);
-    internal::for_each_index(concurrency, vertices,
-                             [&](int v) { h[v] = C / std::sqrt(surface.vertex_density[v]); });
-    limit_growth(edges, gradation, h, concurrency);
-    internal::for_each_index(concurrency, vertices,
-                             [&](int v) { surface.vertex_density[v] = C * C / (h[v] * h[v]); });
+    before = C;
+    limit(clusters.has_value());
   }
+  if (clusters) limit(false);
 }
 
 } // namespace CGAL::PowerRTF

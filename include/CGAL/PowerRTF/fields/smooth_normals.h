@@ -12,40 +12,31 @@
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
 /// Smooths `surface.vertex_normals` by a diffusion of standard deviation `width` times the local
 /// spacing h_v = sqrt(integral(rho) / (n rho_v)) of `n` samples. Edges longer than that are hardly
-/// smoothed over. At most 64 passes are made: very fine input is smoothed less.
+/// smoothed over, and where the edges are shorter than a quarter of it, less is smoothed.
 inline void smooth_normals(Surface& surface, std::size_t n, double width,
                            internal::Concurrency concurrency = Sequential_tag())
 {
   if (!(width > 0)) return;
-  constexpr int max_passes = 64;
+  constexpr double longest = 32;
+  constexpr int passes = 4; // vectors that cancel would point anywhere
   const Surface_edges edges = surface_edges(surface, concurrency);
-  const int size = static_cast<int>(surface.points.size());
-  const std::vector<double> wanted =
-      diffusion_times(surface, edges, n, width, concurrency); // sums of blends
-  const double largest = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end());
-  constexpr double largest_blend = 0.5; // more than that oscillates
-  const int passes =
-      static_cast<int>(std::min<double>(max_passes, std::ceil(largest / largest_blend)));
-  std::vector<Vec3d> smooth(size);
+  const double variance = diffusion_variance(surface, n, width, concurrency) / passes;
+  const std::vector<double> times = diffusion_times(
+      edges, [&](int v) { return variance / surface.vertex_density[v]; }, longest / passes,
+      concurrency);
   for (int pass = 0; pass < passes; ++pass) {
-    internal::for_each_index(concurrency, size, [&](int v) {
-      const double blend = std::min(largest_blend, wanted[v] / passes);
-      Vec3d sum{0, 0, 0};
-      for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
-        sum += surface.vertex_normals[edges.neighbor[e]];
-      const int degree = edges.first[v + 1] - edges.first[v];
-      const Vec3d mean = (1 - blend) * surface.vertex_normals[v] + (blend / degree) * sum;
-      smooth[v] = squared_length(mean) > 0 ? normalized(mean) : surface.vertex_normals[v];
+    std::vector<Vec3d> smooth = surface.vertex_normals;
+    diffuse(edges, times, 1, smooth, concurrency);
+    internal::for_each_index(concurrency, static_cast<int>(smooth.size()), [&](int v) {
+      if (squared_length(smooth[v]) > 0) surface.vertex_normals[v] = normalized(smooth[v]);
     });
-    surface.vertex_normals.swap(smooth);
   }
 }
 
