@@ -5,20 +5,24 @@
 #ifndef POWER_RTF_TOOLS_POLYGON_MESH_H
 #define POWER_RTF_TOOLS_POLYGON_MESH_H
 
-#include <CGAL/PowerRTF/geometry/vector.h>
+#include <CGAL/PowerRTF/input/Polygon_soup.h>
 
-#include <cstddef>
+#include <limits>
 #include <set>
 #include <string>
-#include <vector>
 
 namespace tools {
 
 struct Polygon_mesh {
-  std::vector<CGAL::PowerRTF::Vec3d> points;
-  std::vector<std::vector<std::size_t>> polygons; ///< indices into `points`
-  std::set<std::string> attributes;               ///< what else the file had, in words: "normals"
+  CGAL::PowerRTF::Polygon_soup soup;
+  std::set<std::string> attributes; ///< what else the file had, in words: "normals"
 };
+
+/// A number of a file as a corner of a polygon; -1, which no point has, if it is too large.
+inline int corner(long long number)
+{
+  return number >= 0 && number < std::numeric_limits<int>::max() ? static_cast<int>(number) : -1;
+}
 
 } // namespace tools
 

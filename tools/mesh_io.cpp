@@ -10,10 +10,15 @@
 #include "text_mesh.h"
 
 #include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <boost/interprocess/file_mapping.hpp>
+#include <boost/interprocess/mapped_region.hpp>
+
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -71,18 +76,27 @@ std::string kind_error(const std::string& file, Format format)
 /// \throws Invalid_input_error there is no facet, a coordinate is not finite, an index out of range
 void check(const Polygon_mesh& mesh)
 {
-  if (mesh.polygons.empty()) throw Invalid_input_error("it has no facets");
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    for (const double x : {mesh.points[v].x, mesh.points[v].y, mesh.points[v].z})
-      if (!std::isfinite(x))
-        throw Invalid_input_error("vertex " + std::to_string(v + 1) +
-                                  " has a coordinate that is not finite");
-  for (std::size_t f = 0; f < mesh.polygons.size(); ++f)
-    for (const std::size_t v : mesh.polygons[f])
-      if (v >= mesh.points.size())
-        throw Invalid_input_error(
-            "facet " + std::to_string(f + 1) +
-            " refers to a vertex that does not exist: the index is out of range");
+  const auto& [points, corners, first, merges_vertices] = mesh.soup;
+  if (first.size() == 1) throw Invalid_input_error("it has no facets");
+  const int vertices = static_cast<int>(points.size());
+  const auto find = [](int n, const auto& is_wrong) {
+    const std::vector<int> found =
+        CGAL::PowerRTF::internal::select(CGAL::Parallel_if_available_tag(), n, is_wrong);
+    return found.empty() ? -1 : found[0];
+  };
+  const int v = find(vertices, [&p = points](int i) {
+    return !std::isfinite(p[i].x) || !std::isfinite(p[i].y) || !std::isfinite(p[i].z);
+  });
+  if (v >= 0)
+    throw Invalid_input_error("vertex " + std::to_string(v + 1) +
+                              " has a coordinate that is not finite");
+  const int c = find(static_cast<int>(corners.size()), [vertices, &all = corners](int i) {
+    return all[i] < 0 || all[i] >= vertices;
+  });
+  if (c >= 0)
+    throw Invalid_input_error(
+        "facet " + std::to_string(std::upper_bound(first.begin(), first.end(), c) - first.begin()) +
+        " refers to a vertex that does not exist: the index is out of range");
 }
 
 /// \throws Output_error a coordinate is too large for a float
@@ -104,7 +118,9 @@ Polygon_mesh read_mesh(const std::string& file)
     std::string reason = file_error(file);
     if (reason.empty()) reason = kind_error(file, format);
     if (!reason.empty()) throw Invalid_input_error(reason);
-    return parse_mesh(format, read_bytes(file, fs::file_size(file)));
+    namespace ipc = boost::interprocess;
+    const ipc::mapped_region data(ipc::file_mapping(file.c_str(), ipc::read_only), ipc::read_only);
+    return parse_mesh(format, {static_cast<const char*>(data.get_address()), data.get_size()});
   } catch (const Invalid_input_error& e) {
     throw Invalid_input_error(file + ": cannot be read: " + e.what());
   }
@@ -120,6 +136,7 @@ Polygon_mesh parse_mesh(Format format, std::string_view data)
                       : format == Format::obj ? parse_obj(data)
                       : format == Format::ply ? parse_ply(data)
                                               : parse_stl(data);
+  mesh.soup.merges_vertices = true;
   check(mesh);
   return mesh;
 }

@@ -4,16 +4,25 @@
 
 #include "ply_header.h"
 
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <type_traits>
+#include <vector>
 
 namespace tools {
 namespace {
 
 using namespace ply;
 using CGAL::PowerRTF::Invalid_input_error;
+using CGAL::PowerRTF::Polygon_soup;
 using CGAL::PowerRTF::internal::Cancellation;
+using CGAL::PowerRTF::internal::for_each_index;
+using CGAL::PowerRTF::internal::select;
 
 /// \param item from 0
 [[noreturn]] void reject(const std::string& reason, const Element& element, std::size_t item)
@@ -70,6 +79,13 @@ public:
     m_data.remove_prefix(count * size(type));
     return true;
   }
+  /// The values from that many bytes on.
+  Binary_values after(std::size_t bytes) const
+  {
+    Binary_values rest = *this;
+    rest.m_data.remove_prefix((std::min)(bytes, m_data.size()));
+    return rest;
+  }
   double number() const
   {
     // the same on machines of either byte order
@@ -115,8 +131,8 @@ private:
 template <class Values>
 class Body_reader {
 public:
-  Body_reader(Values values, Polygon_mesh& mesh)
-      : m_values(std::move(values)), m_mesh(mesh), m_bytes(m_values.bytes_left())
+  Body_reader(Values values, Polygon_soup& soup)
+      : m_values(std::move(values)), m_soup(soup), m_bytes(m_values.bytes_left())
   {}
 
   void read(const Element& element)
@@ -127,8 +143,10 @@ public:
     if (smallest == 0) return;
     const std::size_t most = m_values.bytes_left() / smallest;
     if (element.count > most) reject("the file is truncated: it has no room for", element, most);
-    if (element.is_vertex() && m_mesh.points.empty()) m_mesh.points.reserve(element.count);
-    if (element.is_face() && m_mesh.polygons.empty()) m_mesh.polygons.reserve(element.count);
+    if constexpr (std::is_same<Values, Binary_values>::value)
+      if (read_even(element)) return;
+    if (element.is_vertex() && m_soup.points.empty()) m_soup.points.reserve(element.count);
+    if (element.is_face() && m_soup.corners.empty()) m_soup.reserve_polygons(element.count);
     for (std::size_t i = 0; i < element.count; ++i) {
       if (i % 1024 == 0) Cancellation::poll(m_bytes - m_values.bytes_left(), m_bytes);
       read_item(element, i);
@@ -136,6 +154,92 @@ public:
   }
 
 private:
+  /// A value of an item.
+  struct Place {
+    std::size_t offset;
+    Type type;
+    long long number = 0; ///< what stands there in the first item
+  };
+  /// What the items consist of, if their lists are as long as those of the first.
+  struct Layout {
+    std::vector<Place> lengths, corners;
+    std::array<Place, 3> xyz{};
+    std::size_t size = 0; ///< of an item, in bytes
+  };
+
+  Values value(std::size_t offset, Type type) const
+  {
+    Values found = m_values.after(offset);
+    return found.next(type) ? found : Values({}, Body::little_endian);
+  }
+
+  Layout layout_of_first(const Element& element) const
+  {
+    constexpr long long longest_list = 16; // as good as any: longer ones are hardly ever all alike
+    Layout result;
+    for (const Property& p : element.properties) {
+      long long count = 1;
+      if (p.length) {
+        const long long length = value(result.size, *p.length).whole_number();
+        result.lengths.push_back({result.size, *p.length, length});
+        result.size += Values::size(*p.length);
+        count = std::clamp(length, 0LL, longest_list);
+        if (count != length) result.lengths.back().number = -1; // which no item has
+      }
+      for (; count > 0; --count) {
+        const Place place{result.size, p.type};
+        if (p.role == Role::corners)
+          result.corners.push_back(place);
+        else if (p.role != Role::none)
+          result.xyz[static_cast<std::size_t>(p.role) - static_cast<std::size_t>(Role::x)] = place;
+        result.size += Values::size(p.type);
+      }
+    }
+    return result;
+  }
+
+  /// Reads the elements in parallel, if their lists are all as long as those of the first.
+  /// \returns whether they are
+  bool read_even(const Element& element)
+  {
+    constexpr CGAL::Parallel_if_available_tag concurrency;
+    constexpr std::size_t most = std::numeric_limits<int>::max();
+    const Layout item = layout_of_first(element);
+    const std::size_t sides = item.corners.size(), first = m_soup.corners.size();
+    if (element.count > m_values.bytes_left() / item.size || element.count > most ||
+        first + element.count * sides > most)
+      return false;
+    const int n = static_cast<int>(element.count);
+    const auto at = [&](int i, const Place& p) { return value(i * item.size + p.offset, p.type); };
+    const auto is_odd = [&](int i) {
+      return std::any_of(item.lengths.begin(), item.lengths.end(), [&](const Place& p) {
+        return p.number < 0 || at(i, p).whole_number() != p.number;
+      });
+    };
+    if (!item.lengths.empty() && !select(concurrency, n, is_odd).empty()) return false;
+    if (element.is_vertex()) {
+      const std::size_t begin = m_soup.points.size();
+      m_soup.points.resize(begin + n);
+      for_each_index(concurrency, n, [&](int i) {
+        const auto x = [&](int k) { return at(i, item.xyz[k]).number(); };
+        m_soup.points[begin + i] = {x(0), x(1), x(2)};
+      });
+    }
+    if (element.is_face()) {
+      const std::size_t begin = m_soup.first.size();
+      m_soup.first.resize(begin + n);
+      m_soup.corners.resize(first + n * sides);
+      for_each_index(concurrency, n, [&](int i) {
+        const std::size_t end = first + (i + 1) * sides;
+        for (std::size_t k = 0; k < sides; ++k)
+          m_soup.corners[end - sides + k] = corner(at(i, item.corners[k]).whole_number());
+        m_soup.first[begin + i] = static_cast<int>(end);
+      });
+    }
+    m_values = m_values.after(n * item.size);
+    return true;
+  }
+
   void read_item(const Element& element, std::size_t item)
   {
     const auto expect = [&](bool found) {
@@ -156,7 +260,7 @@ private:
         expect(m_values.skip(p.type, 1));
       }
     }
-    if (element.is_vertex()) m_mesh.points.push_back({xyz[0], xyz[1], xyz[2]});
+    if (element.is_vertex()) m_soup.points.push_back({xyz[0], xyz[1], xyz[2]});
   }
 
   template <class Expect>
@@ -164,22 +268,22 @@ private:
   {
     if (property.role == Role::none) return expect(m_values.skip(property.type, length));
     expect(length <= m_values.bytes_left() / Values::size(property.type));
-    m_mesh.polygons.emplace_back(length);
-    for (std::size_t& corner : m_mesh.polygons.back()) {
+    for (std::size_t k = 0; k < length; ++k) {
       expect(m_values.next(property.type));
-      corner = static_cast<std::size_t>(m_values.whole_number()); // below 0: out of range
+      m_soup.corners.push_back(corner(m_values.whole_number()));
     }
+    m_soup.end_polygon();
   }
 
   Values m_values;
-  Polygon_mesh& m_mesh;
+  Polygon_soup& m_soup;
   std::size_t m_bytes;
 };
 
 template <class Values>
-void read_body(Values values, const Header& header, Polygon_mesh& mesh)
+void read_body(Values values, const Header& header, Polygon_soup& soup)
 {
-  Body_reader<Values> reader(std::move(values), mesh);
+  Body_reader<Values> reader(std::move(values), soup);
   for (const Element& element : header.elements) reader.read(element);
 }
 
@@ -193,10 +297,10 @@ Polygon_mesh parse_ply(std::string_view data)
   mesh.attributes = attributes(header);
   tokens.skip_line();
   if (header.body == Body::text)
-    read_body(Text_values(tokens), header, mesh);
+    read_body(Text_values(tokens), header, mesh.soup);
   else // after the end of the line
     read_body(Binary_values(tokens.rest().substr(tokens.rest().empty() ? 0 : 1), *header.body),
-              header, mesh);
+              header, mesh.soup);
   return mesh;
 }
 

@@ -127,7 +127,7 @@ Surface load(Run& run)
   stop_if_interrupted();
   const Stage stage("surface");
   Surface surface = about_input(options, [&] {
-    return prepare_surface(mesh.points, mesh.polygons, options.remeshing, run.report,
+    return prepare_surface(std::move(mesh.soup), {}, {}, options.remeshing, run.report,
                            Concurrency());
   });
   check_precision(surface, options);

@@ -25,14 +25,13 @@ public:
 
   void add(const std::array<Corner, 3>& corners)
   {
-    std::vector<std::size_t> polygon;
-    polygon.reserve(3);
+    CGAL::PowerRTF::Polygon_soup& soup = m_mesh.soup;
     for (const Corner& c : corners) {
-      const auto [place, is_new] = m_indices.try_emplace(c, m_mesh.points.size());
-      if (is_new) m_mesh.points.push_back({c[0], c[1], c[2]});
-      polygon.push_back(place->second);
+      const auto [place, is_new] = m_indices.try_emplace(c, soup.points.size());
+      if (is_new) soup.points.push_back({c[0], c[1], c[2]});
+      soup.corners.push_back(corner(static_cast<long long>(place->second)));
     }
-    m_mesh.polygons.push_back(std::move(polygon));
+    soup.end_polygon();
   }
   Polygon_mesh& mesh() { return m_mesh; }
 

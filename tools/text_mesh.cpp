@@ -79,10 +79,10 @@ Polygon_mesh parse_off(std::string_view text)
        {std::pair{'S', "texture coordinates"}, {'C', "colors"}, {'N', "normals"}})
     if (header.prefixes.find(letter) != std::string_view::npos) mesh.attributes.insert(meaning);
 
-  mesh.points.resize(header.vertices);
-  mesh.polygons.resize(header.facets);
+  mesh.soup.points.resize(header.vertices);
+  mesh.soup.reserve_polygons(header.facets);
   for (std::size_t i = 0; i < header.vertices; ++i) {
-    Vec3d& p = mesh.points[i];
+    Vec3d& p = mesh.soup.points[i];
     for (double* x : {&p.x, &p.y, &p.z}) {
       if (!tokens.next())
         reject("the file is truncated: it ends in vertex " + std::to_string(i + 1) +
@@ -105,8 +105,9 @@ Polygon_mesh parse_off(std::string_view text)
       const long long v = next();
       if (v < 0 || v >= static_cast<long long>(header.vertices))
         reject(out_of_range(tokens, i, v, header.vertices));
-      mesh.polygons[i].push_back(static_cast<std::size_t>(v));
+      mesh.soup.corners.push_back(corner(v));
     }
+    mesh.soup.end_polygon();
     has_colors = has_colors || tokens.next_in_line();
     tokens.skip_line();
   }
@@ -118,6 +119,7 @@ Polygon_mesh parse_obj(std::string_view text)
 {
   Tokenizer tokens(text);
   Polygon_mesh mesh;
+  CGAL::PowerRTF::Polygon_soup& soup = mesh.soup;
   long long largest = 0; // index of a facet's vertex, and where it is
   Tokenizer at_largest = tokens;
   std::size_t facet_of_largest = 0;
@@ -130,27 +132,25 @@ Polygon_mesh parse_obj(std::string_view text)
           reject(tokens.at() + "a vertex with fewer than three coordinates (a truncated file?)");
         *x = tokens.number();
       }
-      mesh.points.push_back(p);
+      soup.points.push_back(p);
       int more = 0; // a weight, or a color of three numbers
       while (tokens.next_in_line()) ++more;
       if (more >= 3) mesh.attributes.insert("colors");
     } else if (tokens.token() == "f") {
-      std::vector<std::size_t> polygon;
-      const long long n = static_cast<long long>(mesh.points.size());
+      const std::size_t facet = soup.first.size() - 1, begin = soup.corners.size();
+      const long long n = static_cast<long long>(soup.points.size());
       while (tokens.next_in_line()) {
         const long long v = tokens.whole_number(true);
-        if (v == 0 || v < -n)
-          reject(out_of_range(tokens, mesh.polygons.size(), v, mesh.points.size()));
-        polygon.push_back(
-            static_cast<std::size_t>(v > 0 ? v - 1 : n + v)); // negative: from the last
+        if (v == 0 || v < -n) reject(out_of_range(tokens, facet, v, soup.points.size()));
+        soup.corners.push_back(corner(v > 0 ? v - 1 : n + v)); // negative: from the last
         if (v <= largest) continue;
         largest = v;
         at_largest = tokens;
-        facet_of_largest = mesh.polygons.size();
+        facet_of_largest = facet;
       }
-      if (polygon.size() < 3)
+      if (soup.corners.size() < begin + 3)
         reject(tokens.at() + "a facet with fewer than three vertices (a truncated file?)");
-      mesh.polygons.push_back(std::move(polygon));
+      soup.end_polygon();
     } else if (tokens.token() == "s" && tokens.next_in_line()) {
       if (tokens.token() != "off" && tokens.token() != "0")
         mesh.attributes.insert("smoothing groups");
@@ -160,9 +160,9 @@ Polygon_mesh parse_obj(std::string_view text)
     }
     tokens.skip_line();
   }
-  if (mesh.points.empty()) reject("it is not an OBJ file: it has no vertices");
-  if (largest > static_cast<long long>(mesh.points.size()))
-    reject(out_of_range(at_largest, facet_of_largest, largest, mesh.points.size()));
+  if (soup.points.empty()) reject("it is not an OBJ file: it has no vertices");
+  if (largest > static_cast<long long>(soup.points.size()))
+    reject(out_of_range(at_largest, facet_of_largest, largest, soup.points.size()));
   for (std::size_t k = 0; k < counts.size(); ++k)
     if (counts[k] > obj_attributes[k].meaningless)
       mesh.attributes.insert(obj_attributes[k].meaning);

@@ -85,8 +85,8 @@ TEST_CASE("STL: text and binary give the same mesh")
         binary_stl("ply\n", corners), binary_stl("", corners) + "a few bytes more"}) {
     CAPTURE(data);
     const Polygon_mesh mesh = parse_mesh(Format::stl, data);
-    CHECK(equal(mesh.points, merged));
-    CHECK(mesh.polygons == facets);
+    CHECK(equal(mesh.soup.points, merged));
+    CHECK(polygons_of(mesh) == facets);
   }
 }
 
@@ -253,12 +253,11 @@ TEST_CASE("meshes come back as they were written")
       write_mesh(out, format, encoding, written, triangles);
       const Polygon_mesh mesh = parse_mesh(format, out.str());
       CHECK(mesh.attributes.empty());
-      CHECK(equal(mesh.points, written));
-      REQUIRE(mesh.polygons.size() == triangles.size());
+      CHECK(equal(mesh.soup.points, written));
+      REQUIRE(polygons_of(mesh).size() == triangles.size());
       for (std::size_t f = 0; f < triangles.size(); ++f)
-        CHECK(std::equal(triangles[f].begin(), triangles[f].end(), mesh.polygons[f].begin(),
-                         mesh.polygons[f].end(),
-                         [](int a, std::size_t b) { return static_cast<std::size_t>(a) == b; }));
+        CHECK(std::equal(triangles[f].begin(), triangles[f].end(),
+                         mesh.soup.corners.begin() + 3 * f));
     }
 }
 
@@ -310,10 +309,10 @@ TEST_CASE("PLY with values: binary and text hold the same")
       std::ostringstream out;
       write_ply(out, data, encoding);
       const Polygon_mesh mesh = parse_mesh(Format::ply, out.str());
-      CHECK(equal(mesh.points, data.points));
-      REQUIRE(mesh.polygons.size() == 2);
-      CHECK(mesh.polygons[0] == std::vector<std::size_t>(corners, 2));
-      CHECK(mesh.polygons[1] == std::vector<std::size_t>{0, 1, 2});
+      CHECK(equal(mesh.soup.points, data.points));
+      REQUIRE(polygons_of(mesh).size() == 2);
+      CHECK(polygons_of(mesh)[0] == std::vector<std::size_t>(corners, 2));
+      CHECK(polygons_of(mesh)[1] == std::vector<std::size_t>{0, 1, 2});
       CHECK(mesh.attributes == std::set<std::string>{"facet property mass", "facet property sample",
                                                      "normals", "vertex property weight"});
     }

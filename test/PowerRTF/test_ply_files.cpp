@@ -19,8 +19,8 @@ TEST_CASE("PLY: every format, type and order gives the same mesh")
         CAPTURE(coordinate.name);
         const Polygon_mesh mesh =
             parse_mesh(Format::ply, ply(body, coordinate, uchar, int32, extra));
-        CHECK(equal(mesh.points, points));
-        CHECK(mesh.polygons == polygons);
+        CHECK(equal(mesh.soup.points, points));
+        CHECK(polygons_of(mesh) == polygons);
       }
       for (const Type& length : types)
         for (const Type& index : types) {
@@ -33,8 +33,8 @@ TEST_CASE("PLY: every format, type and order gives the same mesh")
             continue;
           }
           const Polygon_mesh mesh = parse_mesh(Format::ply, data);
-          CHECK(equal(mesh.points, points));
-          CHECK(mesh.polygons == polygons);
+          CHECK(equal(mesh.soup.points, points));
+          CHECK(polygons_of(mesh) == polygons);
         }
     }
 }
@@ -54,7 +54,7 @@ TEST_CASE("PLY: doubles keep all their digits")
       for (const int v : {3, 0, 0, 0}) data.value(uchar, v);
     }
     const Polygon_mesh mesh = parse_mesh(Format::ply, data.data());
-    CHECK(equal(mesh.points, {{x, y, z}}));
+    CHECK(equal(mesh.soup.points, {{x, y, z}}));
   }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("PLY: line ends of other systems, a byte order mark, data after the en
   const std::size_t end = binary.find("end_header\n") + 10;
   const Polygon_mesh mesh = parse_mesh(
       Format::ply, binary.substr(0, end) + "\r" + binary.substr(end) + std::string(7, '\xff'));
-  CHECK(equal(mesh.points, points));
+  CHECK(equal(mesh.soup.points, points));
 }
 
 TEST_CASE("PLY: points and facets may be in any number of elements")
@@ -82,8 +82,8 @@ TEST_CASE("PLY: points and facets may be in any number of elements")
     body += "1 2 3\n2 0 1\n";
   }
   const Polygon_mesh mesh = parse_mesh(Format::ply, header + "end_header\n" + body);
-  CHECK(mesh.points.size() == count);
-  CHECK(mesh.polygons.size() == count);
+  CHECK(mesh.soup.points.size() == count);
+  CHECK(polygons_of(mesh).size() == count);
 }
 
 TEST_CASE("PLY: what is malformed is told")
