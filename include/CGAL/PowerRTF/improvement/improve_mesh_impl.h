@@ -16,6 +16,7 @@
 //     move vertices to far tips of the surface and pin them; optimize      cover_tips.h
 //     fit the mesh to the surface by least squares; optimize               fit_to_surface.h
 //     release the pinned vertices of bad triangles; optimize
+//     if there are bad triangles, and creases or borders, twice: slide; optimize
 //     put vertices from flat parts into far places                         relocate_vertices.h
 //     if places are still very far: once more
 //     if there are bad triangles: optimize
@@ -107,15 +108,17 @@ private:
     smoother.run(Schedule::last_smoothing_passes);
     Bad_triangle_optimizer optimizer(stars);
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
-    part.next(0.6);
-    optimize();
-    if (!m_mesh.feature_edges.empty()) {
+    const auto slide = [&] {
       Feature_slider slider(stars, m_surface);
       for (int pass = 0; pass < Schedule::sliding_passes; ++pass) {
         slider.run(Schedule::sliding_rounds);
         optimize();
       }
-    }
+    };
+    const bool has_features = !m_mesh.feature_edges.empty();
+    part.next(0.6);
+    optimize();
+    if (has_features) slide();
     part.next(0.63);
     m_tracker.update_all();
     part.next(0.66);
@@ -126,6 +129,7 @@ private:
     Surface_fitter(stars, m_tracker, m_flat, Schedule::healable_badness).run();
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
+    if (has_features && optimizer.is_needed()) slide();
     m_tracker.update();
     part.next(1);
     relocate(stars, optimizer);
