@@ -45,10 +45,10 @@ std::vector<double> diffusion_times(const Surface_edges& edges, const Variance& 
 /// and goes as far as (s^2 + s) / 4 plain ones of a half (RKL1: Meyer, Balsara, Aslam, "A
 /// stabilized Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed
 /// equations", J. Comput. Phys. 257, 2014). The mean over a ring is all that a single long one
-/// makes: several make nearly a Gaussian of it.
-template <class Value>
+/// makes: several make nearly a Gaussian of it. After each, `finish(v, x)` stands for the value x.
+template <class Value, class Finish>
 void diffuse(const Surface_edges& edges, const std::vector<double>& times, int steps,
-             std::vector<Value>& values, internal::Concurrency concurrency = Sequential_tag())
+             std::vector<Value>& values, internal::Concurrency concurrency, const Finish& finish)
 {
   if (values.empty()) return;
   const double last = *std::max_element(times.begin(), times.end()) / steps;
@@ -64,10 +64,17 @@ void diffuse(const Surface_edges& edges, const std::vector<double>& times, int s
           sum += values[edges.neighbor[e]] - values[v];
         const int degree = (std::max)(1, edges.first[v + 1] - edges.first[v]);
         next[v] = values[v] + nu * (before[v] - values[v]) + mu * share * times[v] / degree * sum;
+        if (j == stages) next[v] = finish(v, next[v]);
       });
       before.swap(values);
       values.swap(next);
     }
+}
+template <class Value>
+void diffuse(const Surface_edges& edges, const std::vector<double>& times, int steps,
+             std::vector<Value>& values, internal::Concurrency concurrency = Sequential_tag())
+{
+  diffuse(edges, times, steps, values, concurrency, [](int, const Value& x) { return x; });
 }
 
 } // namespace CGAL::PowerRTF

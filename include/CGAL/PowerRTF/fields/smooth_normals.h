@@ -25,19 +25,17 @@ inline void smooth_normals(Surface& surface, std::size_t n, double width,
 {
   if (!(width > 0)) return;
   constexpr double longest = 32;
-  constexpr int passes = 4; // vectors that cancel would point anywhere
+  constexpr int steps = 4;
   const Surface_edges edges = surface_edges(surface, concurrency);
-  const double variance = diffusion_variance(surface, n, width, concurrency) / passes;
+  const double variance = diffusion_variance(surface, n, width, concurrency);
   const std::vector<double> times = diffusion_times(
-      edges, [&](int v) { return variance / surface.vertex_density[v]; }, longest / passes,
-      concurrency);
-  for (int pass = 0; pass < passes; ++pass) {
-    std::vector<Vec3d> smooth = surface.vertex_normals;
-    diffuse(edges, times, 1, smooth, concurrency);
-    internal::for_each_index(concurrency, static_cast<int>(smooth.size()), [&](int v) {
-      if (squared_length(smooth[v]) > 0) surface.vertex_normals[v] = normalized(smooth[v]);
-    });
-  }
+      edges, [&](int v) { return variance / surface.vertex_density[v]; }, longest, concurrency);
+  std::vector<Vec3d> smooth = surface.vertex_normals;
+  // Vectors that are not made unit ones again and again cancel, and point anywhere.
+  diffuse(edges, times, steps, smooth, concurrency, [&](int v, const Vec3d& mean) {
+    return squared_length(mean) > 0 ? normalized(mean) : surface.vertex_normals[v];
+  });
+  surface.vertex_normals.swap(smooth);
 }
 
 } // namespace CGAL::PowerRTF
