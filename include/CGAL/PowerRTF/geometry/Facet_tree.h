@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Single_lane.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 namespace CGAL::PowerRTF {
@@ -52,7 +53,7 @@ public:
       box.add(f.c);
       return box;
     };
-    std::vector<Box3<double>> boxes(m_tree.nodes());
+    internal::Unset_vector<Box3<double>> boxes(m_tree.nodes());
     m_nodes.resize(m_tree.nodes());
     for (int level = 0; level < m_tree.levels; ++level)
       internal::for_each_index(m_concurrency, m_tree.nodes(level), [&](int k) {
@@ -108,10 +109,11 @@ public:
 private:
   internal::Concurrency m_concurrency;
   Packed_tree_layout m_tree;
-  std::vector<Facet_corners<double>> m_facets; // in the order of the tree, as what follows
+  internal::Unset_vector<Facet_corners<double>>
+      m_facets; // in the order of the tree, as what follows
   std::vector<int> m_order, m_patches;
   std::vector<Child_boxes> m_nodes;
-  std::vector<int> m_places; // by facet
+  internal::Unset_vector<int> m_places; // by facet
 };
 
 } // namespace CGAL::PowerRTF

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ inline std::vector<int> spatial_order(const std::vector<Vec3d>& points,
       [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
   const Vec3d middle = 0.5 * box.lo + 0.5 * box.hi, half = 0.5 * box.hi - 0.5 * box.lo;
   const double reach = std::max({half.x, half.y, half.z});
-  std::vector<std::pair<std::uint64_t, int>> codes(n);
+  Unset_vector<std::pair<std::uint64_t, int>> codes(n);
   for_each_index(concurrency, n, [&](int i) {
     const Vec3d p = points[i] - middle;
     codes[i] = {reach > 0 ? hilbert_code(Vec3d{p.x / reach, p.y / reach, p.z / reach}) : 0, i};

@@ -61,7 +61,7 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
                                        std::size_t number_of_vertices,
                                        internal::Concurrency concurrency = Sequential_tag())
 {
-  using Entries = std::vector<std::pair<int, int>>::const_iterator;
+  using Entries = internal::Unset_vector<std::pair<int, int>>::const_iterator;
   Facet_adjacency result;
   result.opposite.assign(3 * triangles.size(), Facet_adjacency::none);
   const auto buckets = internal::halfedge_buckets(triangles, number_of_vertices, concurrency);

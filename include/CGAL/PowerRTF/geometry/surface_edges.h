@@ -16,8 +16,9 @@ namespace CGAL::PowerRTF {
 /// The neighbors of vertex `v` are `neighbor[first[v]] .. neighbor[first[v + 1] - 1]`, each once,
 /// at distance `length` (same index).
 struct Surface_edges {
-  std::vector<int> first, neighbor;
-  std::vector<double> length;
+  std::vector<int> first;
+  internal::Unset_vector<int> neighbor;
+  internal::Unset_vector<double> length;
 };
 
 inline Surface_edges surface_edges(const Surface& surface,

@@ -68,9 +68,23 @@ inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vecto
 /// Cuts the polygons into triangles of distinct vertices; `vertex[v]` stands for corner `v`.
 inline std::vector<Triangle> triangulated(const Polygon_soup& soup,
                                           const std::vector<Vec3d>& points,
-                                          const std::vector<int>& vertex, Repair_counts& repairs)
+                                          const std::vector<int>& vertex, Repair_counts& repairs,
+                                          Concurrency concurrency)
 {
   std::vector<Triangle> triangles;
+  const int polygons = static_cast<int>(soup.first.size()) - 1;
+  const auto corner = [&](int k, int i) { return vertex[soup.corners[soup.first[k] + i]]; };
+  const auto is_triangle = [&](int k) {
+    return soup.first[k + 1] - soup.first[k] == 3 && corner(k, 0) != corner(k, 1) &&
+           corner(k, 1) != corner(k, 2) && corner(k, 2) != corner(k, 0);
+  };
+  if (select(concurrency, polygons, [&](int k) { return !is_triangle(k); }).empty()) {
+    triangles.resize(polygons);
+    for_each_index(concurrency, polygons, [&](int k) {
+      triangles[k] = {corner(k, 0), corner(k, 1), corner(k, 2)};
+    });
+    return triangles;
+  }
   triangles.reserve(soup.first.size() - 1);
   std::vector<int> polygon;
   for (std::size_t k = 0; k + 1 < soup.first.size(); ++k) {
@@ -200,22 +214,30 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
 
 /// Drops the vertices that no triangle uses. The others keep their order, and with it the
 /// adjacency.
-inline Surface compacted(Triangle_soup&& soup, const Normalization& normalization)
+inline Surface compacted(Triangle_soup&& soup, const Normalization& normalization,
+                         Concurrency concurrency)
 {
+  const int facets = static_cast<int>(soup.triangles.size());
   std::vector<int> new_index(soup.points.size(), -1);
-  for (const Triangle& t : soup.triangles)
-    for (const int v : t) new_index[v] = 0;
+  for_each_index(concurrency, facets, [&](int f) {
+    for (const int v : soup.triangles[f]) atomic_store(&new_index[v], 0);
+  });
+  const std::vector<int> used = select(concurrency, static_cast<int>(new_index.size()),
+                                       [&](int v) { return new_index[v] == 0; });
+  const int vertices = static_cast<int>(used.size());
   Surface surface;
-  for (std::size_t v = 0; v < soup.points.size(); ++v) {
-    if (new_index[v] < 0) continue;
-    new_index[v] = static_cast<int>(surface.points.size());
-    surface.points.push_back(soup.points[v]);
-    surface.input_vertices.push_back(soup.originals[v]);
-  }
+  surface.points.resize(vertices);
+  surface.input_vertices.resize(vertices);
+  for_each_index(concurrency, vertices, [&](int v) {
+    new_index[used[v]] = v;
+    surface.points[v] = soup.points[used[v]];
+    surface.input_vertices[v] = soup.originals[used[v]];
+  });
   surface.triangles = std::move(soup.triangles);
   surface.adjacency = std::move(soup.adjacency);
-  for (Triangle& t : surface.triangles)
-    for (int& v : t) v = new_index[v];
+  for_each_index(concurrency, facets, [&](int f) {
+    for (int& v : surface.triangles[f]) v = new_index[v];
+  });
   for (const Edge& e : soup.seams) surface.seams.push_back({new_index[e[0]], new_index[e[1]]});
   surface.creases = surface.seams;
   surface.vertex_density.assign(surface.points.size(), 1);
@@ -249,8 +271,8 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
                                   const Normalization& normalization, Manifold_repair allowed,
                                   Repair_counts& repairs, Surface& surface, Concurrency concurrency)
 {
-  Triangle_soup soup =
-      triangle_soup(points, triangulated(polygons, points, vertex, repairs), concurrency);
+  Triangle_soup soup = triangle_soup(
+      points, triangulated(polygons, points, vertex, repairs, concurrency), concurrency);
   const std::size_t degenerate = degenerate_facets(soup.points, soup.triangles, concurrency).size();
   if (degenerate == soup.triangles.size()) return {"the surface has no area"};
   if (degenerate > 0 && allowed == Manifold_repair::none)
@@ -265,7 +287,7 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
     repairs.degenerate_facets += before - degenerate_facets(soup.points, soup.triangles).size();
     soup.update_adjacency();
   }
-  surface = compacted(std::move(soup), normalization);
+  surface = compacted(std::move(soup), normalization, concurrency);
   compute_geometry(surface, concurrency);
   return {};
 }
@@ -308,8 +330,9 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
     unused += !used[v];
   }
   std::vector<Vec3d> points(soup.points.size());
-  for (std::size_t v = 0; v < points.size(); ++v)
+  for_each_index(concurrency, static_cast<int>(points.size()), [&](int v) {
     points[v] = used[v] ? normalization.to_inside(soup.points[v]) : Vec3d{0, 0, 0};
+  });
 
   std::string reason;
   for (const auto& [merges, allowed] : repair_attempts(repair, duplicates > 0)) {

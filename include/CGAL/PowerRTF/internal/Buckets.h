@@ -3,6 +3,7 @@
 #ifndef CGAL_POWER_RTF_INTERNAL_BUCKETS_H
 #define CGAL_POWER_RTF_INTERNAL_BUCKETS_H
 
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -17,7 +18,7 @@ namespace CGAL::PowerRTF::internal {
 template <class Entry>
 struct Buckets {
   std::vector<int> first;
-  std::vector<Entry> entries;
+  Unset_vector<Entry> entries;
 
   /// Item `i` of `n` goes as `entry(i)` into the bucket `bucket(i)` of `number_of_buckets`. Time is
   /// linear in both numbers while the buckets are small.

@@ -11,7 +11,8 @@ namespace CGAL::PowerRTF::internal {
 
 template <class T>
 struct Unset_allocator : std::allocator<T> {
-  static_assert(std::is_trivially_copyable<T>::value && std::is_trivially_destructible<T>::value,
+  static_assert(std::is_trivially_copy_constructible<T>::value &&
+                    std::is_trivially_destructible<T>::value,
                 "what is not set must need no constructor");
   template <class U>
   struct rebind {

@@ -49,9 +49,11 @@ inline double atomic_load(const double* p)
 }
 
 /// Whether `x` is less than what stood there.
-inline bool atomic_min(double* p, double x)
+template <class T>
+bool atomic_min(T* p, T x)
 {
-  double before = atomic_load(p);
+  T before;
+  __atomic_load(p, &before, __ATOMIC_RELAXED);
   while (x < before)
     if (__atomic_compare_exchange(p, &before, &x, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
       return true;

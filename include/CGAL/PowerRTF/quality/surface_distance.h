@@ -11,11 +11,11 @@
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -35,18 +35,23 @@ class Surface_samples {
 public:
   /// `tree`: of the triangles.
   Surface_samples(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
-                  const Facet_tree& tree)
-      : m_facets(tree.view().facets)
+                  const Facet_tree& tree, Concurrency concurrency)
+      : m_facets(tree.view().facets), m_areas(triangles.size() + 1, 0)
   {
-    std::vector<char> seen(points.size(), 0);
-    m_areas.reserve(triangles.size());
-    double area = 0;
-    for (std::size_t place = 0; place < triangles.size(); ++place) {
+    const int facets = static_cast<int>(triangles.size());
+    std::vector<int> first_corner(points.size(), 3 * facets); // in the order of the tree
+    const auto vertex = [&](int corner) { return triangles[tree.order()[corner / 3]][corner % 3]; };
+    for_each_index(concurrency, facets, [&](int place) {
       const auto& f = m_facets[place];
-      m_areas.push_back(area += length(cross(f.b - f.a, f.c - f.a)) / 2);
-      for (const int v : triangles[tree.order()[place]])
-        if (!std::exchange(seen[v], 1)) m_vertices.push_back(points[v]);
-    }
+      m_areas[place] = length(cross(f.b - f.a, f.c - f.a)) / 2;
+      for (int c = 3 * place; c < 3 * place + 3; ++c) atomic_min(&first_corner[vertex(c)], c);
+    });
+    exclusive_scan(concurrency, facets + 1, m_areas.data());
+    const std::vector<int> first =
+        select(concurrency, 3 * facets, [&](int c) { return first_corner[vertex(c)] == c; });
+    m_vertices.resize(first.size());
+    for_each_index(concurrency, static_cast<int>(first.size()),
+                   [&](int v) { m_vertices[v] = points[vertex(first[v])]; });
   }
 
   /// The used vertices.
@@ -57,8 +62,8 @@ public:
   Vec3d sample(int i, int n) const
   {
     const double at = (i + 0.5) / n * m_areas.back();
-    const auto place = std::upper_bound(m_areas.begin(), m_areas.end(), at) - m_areas.begin();
-    const auto& f = m_facets[std::min<std::size_t>(place, m_areas.size() - 1)];
+    const auto after = std::upper_bound(m_areas.begin(), m_areas.end() - 1, at);
+    const auto& f = m_facets[after - m_areas.begin() - 1];
     const auto fraction = [](double x) { return x - std::floor(x); };
     double s = fraction(0.5 + i * 0.7548776662466927), t = fraction(0.5 + i * 0.5698402909980532);
     if (s + t > 1) s = 1 - s, t = 1 - t;
@@ -67,7 +72,7 @@ public:
 
 private:
   const Facet_corners<double>* m_facets; ///< the tree's
-  std::vector<double> m_areas;           ///< of the facets up to and with this one
+  std::vector<double> m_areas;           ///< of the facets before this one, and of all
   std::vector<Vec3d> m_vertices;
 };
 
@@ -125,11 +130,11 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
   const int n = 20000;
   const Facet_tree output_tree(output_points, output_triangles, {}, concurrency);
   const auto a = internal::one_sided_distance(
-      internal::Surface_samples(input_points, input_triangles, input_tree), output_tree, n,
-      concurrency);
+      internal::Surface_samples(input_points, input_triangles, input_tree, concurrency),
+      output_tree, n, concurrency);
   const auto b = internal::one_sided_distance(
-      internal::Surface_samples(output_points, output_triangles, output_tree), input_tree, n,
-      concurrency);
+      internal::Surface_samples(output_points, output_triangles, output_tree, concurrency),
+      input_tree, n, concurrency);
   const double percent = 100 / diagonal;
   result.mean = percent * std::max(a.sum, b.sum) / n;
   result.rms = percent * std::sqrt(std::max(a.sum_of_squares, b.sum_of_squares) / n);
