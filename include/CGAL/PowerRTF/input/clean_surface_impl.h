@@ -19,6 +19,7 @@
 #include <CGAL/PowerRTF/input/polygon_triangulation.h>
 #include <CGAL/PowerRTF/input/split_sheets.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 
 #include <algorithm>
@@ -33,20 +34,25 @@
 namespace CGAL::PowerRTF::internal {
 
 /// The mapping of the points marked in `used` to the unit box.
-inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vector<char>& used)
+inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vector<int>& used,
+                              Concurrency concurrency)
 {
-  Box3<double> box{{0, 0, 0}, {0, 0, 0}};
-  bool is_first = true;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (!used[v]) continue;
+  const int vertices = static_cast<int>(points.size());
+  const std::vector<int> not_finite = select(concurrency, vertices, [&](int v) {
     const Vec3d& p = points[v];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw Invalid_input_error("vertex " + std::to_string(v) +
-                                " has a coordinate that is not a finite number");
-    if (is_first) box = {p, p};
-    is_first = false;
-    box.add(p);
-  }
+    return used[v] && !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  });
+  if (!not_finite.empty())
+    throw Invalid_input_error("vertex " + std::to_string(not_finite[0]) +
+                              " has a coordinate that is not a finite number");
+  const auto first = std::find(used.begin(), used.end(), 1);
+  const Vec3d any = first == used.end() ? Vec3d{0, 0, 0} : points[first - used.begin()];
+  const Box3<double> box = reduce(
+      concurrency, vertices, Box3<double>{any, any},
+      [&](Box3<double>& b, int v) {
+        if (used[v]) b.add(points[v]);
+      },
+      [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
   const Vec3d low = box.lo, high = box.hi, size = high - low;
   const double side = (std::max)({size.x, size.y, size.z});
   if (!(side < 1e300)) throw Invalid_input_error("the coordinates are too large");
@@ -316,14 +322,15 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
                                             Repair_counts& repairs, Concurrency concurrency)
 {
   if (soup.first.size() == 1) throw Invalid_input_error("the mesh has no facet");
-  std::vector<char> used(soup.points.size(), 0);
-  for (const int v : soup.corners) used[v] = 1;
-  const Normalization normalization = unit_box(soup.points, used);
+  std::vector<int> used(soup.points.size(), 0);
+  for_each_index(concurrency, static_cast<int>(soup.corners.size()),
+                 [&](int c) { atomic_store(&used[soup.corners[c]], 1); });
+  const Normalization normalization = unit_box(soup.points, used, concurrency);
 
   std::vector<int> own_vertex(soup.points.size());
   std::iota(own_vertex.begin(), own_vertex.end(), 0);
   const std::vector<int> vertex =
-      soup.merges_vertices ? first_of_equal_points(soup.points) : own_vertex;
+      soup.merges_vertices ? first_of_equal_points(soup.points, concurrency) : own_vertex;
   std::size_t duplicates = 0, unused = 0;
   for (std::size_t v = 0; v < used.size(); ++v) {
     duplicates += used[v] && vertex[v] != own_vertex[v];

@@ -8,6 +8,9 @@
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/point_grid.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <boost/pending/disjoint_sets.hpp>
 
@@ -21,12 +24,16 @@
 namespace CGAL::PowerRTF {
 
 /// The first vertex at the same place, for each vertex (open addressing on the coordinates' bits).
-inline std::vector<int> first_of_equal_points(const std::vector<Vec3d>& points)
+inline std::vector<int> first_of_equal_points(const std::vector<Vec3d>& points,
+                                              internal::Concurrency concurrency = Sequential_tag())
 {
+  const int size = static_cast<int>(points.size());
   std::size_t slots = 16;
   while (slots < 2 * points.size()) slots *= 2;
-  std::vector<int> table(slots, -1), first(points.size());
-  for (std::size_t v = 0; v < points.size(); ++v) {
+  std::vector<int> table(slots, -1);
+  internal::Unset_vector<std::size_t> slot_of(points.size());
+  // Of equal points the first one stays in the table, whichever slot they find.
+  internal::for_each_index(concurrency, size, [&](int v) {
     const double key[3] = {points[v].x + 0., points[v].y + 0., points[v].z + 0.}; // -0 becomes 0
     std::uint64_t bits[3], hash = 0;
     std::memcpy(bits, key, sizeof(key));
@@ -35,10 +42,13 @@ inline std::vector<int> first_of_equal_points(const std::vector<Vec3d>& points)
       hash ^= hash >> 32;
     }
     std::size_t slot = hash & (slots - 1);
-    while (table[slot] >= 0 && points[table[slot]] != points[v]) slot = (slot + 1) & (slots - 1);
-    if (table[slot] < 0) table[slot] = static_cast<int>(v);
-    first[v] = table[slot];
-  }
+    const auto is_free_for = [&](int found) { return found < 0 || points[found] == points[v]; };
+    while (!is_free_for(atomic_exchange_if(&table[slot], -1, v))) slot = (slot + 1) & (slots - 1);
+    atomic_min(&table[slot], v);
+    slot_of[v] = slot;
+  });
+  std::vector<int> first(points.size());
+  internal::for_each_index(concurrency, size, [&](int v) { first[v] = table[slot_of[v]]; });
   return first;
 }
 
