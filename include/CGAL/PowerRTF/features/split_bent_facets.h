@@ -120,7 +120,8 @@ private:
     return {m_middles[3 * f], m_middles[3 * f + 1], m_middles[3 * f + 2]};
   }
 
-  /// Cuts `t` at the middles of its edges (-1: not halved), into one piece more than there are middles.
+  /// Cuts `t` at the middles of its edges (-1: not halved), into one piece more than there are
+  /// middles.
   void split(Triangle t, std::array<int, 3> middles, Triangle* pieces) const
   {
     const auto count = 3 - std::count(middles.begin(), middles.end(), -1);

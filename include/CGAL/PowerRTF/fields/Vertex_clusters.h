@@ -113,6 +113,7 @@ template <class Vertex>
 Vertex_clusters cluster_once(const std::vector<Vec3d>& points, const Surface_edges& edges,
                              const Vertex& vertex, double longest, Concurrency concurrency)
 {
+  constexpr double clearly_less = 1 - 1e-6; // rounding must not decide between equal lengths
   const int vertices = static_cast<int>(edges.first.size()) - 1;
   Independent_set set(edges, longest);
   Vertex_clusters result;
@@ -126,7 +127,7 @@ Vertex_clusters cluster_once(const std::vector<Vec3d>& points, const Surface_edg
     int nearest = -1;
     for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
       if (set.contains(edges.neighbor[e]) &&
-          (nearest < 0 || edges.length[e] < edges.length[nearest]))
+          (nearest < 0 || edges.length[e] < clearly_less * edges.length[nearest]))
         nearest = e;
     cluster_of[v] = cluster_of[edges.neighbor[nearest]];
   });
