@@ -113,7 +113,7 @@ template <class Vertex>
 Vertex_clusters cluster_once(const std::vector<Vec3d>& points, const Surface_edges& edges,
                              const Vertex& vertex, double longest, Concurrency concurrency)
 {
-  constexpr double clearly_less = 1 - 1e-6; // rounding must not decide between equal lengths
+  constexpr double clearly_less = 0.999; // rounding must not decide between equal lengths
   const int vertices = static_cast<int>(edges.first.size()) - 1;
   Independent_set set(edges, longest);
   Vertex_clusters result;
