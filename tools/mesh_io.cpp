@@ -15,6 +15,7 @@
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <boost/interprocess/exceptions.hpp>
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
 
@@ -122,6 +123,8 @@ Polygon_mesh read_mesh(const std::string& file)
     const ipc::mapped_region data(ipc::file_mapping(file.c_str(), ipc::read_only), ipc::read_only);
     return parse_mesh(format, {static_cast<const char*>(data.get_address()), data.get_size()});
   } catch (const Invalid_input_error& e) {
+    throw Invalid_input_error(file + ": cannot be read: " + e.what());
+  } catch (const boost::interprocess::interprocess_exception& e) { // it cannot be mapped
     throw Invalid_input_error(file + ": cannot be read: " + e.what());
   }
 }
