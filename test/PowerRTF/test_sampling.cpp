@@ -79,6 +79,12 @@ TEST_CASE("what cannot be sampled is refused")
   check_is_sound(s, sample_surface(s, o), 10);
 }
 
+TEST_CASE("more samples than the nodes of a lattice can be numbered for are refused at once")
+{
+  const Surface s = shapes::make_surface(shapes::icosphere(1));
+  CHECK_THROWS_AS(sample_surface(s, options(90000000, Sampling::lattice)), Invalid_input_error);
+}
+
 TEST_CASE("the same seed gives the same samples, another seed others")
 {
   const Surface s = shapes::make_surface(shapes::torus(20, 10, 2, 1));
