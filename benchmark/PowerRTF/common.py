@@ -77,11 +77,12 @@ def commit():
         return "no commit"
 
 
-def made_by(script, options):
-    """The line below each table. `options`: of the command line, without this machine's folders."""
+def made_by(script, options, origin=None):
+    """The line below each table. `options`: of the command line, without this machine's folders.
+    `origin`: program, day and machine of the measurement, if they are not these."""
     path = pathlib.Path(script).resolve().relative_to(ROOT)
-    return (f"Made by `{' '.join([str(path), *options])}`; {commit()}, "
-            f"{datetime.date.today().isoformat()}, {machine()}.")
+    origin = origin or f"{commit()}, {datetime.date.today().isoformat()}, {machine()}"
+    return f"Made by `{' '.join([str(path), *options])}`; {origin}."
 
 
 def digest(*parts):

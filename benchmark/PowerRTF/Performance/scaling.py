@@ -95,7 +95,7 @@ def main():
                         default=[1000000, 100000, 300000, 3000000],
                         help="the first with each number of threads, the others with the last")
     parser.add_argument("--plot", type=pathlib.Path, metavar="FILE.csv")
-    parser.add_argument("--machine", help="where FILE.csv was measured")
+    parser.add_argument("--origin", help="program, day and machine of FILE.csv")
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "output/scaling",
                         metavar="FOLDER")
     parser.add_argument("--program", type=pathlib.Path, help="default: build it")
@@ -123,9 +123,7 @@ def main():
             rows.append(measure(options.program, options.model, *run))
             write_csv(target, COLUMNS, rows)
     write_csv(target, COLUMNS, rows)
-    footer = made_by(__file__, [])
-    if options.machine:
-        footer += f" Measured on: {options.machine}."
+    footer = made_by(__file__, [], options.origin)
     text = "# PowerRTF: its stages over threads and n\n\n" + footer + "\n\n" + table(rows)
     if options.network:
         python, missing = python_environment(options.output / "environment", ["matplotlib"])
