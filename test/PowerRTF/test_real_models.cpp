@@ -69,6 +69,23 @@ TEST_CASE("cells at tips do not keep the others from equal capacities")
   }
 }
 
+TEST_CASE("a cell that full steps pass by does not keep Newton's method from its end")
+{
+  const Model model{"hand", 8000, 0};
+  if (!is_there(model)) {
+    MESSAGE("skipped: " << path_of(model) << " is missing");
+    return;
+  }
+  Mesh input, output;
+  REQUIRE(CGAL::IO::read_polygon_mesh(path_of(model), input));
+  Remeshing_options options;
+  options.improvement = Improvement::no;
+  const Remeshing_report report = CGAL::power_rtf_remeshing(input, model.samples, output,
+                                                            parameters::remeshing_options(options));
+  CHECK(report.capacity.inside_interval == 1);
+  CHECK(report.constructions <= report.outer_iterations + 15);
+}
+
 TEST_CASE("the place where a model intersects itself does not spoil the rest")
 {
   const Model model{"b9_mesh", 3000, 0};

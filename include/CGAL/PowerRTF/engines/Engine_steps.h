@@ -167,8 +167,10 @@ bool Engine<R, B, C>::newton_weights()
     m_are_components_known = true;
     gather_weights(m_backend, m_cells, m_sites.data(), m_weights_before.data());
     for (const double step : newton_weight_steps) {
+      if (step == 1 && m_has_newton_overshot) continue;
       take_step(step);
       const Capacity_statistics after = summary().capacity;
+      m_has_newton_overshot = step == 1 && has_overshot(before, after);
       if (after.least > least_capacity(before) && after.rms < before.rms) return true;
     }
     is_worth_another = leave_out_vanishing(m_backend, m_cells, usable_cells(), before,

@@ -27,6 +27,13 @@ CGAL_POWER_RTF_HD inline bool is_equalizable(Cell_status status, double capacity
 /// Newton's steps, as parts of its direction, until one is good.
 constexpr double newton_weight_steps[] = {1.0, 0.5, 0.25, 0.125, 0.0625};
 
+/// Whether a full step has brought the largest deviation hardly nearer to 0. Full steps may pass by
+/// a cell's share forth and back for many rounds; a half one between them reaches it.
+inline bool has_overshot(const Capacity_statistics& before, const Capacity_statistics& after)
+{
+  return after.largest_deviation > 0.6 * before.largest_deviation;
+}
+
 /// What each capacity has to stay above in a Newton step: cells that come near to vanishing stop
 /// having differentiable areas.
 inline double least_capacity(const Capacity_statistics& before)
