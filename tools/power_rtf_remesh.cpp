@@ -8,19 +8,15 @@
 #include "mesh_io.h"
 #include "options.h"
 #include "output_file.h"
+#include "program.h"
 #include "report_json.h"
+#include "traits.h"
 
-#ifdef CGAL_POWER_RTF_WITH_CUDA
-#include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
-#endif
-#include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/output_grid.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF_remesher.h>
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
@@ -33,7 +29,6 @@
 #include <list>
 #include <new>
 #include <optional>
-#include <thread>
 
 namespace {
 
@@ -41,8 +36,6 @@ using namespace CGAL::PowerRTF;
 using namespace tools;
 using internal::Stage;
 using internal::Stopwatch;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Concurrency = CGAL::Parallel_if_available_tag;
 
 enum Exit_code {
   done = 0,
@@ -311,49 +304,17 @@ Exit_code remesh_with(const Program_options& options, const std::string& gpu_not
   return conclude(run);
 }
 
-#ifdef CGAL_POWER_RTF_WITH_CUDA
-/// Whether a GPU saves more than the start of its context costs, .35 s. What it saves is the
-/// processor time of the optimization: 60 us a sample, with the paper's rule for the weights
-/// 1.5 ms. (Measured on an H200 beside 4 and 16 cores.) `--threads` does not count, as it is to
-/// change no result.
-bool is_gpu_faster(const Remeshing_options& options)
-{
-  constexpr double start = 0.35; // seconds
-  const double per_sample = options.weight_method == Weight_method::multiplicative ? 1.5e-3 : 6e-5;
-  const unsigned cores = (std::max)(1u, std::thread::hardware_concurrency());
-  return per_sample * static_cast<double>(options.number_of_samples) > start * cores;
-}
-#endif
-
-/// Remeshes with the traits that the options name. If any traits will do, it is the faster of CPU
-/// and GPU, and the CPU stands in for a GPU that fails.
 Exit_code remesh(const Program_options& options)
 {
-  using Cpu_traits = CGAL::PowerRTF_traits_3<Kernel, Concurrency>;
-  if (options.traits == "exact")
-    return remesh_with<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(options);
-  if (options.traits == "cpu") return remesh_with<Cpu_traits>(options);
-#ifdef CGAL_POWER_RTF_WITH_CUDA
-  if (options.traits == "auto" && !is_gpu_faster(options.remeshing))
-    return remesh_with<Cpu_traits>(options, "the CPU is faster for so few samples");
-  std::string gpu_not_used;
-  try {
-    cuda_devices(); // before any work is done
-    return remesh_with<CGAL::PowerRTF_cuda_traits_3<Kernel>>(options);
-  } catch (const Cuda_error& e) {
-    if (options.traits == "cuda")
-      throw Cuda_error(std::string("--traits cuda cannot be used: ") + e.what());
-    gpu_not_used = e.what();
-  }
-#else
-  const std::string gpu_not_used = "the CUDA traits are not built into this program";
-#endif
-  return remesh_with<Cpu_traits>(options, gpu_not_used);
+  return with_traits(options.traits, options.remeshing,
+                     [&](auto traits, const std::string& gpu_not_used) {
+                       return remesh_with<typename decltype(traits)::type>(options, gpu_not_used);
+                     });
 }
 
 } // namespace
 
-int main(int argc, char** argv)
+int tools::run_program(int argc, const char* const* argv)
 {
   handle_interrupts();
   std::string input;

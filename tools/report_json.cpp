@@ -152,8 +152,8 @@ void write_json(std::ostream& out, const Run& run)
   const Remeshing_report& r = run.report;
   Json json;
   json["program"] = "power_rtf_remesh " POWER_RTF_VERSION;
-  json["input"] = run.options.input;
-  if (run.options.write_mesh) json["output"] = run.options.output;
+  if (!run.options.input.empty()) json["input"] = run.options.input;
+  if (run.options.write_mesh && !run.options.output.empty()) json["output"] = run.options.output;
   json["samples"] = r.samples_asked;
   json["traits"] = run.options.traits;
   if (!run.gpu_not_used.empty()) json["gpu_not_used"] = run.gpu_not_used;

@@ -1,0 +1,78 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The traits that `auto|cpu|exact|cuda` name.
+#ifndef POWER_RTF_TOOLS_TRAITS_H
+#define POWER_RTF_TOOLS_TRAITS_H
+
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+#include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
+#endif
+#include <CGAL/PowerRTF/PowerRTF_exact_traits_3.h>
+#include <CGAL/PowerRTF/PowerRTF_traits_3.h>
+#include <CGAL/PowerRTF/Remeshing_options.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <string>
+#include <thread>
+
+namespace tools {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Concurrency = CGAL::Parallel_if_available_tag;
+
+/// A type as a value.
+template <class T>
+struct Type {
+  using type = T;
+};
+
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+/// Whether a GPU saves more than the start of its context costs, .35 s. What it saves is the
+/// processor time of the optimization: 60 us a sample, with the paper's rule for the weights
+/// 1.5 ms. (Measured on an H200 beside 4 and 16 cores.) `--threads` does not count, as it is to
+/// change no result.
+inline bool is_gpu_faster(const CGAL::PowerRTF::Remeshing_options& options)
+{
+  constexpr double start = 0.35; // seconds
+  const double per_sample =
+      options.weight_method == CGAL::PowerRTF::Weight_method::multiplicative ? 1.5e-3 : 6e-5;
+  const unsigned cores = (std::max)(1u, std::thread::hardware_concurrency());
+  return per_sample * static_cast<double>(options.number_of_samples) > start * cores;
+}
+#endif
+
+/// Returns `run(Type<Traits>(), gpu_not_used)` for the traits of that name; `gpu_not_used` says why
+/// no GPU is used although any traits will do. For "auto", it is the faster of CPU and GPU, and the
+/// CPU stands in for a GPU that fails.
+template <class Run>
+auto with_traits(const std::string& name, const CGAL::PowerRTF::Remeshing_options& options,
+                 const Run& run)
+{
+  using Cpu_traits = CGAL::PowerRTF_traits_3<Kernel, Concurrency>;
+  if (name == "exact")
+    return run(Type<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(), std::string());
+  if (name == "cpu") return run(Type<Cpu_traits>(), std::string());
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+  if (name == "auto" && !is_gpu_faster(options))
+    return run(Type<Cpu_traits>(), std::string("the CPU is faster for so few samples"));
+  std::string gpu_not_used;
+  try {
+    CGAL::PowerRTF::cuda_devices(); // before any work is done
+    return run(Type<CGAL::PowerRTF_cuda_traits_3<Kernel>>(), std::string());
+  } catch (const CGAL::PowerRTF::Cuda_error& e) {
+    if (name == "cuda")
+      throw CGAL::PowerRTF::Cuda_error(std::string("--traits cuda cannot be used: ") + e.what());
+    gpu_not_used = e.what();
+  }
+#else
+  (void)options;
+  const std::string gpu_not_used = "the CUDA traits are not built into this program";
+#endif
+  return run(Type<Cpu_traits>(), gpu_not_used);
+}
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_TRAITS_H
