@@ -139,3 +139,13 @@ fetch_models() {
   fi
   if [ $# = 0 ]; then touch "$models/complete"; fi
 }
+
+# make_python_environment FOLDER: a virtual environment with what the Python module and its tests need.
+make_python_environment() {
+  local log=$root/build/python.log
+  local packages=('nanobind>=2.4,<4' 'numpy>=1.23,<3' 'pytest>=7,<10')
+  [ ! -e "$1/complete" ] || return 0
+  mkdir -p "$root/build"
+  python3 -m venv "$1" >"$log" 2>&1 && "$1/bin/pip" install "${packages[@]}" >>"$log" 2>&1 || return 1
+  touch "$1/complete"
+}

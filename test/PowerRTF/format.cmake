@@ -16,7 +16,7 @@ if(NOT found MATCHES "version ${version}\\.")
 endif()
 
 set(files)
-foreach(folder include src cuda tools test examples benchmark doc)
+foreach(folder include src cuda tools python test examples benchmark doc)
   foreach(extension h cpp cu cuh)
     file(GLOB_RECURSE more ${SOURCE}/${folder}/*.${extension})
     list(APPEND files ${more})

@@ -1,0 +1,87 @@
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+from collections.abc import Callable, Iterator, Mapping
+from os import PathLike
+from typing import Any
+
+__version__: str
+
+class InvalidInputError(ValueError): ...
+class OutputError(OSError): ...
+class MissedGuaranteeWarning(UserWarning): ...
+
+class Report(Mapping[str, Any]):
+    def __getitem__(self, name: str) -> Any: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    def __getattr__(self, name: str) -> Any: ...
+    def to_dict(self) -> dict[str, Any]: ...
+
+class Mesh:
+    vertices: Any
+    faces: Any
+    report: Report
+    def __iter__(self) -> Iterator[Any]: ...
+    @property
+    def missed_guarantees(self) -> list[str]: ...
+    def to_trimesh(self) -> Any: ...
+    def to_pyvista(self) -> Any: ...
+    def to_meshio(self) -> Any: ...
+    def to_open3d(self) -> Any: ...
+
+def remesh(
+    vertices: Any,
+    faces: Any = None,
+    n: int | None = None,
+    *,
+    density: Any = "curvature",
+    constrained_edges: Any = None,
+    traits: str = "auto",
+    threads: int = 0,
+    progress: Callable[[float, str], Any] | bool | None = None,
+    preset: str = "quality",
+    seed: int = 0,
+    feature_angle: float = 40.0,
+    repair: bool = True,
+    density_power: float = 1.0,
+    gradation: float = 0.1,
+    density_smoothing: float = 3.0,
+    sampling: str = "lattice",
+    oversampling: float = 4.0,
+    relaxation_iterations: int = 0,
+    attributes: str = "facet",
+    normal_neighbors: int = 12,
+    density_neighbors: int = 12,
+    normal_smoothing: float = 0.7,
+    neighbors: int = 32,
+    normal_angle: float = 140.0,
+    guard_factor: float = 3.0,
+    certified_combinatorics: bool = False,
+    position_method: str = "lbfgs",
+    max_iterations: int = 100,
+    centroid_tolerance: float = 0.002,
+    lbfgs_memory: int = 5,
+    projection: str = "nearest-facet",
+    projection_neighbors: int = 16,
+    centroid_density_power: float = 2.0,
+    weight_method: str = "newton",
+    capacity_tolerance: float = 0.04,
+    max_weight_iterations: int = 30,
+    weight_step: float = 1.0,
+    weight_operator: str = "ceiling",
+    extraction: str = "cells",
+    improvement: bool = True,
+    device: int = 0,
+) -> Mesh: ...
+def remesh_file(
+    input: str | PathLike[str],
+    output: str | PathLike[str],
+    n: int,
+    *,
+    ascii: bool = False,
+    density: str = "curvature",
+    traits: str = "auto",
+    threads: int = 0,
+    progress: Callable[[float, str], Any] | bool | None = None,
+    **options: Any,
+) -> Mesh: ...

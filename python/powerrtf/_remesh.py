@@ -1,0 +1,148 @@
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The package's functions."""
+
+import inspect
+import json
+import os
+import warnings
+
+import numpy as np
+
+from . import _core
+from ._core import InvalidInputError
+from ._input import face_arrays, index_array, like, real_array, unpack_mesh
+from ._mesh import Mesh, MissedGuaranteeWarning, Report
+
+_FULL_NAMES = {"n": "number_of_samples", "seed": "random_seed"}
+_TRAITS = ("auto", "cpu", "exact", "cuda")
+
+
+def _bar():
+    from tqdm.auto import tqdm
+    bar = tqdm(total=1, bar_format="{desc:12} {percentage:3.0f}%|{bar}| {elapsed}")
+
+    def show(fraction, stage):
+        bar.set_description_str(stage, refresh=False)
+        bar.n = fraction
+        bar.refresh()
+    return show, bar.close
+
+
+def _run(vertices, faces, n, density, constrained_edges, traits, threads, progress, options):
+    if n is None:
+        raise InvalidInputError("n, the number of vertices asked for, is missing")
+    if traits not in _TRAITS:
+        raise InvalidInputError(f"traits is {traits!r}, but must be one of {'|'.join(_TRAITS)}")
+    if not isinstance(threads, int) or not 0 <= threads <= 4096:
+        raise InvalidInputError(f"threads is {threads!r}, but must be a number from 0 to 4096")
+    options = {_FULL_NAMES.get(name, name): value for name, value in options.items()}
+    for name in options.keys() - _OPTION_NAMES - {"preset", "coordinates"}:
+        raise TypeError(f"remesh() got an unexpected keyword argument {name!r}")
+    options["number_of_samples"] = n
+    densities = None
+    if isinstance(density, str):
+        options["density"] = density
+    else:
+        densities = real_array(density, "density")
+        if len(densities) != len(vertices):
+            raise InvalidInputError(f"density has {len(densities)} entries, but there are "
+                                    f"{len(vertices)} vertices")
+    if constrained_edges is not None:
+        constrained_edges = index_array(constrained_edges, "constrained_edges", (2,))
+    corners, sizes = faces
+    show, close = _bar() if progress is True else (progress or None, lambda: None)
+    try:
+        points, triangles, report = _core.remesh(vertices, corners, sizes, densities,
+                                                 constrained_edges, options, traits, threads, show)
+    finally:
+        close()
+    return Mesh(points, triangles, Report(json.loads(report)))
+
+
+def _warn(mesh):
+    for missed in mesh.missed_guarantees:
+        warnings.warn(f"a guarantee is missed: {missed}", MissedGuaranteeWarning, stacklevel=3)
+    return mesh
+
+
+def remesh(vertices, faces=None, n=None, *, density="curvature", constrained_edges=None,
+           traits="auto", threads=0, progress=None, **options):
+    if faces is None:
+        vertices, faces = unpack_mesh(vertices)
+    points = real_array(vertices, "vertices", (3,))
+    corners, sizes = face_arrays(faces)
+    if points.dtype == np.float32:
+        options["coordinates"] = "single"
+    mesh = _run(points, (corners, sizes), n, density, constrained_edges, traits, threads, progress,
+                options)
+    mesh.vertices = like(mesh.vertices, vertices)
+    mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
+    return _warn(mesh)
+
+
+def remesh_file(input, output, n, *, ascii=False, density="curvature", traits="auto", threads=0,
+                progress=None, **options):
+    """Remeshes from file to file.
+
+    :param input: OFF, OBJ, PLY or STL
+    :param output: OFF, OBJ, PLY, STL or VTP; it is written whole or not at all
+    :param ascii: PLY and STL are written as text
+    :returns: the :class:`Mesh`; the other parameters are those of :func:`remesh`
+    :raises OutputError: `output` cannot be written
+    """
+    input, output = os.fspath(input), os.fspath(output)
+    _core.check_output(output)
+    points, corners, sizes = _core.read_mesh(input)
+    if _core.holds_floats(output, ascii):
+        options["coordinates"] = "single"
+    mesh = _run(points, (corners, sizes), n, density, None, traits, threads, progress, options)
+    _core.write_mesh(output, mesh.vertices, mesh.faces, ascii)
+    return _warn(mesh)
+
+
+_DOC = """Remeshes a surface with `n` well-distributed vertices.
+
+:param vertices: (k, 3) numbers; or a mesh of trimesh, pyvista, Open3D or meshio, without `faces`
+:param faces: (m, 3) or more columns, or polygons of different sizes: vertices, numbered from 0
+:param n: the number of vertices asked for
+:param density: "curvature", "uniform", or a positive number for each vertex; only ratios matter
+:param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
+:param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm
+:param threads: 0: all. The result is the same for any number
+:param progress: is called with the share of the stage that is done and the stage's name, about
+    every 50 ms; or True: a bar by tqdm. What it raises stops the run
+:param preset: "quality" or "paper": whose values the other options have
+{options}
+:returns: :class:`Mesh`, which unpacks as ``vertices, faces``. Its arrays are of the input's kind
+    and precision
+:raises InvalidInputError: the message says what cannot be used (a :class:`ValueError`)
+:warns MissedGuaranteeWarning: the result lacks something that is promised
+
+>>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+>>> mesh = remesh(square, [[0, 1, 2, 3]], 100, density="uniform")
+>>> len(mesh.vertices), mesh.missed_guarantees
+(100, [])
+"""
+
+
+def _describe():
+    """Gives `remesh` the signature and the documentation that the library's table has."""
+    short = {full: name for name, full in _FULL_NAMES.items()}
+    rows = [row for row in _core.options() if row[0] not in ("number_of_samples", "density",
+                                                             "coordinates")]
+    lines, added = [], [inspect.Parameter("preset", inspect.Parameter.KEYWORD_ONLY,
+                                          default="quality")]
+    for full_name, default, paper, meaning, allowed in rows:
+        name = short.get(full_name, full_name)
+        of_paper = "" if paper == default else f"; paper: {paper!r}"
+        lines.append(f":param {name}: {meaning}; {allowed} ({default!r}{of_paper})")
+        added.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default))
+    signature = inspect.signature(remesh)
+    own = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
+    remesh.__signature__ = signature.replace(parameters=own + added)
+    remesh.__doc__ = _DOC.format(options="\n".join(lines))
+    return {row[0] for row in rows}
+
+
+_OPTION_NAMES = _describe()

@@ -1,0 +1,187 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The compiled part of the Python package: arrays in, arrays out. What is for users is in
+// ../powerrtf.
+#include "Python_visitor.h"
+#include "arrays.h"
+#include "options.h"
+
+#include "mesh_io.h"
+#include "option_names.h"
+#include "output_file.h"
+#include "program.h"
+#include "report_json.h"
+#include "traits.h"
+
+#include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF_remesher.h>
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/task_arena.h>
+#endif
+
+#include <optional>
+#include <sstream>
+
+namespace {
+
+using namespace powerrtf;
+using namespace CGAL::PowerRTF;
+using nb::literals::operator""_a;
+
+struct Input {
+  Polygon_soup soup;
+  std::optional<std::vector<Edge>> creases;
+  std::optional<std::vector<double>> densities;
+};
+
+/// As `CGAL::power_rtf_remeshing()`. Returns an empty mesh when the visitor has stopped it.
+template <class Traits>
+Extracted_mesh remesh_with(tools::Run& run, Input& input, Python_visitor& visitor)
+{
+  using Concurrency = typename Traits::Concurrency_tag;
+  const Remeshing_options& options = run.options.remeshing;
+  run.options.traits = Traits::name();
+  const internal::Stopwatch total(run.report.seconds.total);
+  std::optional<CGAL::PowerRTF_remesher<Traits>> remesher;
+  {
+    const internal::Stage stage("surface");
+    remesher.emplace(prepare_surface(Polygon_soup(input.soup), input.creases, input.densities,
+                                     options, run.report, Concurrency()),
+                     options, run.report);
+  }
+  Extracted_mesh mesh;
+  if (remesher->optimize(visitor)) mesh = remesher->extract(visitor);
+  run.report = remesher->report();
+  for (Vec3d& p : mesh.points) p = remesher->surface().normalization.to_outside(p);
+  return mesh;
+}
+
+Extracted_mesh remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor)
+{
+  const std::string name = run.options.traits;
+  Extracted_mesh mesh;
+  const auto remesh = [&] {
+    mesh = tools::with_traits(
+        name, run.options.remeshing, [&](auto traits, const std::string& gpu_not_used) {
+          run.gpu_not_used = gpu_not_used;
+          return remesh_with<typename decltype(traits)::type>(run, input, visitor);
+        });
+  };
+  const auto cancellable = [&] { internal::run_unless_cancelled(visitor, remesh); };
+#ifdef CGAL_LINKED_WITH_TBB
+  // An arena, as the limits of the process would hold for other threads' runs, too.
+  tbb::task_arena arena(run.options.threads > 0 ? run.options.threads : tbb::task_arena::automatic);
+  run.threads = arena.max_concurrency();
+  arena.execute(cancellable);
+#else
+  cancellable();
+#endif
+  run.missed = run.report.missed_guarantees();
+  return mesh;
+}
+
+nb::tuple remesh(const Real_array& points, const Index_array& faces,
+                 const std::optional<Index_array>& sizes, const std::optional<Real_array>& density,
+                 const std::optional<Index_array>& constrained_edges, const nb::dict& options,
+                 const std::string& traits, int threads, const nb::object& progress)
+{
+#ifndef CGAL_POWER_RTF_WITH_CUDA
+  if (traits == "cuda") throw Invalid_input_error("traits is 'cuda', which is not built in here");
+#endif
+  tools::Run run;
+  run.options.remeshing = options_of(options);
+  run.options.traits = traits;
+  run.options.threads = threads;
+  const bool is_single = run.options.remeshing.coordinates == Coordinates::single_precision;
+  Python_visitor visitor(progress);
+  Extracted_mesh mesh;
+  {
+    const nb::gil_scoped_release release;
+    Input input;
+    input.soup = soup_of_arrays(points, faces, sizes);
+    if (constrained_edges) input.creases = edges_of_array(*constrained_edges, input.soup);
+    if (density) input.densities = numbers_of_array(*density);
+    mesh = remesh_with_traits(run, input, visitor);
+  }
+  visitor.rethrow();
+  std::ostringstream report;
+  tools::write_json(report, run);
+  nb::object vertices = is_single ? to_array<float>(std::move(mesh.points))
+                                  : to_array<double>(std::move(mesh.points));
+  return nb::make_tuple(vertices, to_array<int>(std::move(mesh.triangles)), report.str());
+}
+
+nb::tuple read_mesh(const std::string& file)
+{
+  tools::Polygon_mesh mesh;
+  {
+    const nb::gil_scoped_release release;
+    mesh = tools::read_mesh(file);
+  }
+  std::vector<int> sizes(mesh.soup.first.size() - 1);
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    sizes[k] = mesh.soup.first[k + 1] - mesh.soup.first[k];
+  return nb::make_tuple(to_array<double>(std::move(mesh.soup.points)),
+                        to_array<int>(std::move(mesh.soup.corners)),
+                        to_array<int>(std::move(sizes)));
+}
+
+tools::Encoding encoding_of(bool ascii)
+{
+  return ascii ? tools::Encoding::text : tools::Encoding::binary;
+}
+
+void check_output(const std::string& file)
+{
+  if (tools::format_of(file) == tools::Format::unknown)
+    throw tools::Output_error(file + ": cannot be written: its name does not end in .off, .obj, "
+                                     ".ply, .stl or .vtp");
+  tools::check_writable(file);
+}
+
+void write_mesh(const std::string& file, const Real_array& points, const Index_array& faces,
+                bool ascii)
+{
+  const Polygon_soup soup = soup_of_arrays(points, faces, {});
+  std::vector<Triangle> triangles(soup.corners.size() / 3);
+  for (std::size_t i = 0; i < soup.corners.size(); ++i) triangles[i / 3][i % 3] = soup.corners[i];
+  tools::Output_file output(file);
+  tools::write_mesh(output.stream(), tools::format_of(file), encoding_of(ascii), soup.points,
+                    triangles);
+  output.close();
+  output.commit();
+}
+
+int run_program(const std::vector<std::string>& arguments)
+{
+  std::vector<const char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  argv.push_back(nullptr);
+  const nb::gil_scoped_release release;
+  return tools::run_program(static_cast<int>(arguments.size()), argv.data());
+}
+
+} // namespace
+
+NB_MODULE(_core, m)
+{
+  m.attr("__version__") = POWER_RTF_VERSION;
+  nb::exception<Invalid_input_error>(m, "InvalidInputError", PyExc_ValueError);
+  nb::exception<tools::Output_error>(m, "OutputError", PyExc_OSError);
+  m.def("options", &option_rows);
+  m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "density"_a.none(),
+        "constrained_edges"_a.none(), "options"_a, "traits"_a, "threads"_a, "progress"_a.none());
+  m.def("read_mesh", &read_mesh, "file"_a);
+  m.def("check_output", &check_output, "file"_a);
+  m.def("holds_floats", [](const std::string& file, bool ascii) {
+    return tools::holds_floats(tools::format_of(file), encoding_of(ascii));
+  });
+  m.def("write_mesh", &write_mesh, "file"_a, "points"_a, "faces"_a, "ascii"_a);
+  m.def("run_program", &run_program, "arguments"_a);
+}

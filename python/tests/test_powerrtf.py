@@ -1,0 +1,207 @@
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import powerrtf
+
+
+def sphere(rings=12, dtype=float):
+    """A sphere of about 2 rings^2 vertices."""
+    angles = np.linspace(0, np.pi, rings + 1)[1:-1]
+    around = np.arange(2 * rings) * np.pi / rings
+    a, b = np.meshgrid(angles, around, indexing="ij")
+    grid = np.stack([np.sin(a) * np.cos(b), np.sin(a) * np.sin(b), np.cos(a)], -1).reshape(-1, 3)
+    points = np.vstack([grid, [[0, 0, 1], [0, 0, -1]]]).astype(dtype)
+    m, top, faces = 2 * rings, len(grid), []
+    for j in range(m):
+        k = (j + 1) % m
+        faces += [[top, j, k], [top + 1, (rings - 2) * m + k, (rings - 2) * m + j]]
+        for i in range(rings - 2):
+            faces += [[i * m + j, (i + 1) * m + j, (i + 1) * m + k],
+                      [i * m + j, (i + 1) * m + k, i * m + k]]
+    return points, np.array(faces)
+
+
+POINTS, FACES = sphere()
+
+
+def same(a, b):
+    return np.array_equal(a.vertices, b.vertices) and np.array_equal(a.faces, b.faces)
+
+
+@pytest.mark.parametrize("real", [np.float32, np.float64])
+@pytest.mark.parametrize("whole", [np.int32, np.int64])
+def test_output_has_the_types_of_the_input(real, whole):
+    mesh = powerrtf.remesh(POINTS.astype(real), FACES.astype(whole), 100)
+    assert mesh.vertices.dtype == real and mesh.faces.dtype == whole
+    assert mesh.vertices.shape == (100, 3) and mesh.missed_guarantees == []
+
+
+@pytest.mark.parametrize("change", [
+    np.asfortranarray, lambda a: a[::-1][::-1], lambda a: np.repeat(a, 2, axis=0)[::2],
+    lambda a: a.astype(a.dtype.newbyteorder()), lambda a: a.tolist()])
+def test_any_layout_gives_the_same(change):
+    assert same(powerrtf.remesh(change(POINTS), change(FACES), 100),
+                powerrtf.remesh(POINTS, FACES, 100))
+
+
+def test_read_only_input_is_taken_and_no_input_is_changed():
+    points, faces = POINTS.copy(), FACES.copy()
+    powerrtf.remesh(points, faces, 100)
+    assert np.array_equal(points, POINTS) and np.array_equal(faces, FACES)
+    points.flags.writeable = faces.flags.writeable = False
+    assert same(powerrtf.remesh(points, faces, 100), powerrtf.remesh(POINTS, FACES, 100))
+
+
+def test_polygons_may_have_different_sizes():
+    cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    mixed = quads[:5] + [[1, 5, 7], [1, 7, 3]]
+    assert len(powerrtf.remesh(cube, quads, 200).vertices) == 200
+    assert len(powerrtf.remesh(cube, mixed, 200).vertices) == 200
+
+
+def changed(array, place, value):
+    array = array.copy()
+    array[place] = value
+    return array
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ((changed(POINTS, (7, 1), np.nan), FACES, 100), "vertex 7 .*not a finite"),
+    ((changed(POINTS, (7, 1), np.inf), FACES, 100), "vertex 7 .*not a finite"),
+    ((POINTS, changed(FACES, (5, 2), 99999), 100), "facet 5 refers to vertex 99999"),
+    ((POINTS, changed(FACES, (5, 2), -1), 100), "facet 5 refers to vertex -1"),
+    ((POINTS[:, :2], FACES, 100), r"vertices must have the shape \(m, 3\), not"),
+    ((POINTS, FACES[:, :2], 100), "faces must have the shape"),
+    ((POINTS, FACES.astype(float), 100), "faces must be whole numbers, not of type float64"),
+    ((POINTS.astype(complex), FACES, 100), "vertices must be numbers, not of type complex"),
+    ((POINTS, FACES[:0], 100), "facet|empty"),
+    ((POINTS[:0], FACES, 100), "facet 0 refers to vertex"),
+    ((POINTS, FACES, 3), "number_of_samples is 3, but must be"),
+    ((POINTS, FACES, "many"), "number_of_samples is 'many'"),
+    ((POINTS, FACES), "n, the number of vertices"),
+    ((POINTS,), "faces are missing"),
+])
+def test_wrong_input_is_refused_with_the_entry(arguments, message):
+    with pytest.raises(powerrtf.InvalidInputError, match=message) as error:
+        powerrtf.remesh(*arguments)
+    assert isinstance(error.value, ValueError)
+
+
+def test_wrong_options_are_refused():
+    with pytest.raises(ValueError, match="gradation is -1, but must be a number from 0"):
+        powerrtf.remesh(POINTS, FACES, 100, gradation=-1)
+    with pytest.raises(ValueError, match="sampling is 'no', but must be one of lattice"):
+        powerrtf.remesh(POINTS, FACES, 100, sampling="no")
+    with pytest.raises(TypeError, match="unexpected keyword argument 'nonsense'"):
+        powerrtf.remesh(POINTS, FACES, 100, nonsense=1)
+    with pytest.raises(ValueError, match="density has 3 entries"):
+        powerrtf.remesh(POINTS, FACES, 100, density=[1., 2, 3])
+
+
+def test_report_is_that_of_the_program():
+    report = powerrtf.remesh(POINTS, FACES, 100, seed=3, feature_angle=30).report
+    assert report.vertices == report["vertices"] == dict(report)["vertices"] == 100
+    assert report.seed == 3 and report.parameters.features == 30 and report.to_dict()["samples"] == 100
+
+
+def test_same_bits_as_the_program(tmp_path):
+    mesh = powerrtf.remesh(POINTS, FACES, 300, seed=5)
+    text = "".join("%.17g %.17g %.17g\n" % tuple(p) for p in POINTS)
+    text += "".join("3 %d %d %d\n" % tuple(f) for f in FACES)
+    source = tmp_path / "in.off"
+    source.write_text(f"OFF\n{len(POINTS)} {len(FACES)} 0\n{text}")
+    files = [tmp_path / f"{name}.off" for name in ("program", "module", "function")]
+    arguments = ["--samples", "300", "--seed", "5", "--quiet"]
+    program = os.environ.get("POWER_RTF_REMESH")
+    if not program:
+        pytest.skip("POWER_RTF_REMESH does not name the program")
+    subprocess.run([program, source, files[0], *arguments], check=True)
+    subprocess.run([sys.executable, "-m", "powerrtf", source, files[1], *arguments], check=True)
+    powerrtf.remesh_file(source, files[2], 300, seed=5)
+    assert files[0].read_bytes() == files[1].read_bytes() == files[2].read_bytes()
+    lines = files[0].read_text().split("\n")
+    start = next(i for i, line in enumerate(lines) if line.startswith("300 ")) + 1
+    rows = [line for line in lines[start:] if line]
+    assert np.array_equal(np.array([r.split() for r in rows[:300]], float), mesh.vertices)
+    assert np.array_equal(np.array([r.split()[1:4] for r in rows[300:]], int), mesh.faces)
+
+
+def test_threads_at_once_give_the_same():
+    expected = [powerrtf.remesh(POINTS, FACES, 500, seed=s) for s in (0, 1)]
+    found = [None, None]
+
+    def run(seed):
+        found[seed] = powerrtf.remesh(POINTS, FACES, 500, seed=seed, threads=seed)
+    threads = [threading.Thread(target=run, args=(s,)) for s in (0, 1)]
+    [t.start() for t in threads]
+    [t.join() for t in threads]
+    assert all(same(a, b) for a, b in zip(expected, found))
+
+
+def test_progress_is_told_and_its_exceptions_stop_the_run():
+    seen = []
+    powerrtf.remesh(POINTS, FACES, 500, progress=lambda share, stage: seen.append((share, stage)))
+    assert {"surface", "sampling", "optimization"} <= {stage for _, stage in seen}
+    assert all(0 <= share <= 1 for share, _ in seen)
+
+    def stop(share, stage):
+        if stage == "optimization":
+            raise KeyError("enough")
+    with pytest.raises(KeyError, match="enough"):
+        powerrtf.remesh(POINTS, FACES, 500, progress=stop)
+
+
+def test_interrupt_stops_the_run_within_a_fifth_of_a_second():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # shells' background jobs ignore it
+    sent = []
+
+    def interrupt():
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+    timer = threading.Timer(.5, interrupt)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        powerrtf.remesh(POINTS, FACES, 300000)
+    assert time.monotonic() - sent[0] < .2
+
+
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * resource.getpagesize()
+
+
+def leaked_bytes():
+    """How much more memory 1000 calls and 1000 refused ones take."""
+    points, faces = sphere(4)
+
+    def call(times):
+        for _ in range(times):
+            powerrtf.remesh(points, faces, 30, max_iterations=1)
+            with pytest.raises(ValueError):
+                powerrtf.remesh(points, faces + 1000, 30)
+    call(200)
+    before = resident()
+    call(1000)
+    return resident() - before
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="needs /proc")
+def test_calls_leak_nothing():
+    # in a process of its own: what other tests have freed changes the figure
+    found = subprocess.run([sys.executable, "-B", __file__], check=True, stdout=subprocess.PIPE)
+    assert int(found.stdout) < 2 << 20
+
+
+if __name__ == "__main__":
+    print(leaked_bytes())
