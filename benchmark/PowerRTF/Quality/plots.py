@@ -7,6 +7,7 @@ plots.py DATA.json FOLDER
 
 import json
 import pathlib
+import statistics
 import sys
 
 import matplotlib
@@ -59,6 +60,28 @@ def figure_peers(runs, path):
     figure.savefig(path, dpi=110)
 
 
+def figure_time(runs, path):
+    """Quality over CPU time: a point per run, and larger ones in the middle of each method's."""
+    panels = (("q_min", "$Q_{min}$"), ("q_avg", "$Q_{avg}$"),
+              ("theta_min", "$\\theta_{min}$ (degrees)"))
+    methods = list(dict.fromkeys(run["method"] for run in runs))
+    colors = plt.get_cmap("tab10")
+    figure, axes = plt.subplots(1, 3, figsize=(14, 4.5), layout="constrained")
+    for axis, (key, label) in zip(axes, panels):
+        for m, method in enumerate(methods):
+            points = [(run["cpu"], run[key]) for run in runs if run["method"] == method]
+            axis.scatter(*zip(*points), s=12, color=colors(m % 10), alpha=0.4)
+            axis.scatter(*map(statistics.median, zip(*points)), s=70, color=colors(m % 10),
+                         marker="os^"[m // 10], edgecolors="black", label=method)
+        axis.set_xlabel("CPU time (s)")
+        axis.set_ylabel(label)
+        axis.set_xscale("log")
+        axis.grid(alpha=0.3)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center",
+                  ncols=min(len(methods), 5), fontsize=8)
+    figure.savefig(path, dpi=110)
+
+
 def main():
     data = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
     folder = pathlib.Path(sys.argv[2])
@@ -66,6 +89,7 @@ def main():
         figure_11(data["figures_10_11"], folder / "figure_11.png")
     if data.get("peers"):
         figure_peers(data["peers"], folder / "peers.png")
+        figure_time(data["peers"], folder / "peers_time.png")
 
 
 if __name__ == "__main__":

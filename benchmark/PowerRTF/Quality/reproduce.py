@@ -140,7 +140,8 @@ def write(tables, options, python, footer):
         write_csv(folder / f"{table.name}.csv", table.columns, table.rows)
         text += [f"## {table.title}\n", table.text + "\n",
                  markdown(table.columns, table.rows, 4)]
-        for name, file in (("figures_10_11", "figure_11.png"), ("peers", "peers.png")):
+        for name, file in (("figures_10_11", "figure_11.png"), ("peers", "peers.png"),
+                           ("peers", "peers_time.png")):
             if drawn and table.name == name and (folder / file).exists():
                 text.append(f"![]({file})\n")
         if python and options.render:
