@@ -249,14 +249,16 @@ private:
                                      const PowerRTF::Feature_samples& features)
   {
     using Method = PowerRTF::Extraction_method;
+    const bool is_opened = !m_surface.seams.empty(); // its cells are those of the surface as it was
+    const bool by_cells = m_options.extraction == Method::cells && !is_opened && !all_fixed();
+    Progress_part part(0.2);
+    std::vector<std::vector<int>> neighbors;
+    if (by_cells) neighbors = m_engine.neighbors();
+    m_engine.release_memory();
+    part.next(1);
     if (m_options.extraction == Method::restricted_delaunay)
       return PowerRTF::extract_restricted_delaunay(surface, samples, features);
-    const bool is_opened = !m_surface.seams.empty(); // its cells are those of the surface as it was
-    if (m_options.extraction == Method::insertion || is_opened || all_fixed())
-      return PowerRTF::extract_by_insertion(surface, samples, features, is_opened);
-    Progress_part part(0.2);
-    auto neighbors = m_engine.neighbors();
-    part.next(1);
+    if (!by_cells) return PowerRTF::extract_by_insertion(surface, samples, features, is_opened);
     return PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
         surface, samples, features, std::move(neighbors));
   }

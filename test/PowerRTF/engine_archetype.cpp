@@ -28,6 +28,7 @@ public:
   Samples samples() const;
   Samples sites() const;
   std::vector<Cell_polygon> cells();
+  void release_memory();
   std::vector<std::vector<int>> neighbors();
   double epsilon() const;
   const Facet_tree& facet_tree();

@@ -85,6 +85,9 @@ public:
   /// counter-clockwise seen from outside; negative: a side of the guard square.
   std::vector<std::vector<int>> neighbors();
 
+  /// Frees what only further steps need. They would make it again.
+  void release_memory();
+
   /// The precision of the cells' numbers: the machine epsilon of `double`, or of `float`.
   double epsilon() const;
 

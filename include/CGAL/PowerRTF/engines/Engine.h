@@ -17,7 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,8 +36,7 @@ public:
   Engine(const Packed_surface& surface, const Remeshing_options& options, Arguments&&... backend)
       : m_options(options), m_cos_angle(Real(compatibility_cosine(options.normal_angle))),
         m_backend(std::forward<Arguments>(backend)...), m_surface(m_backend, surface),
-        m_area_of_surface(surface.area), m_lbfgs(m_backend), m_long_lbfgs(m_backend),
-        m_newton(m_backend), m_shared_summary(m_backend)
+        m_area_of_surface(surface.area), m_shared_summary(m_backend)
   {
     m_summary.allocate(m_backend, 1);
     m_scalar.allocate(m_backend, 1);
@@ -55,6 +54,7 @@ public:
   Engine_samples samples() override;
   std::vector<Cell_polygon> cells() override;
   std::vector<std::vector<int>> neighbors() override;
+  void release_memory() override;
   double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }
   Device_report device_report() override
   {
@@ -67,6 +67,7 @@ private:
   static constexpr int short_memory = 5; // of L-BFGS: the default
 
   void allocate();
+  void make_builder();
   void sort(const Engine_samples& samples);
   void upload_boundaries(const Engine_samples& samples);
   void update_attributes();
@@ -86,7 +87,18 @@ private:
   void project(const Step& step);
 
   bool has_features() const { return m_size > m_cells; }
-  bool has_short_memory() const { return m_options.lbfgs_memory <= short_memory; }
+  /// Calls `f(lbfgs)`.
+  template <class F>
+  void with_lbfgs(F&& f);
+  void forget_lbfgs()
+  {
+    m_lbfgs.reset();
+    m_long_lbfgs.reset();
+  }
+  Newton_solver<Real, Backend>& newton()
+  {
+    return m_newton ? *m_newton : m_newton.emplace(m_backend);
+  }
   Attribute_rule<Real> attribute_rule()
   {
     return {m_surface.view(),
@@ -117,10 +129,11 @@ private:
   Backend m_backend;
   Surface_arrays<Real, Backend> m_surface;
   double m_area_of_surface;
-  std::unique_ptr<Cells> m_builder;
-  Lbfgs<Real, Backend, short_memory> m_lbfgs;
-  Lbfgs<Real, Backend, max_lbfgs_memory> m_long_lbfgs; // used when the other is too short
-  Newton_solver<Real, Backend> m_newton;
+  std::optional<Cells> m_builder;
+  // Made when they are needed.
+  std::optional<Lbfgs<Real, Backend, short_memory>> m_lbfgs;
+  std::optional<Lbfgs<Real, Backend, max_lbfgs_memory>> m_long_lbfgs; // if the other is too short
+  std::optional<Newton_solver<Real, Backend>> m_newton;
 
   int m_cells = 0, m_size = 0; // n, and with the sites that only clip
   bool m_has_patches = false;
@@ -137,7 +150,7 @@ private:
   Buffer<unsigned char> m_is_left_out; // of the capacities, by Newton's steps
   Buffer<double> m_scalar;             // that one loop leaves for the next
 
-  struct Best_state { // where the residual of L-BFGS was least
+  struct Best_state { // where the residual of L-BFGS was least; empty before
     double residual = std::numeric_limits<double>::infinity();
     Buffer<Site<Real>> sites;
     Buffer<int> facets;

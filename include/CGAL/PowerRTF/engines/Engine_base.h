@@ -76,6 +76,7 @@ public:
   virtual Engine_samples samples() = 0;
   virtual std::vector<Cell_polygon> cells() = 0;
   virtual std::vector<std::vector<int>> neighbors() = 0;
+  virtual void release_memory() = 0;
   virtual double epsilon() const = 0;
   virtual Device_report device_report() = 0;
 };

@@ -50,16 +50,23 @@ void Engine<R, B, C>::set_samples(const Engine_samples& samples)
   m_has_patches = !samples.patches.empty();
   allocate();
   m_best.residual = std::numeric_limits<double>::infinity();
-  // The first neighbor search: a ball of radius 2 R that holds k samples.
-  const double radius =
-      std::sqrt(m_options.neighbors * m_area_of_surface / (4 * 3.14159265358979 * m_size));
-  m_builder.reset(new C(m_backend, m_size, m_cos_angle, R(radius), m_options));
+  forget_lbfgs();
+  make_builder();
   m_constructions = 0;
   m_mean_mass = 0;
   m_are_edges_wanted = m_are_edges_known = false;
   sort(samples);
   m_backend.start_clock();
   update_attributes();
+}
+
+template <class R, class B, class C>
+void Engine<R, B, C>::make_builder()
+{
+  // The first neighbor search: a ball of radius 2 R that holds k samples.
+  const double radius =
+      std::sqrt(m_options.neighbors * m_area_of_surface / (4 * 3.14159265358979 * m_size));
+  m_builder.emplace(m_backend, m_size, m_cos_angle, R(radius), m_options);
 }
 
 template <class R, class B, class C>
@@ -76,14 +83,6 @@ void Engine<R, B, C>::allocate()
   m_offset.allocate(m_backend, n);
   m_step.allocate(m_backend, n);
   m_status.allocate(m_backend, n);
-  if (m_options.position_method == Position_method::lbfgs) {
-    if (has_short_memory())
-      m_lbfgs.resize(m_cells, m_options.lbfgs_memory);
-    else
-      m_long_lbfgs.resize(m_cells, m_options.lbfgs_memory);
-    m_best.sites.allocate(m_backend, m);
-    m_best.facets.allocate(m_backend, m);
-  }
 }
 
 /// The samples with cells along a space-filling curve. Those that only clip are not sorted, so that
@@ -222,6 +221,18 @@ std::vector<std::vector<int>> Engine<R, B, C>::neighbors()
   });
   m_builder->set_weights(sites());
   return neighbors;
+}
+
+template <class R, class B, class C>
+void Engine<R, B, C>::release_memory()
+{
+  finish_cells();
+  forget_lbfgs();
+  m_newton.reset();
+  m_best = {};
+  m_are_edges_wanted = m_are_edges_known = false;
+  make_builder();
+  m_builder->set_sites(sites());
 }
 
 } // namespace CGAL::PowerRTF

@@ -34,7 +34,7 @@ Cell_outputs<R> Engine<R, B, C>::outputs()
   out.mass = m_mass.data();
   out.offset = m_offset.data();
   out.status = m_status.data();
-  if (m_are_edges_wanted) m_newton.add_outputs(m_cells, out);
+  if (m_are_edges_wanted) newton().add_outputs(m_cells, out);
   return out;
 }
 
@@ -150,10 +150,11 @@ void Engine<R, B, C>::choose_left_out()
 template <class R, class B, class C>
 bool Engine<R, B, C>::newton_weights()
 {
+  forget_lbfgs();
   m_are_edges_wanted = true;
   choose_left_out();
   const auto take_step = [&](double step) {
-    step_weights(m_backend, m_cells, m_sites.data(), m_weights_before.data(), m_newton.direction(),
+    step_weights(m_backend, m_cells, m_sites.data(), m_weights_before.data(), newton().direction(),
                  step);
     use_weights();
     build_cells();
@@ -162,7 +163,7 @@ bool Engine<R, B, C>::newton_weights()
     if (!m_are_edges_known) build_cells();
     const Capacity_statistics before = summary().capacity;
     if (!(before.mean > 0)) return false; // all cells are left out
-    m_newton.solve(m_cells, m_area.data(), m_density.data(), m_is_left_out.data(),
+    newton().solve(m_cells, m_area.data(), m_density.data(), m_is_left_out.data(),
                    m_options.capacity_tolerance, !m_are_components_known);
     m_are_components_known = true;
     gather_weights(m_backend, m_cells, m_sites.data(), m_weights_before.data());
@@ -196,6 +197,8 @@ double Engine<R, B, C>::remember_best()
   const double residual = summary().residual;
   if (residual < m_best.residual) {
     m_best.residual = residual;
+    m_best.sites.allocate(m_backend, m_size);
+    m_best.facets.allocate(m_backend, m_size);
     copy_state(m_backend, m_size, m_best.sites.data(), m_best.facets.data(), m_sites.data(),
                m_facets.data());
   }
@@ -210,10 +213,21 @@ void Engine<R, B, C>::restore_best()
              m_best.facets.data());
   update_attributes();
   build_cells();
-  if (has_short_memory())
-    m_lbfgs.clear();
+  forget_lbfgs();
+}
+
+template <class R, class B, class C>
+template <class F>
+void Engine<R, B, C>::with_lbfgs(F&& f)
+{
+  const auto call = [&](auto& lbfgs) {
+    if (!lbfgs) lbfgs.emplace(m_backend).resize(m_cells, m_options.lbfgs_memory);
+    f(*lbfgs);
+  };
+  if (m_options.lbfgs_memory <= short_memory)
+    call(m_lbfgs);
   else
-    m_long_lbfgs.clear();
+    call(m_long_lbfgs);
 }
 
 template <class R, class B, class C>
@@ -248,10 +262,8 @@ void Engine<R, B, C>::move_samples(Position_method method)
   Vec3<R>* const steps = m_step.data();
   if (!lbfgs)
     lloyd_steps(m_backend, m_cells, lloyd, steps);
-  else if (has_short_memory())
-    lbfgs_steps(m_backend, m_cells, m_lbfgs, m_sites.data(), lloyd, steps);
   else
-    lbfgs_steps(m_backend, m_cells, m_long_lbfgs, m_sites.data(), lloyd, steps);
+    with_lbfgs([&](auto& l) { lbfgs_steps(m_backend, m_cells, l, m_sites.data(), lloyd, steps); });
   if (may_part) {
     m_builder->empty_cells_distances(m_status.data(), nearest, sixth);
     m_are_distances_known = false;
