@@ -17,21 +17,21 @@ struct Flat_lattice {
   using Vec3f = CGAL::PowerRTF::Vec3f;
   using Phasor = CGAL::PowerRTF::Phasor;
   using Waves = CGAL::PowerRTF::Waves;
+  using Stored_waves = CGAL::PowerRTF::Stored_waves;
   static constexpr double pi = 3.14159265358979323846;
 
-  std::vector<Vec3d> points;
+  std::vector<Vec3f> points;
   std::vector<double> angles; ///< of the axes
   std::vector<Vec3f> normals, turning, axes;
   std::vector<int> components;
   std::vector<float> spacing;
-  std::vector<Phasor> directions;
-  std::vector<Waves> waves;
+  std::vector<Stored_waves> waves;
 
   Flat_lattice(int n, unsigned seed, double angle, float h, const Vec3d& origin)
   {
     CGAL::PowerRTF::Random_source random(seed);
     for (int i = 0; i < n; ++i) {
-      const Vec3d p{random() - 0.5, random() - 0.5, 0};
+      const Vec3f p{float(random() - 0.5), float(random() - 0.5), 0};
       const double theta = angle + pi / 3 * std::floor(6 * random());
       points.push_back(p);
       angles.push_back(theta);
@@ -40,8 +40,7 @@ struct Flat_lattice {
       axes.push_back(axis_at(theta));
       components.push_back(0);
       spacing.push_back(h);
-      directions.push_back(direction_at(theta));
-      waves.push_back(waves_at(p - origin, theta, h));
+      waves.push_back(waves_at(CGAL::PowerRTF::to_double(p) - origin, theta, h));
     }
   }
 
@@ -52,7 +51,6 @@ struct Flat_lattice {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double theta = angles[i] + sixths * std::atan2(points[i].y, points[i].x) / 6;
       axes[i] = axis_at(theta);
-      directions[i] = direction_at(theta);
     }
   }
 
@@ -62,7 +60,8 @@ struct Flat_lattice {
   {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double turns = std::atan2(points[i].y, points[i].x) / (2 * pi);
-      waves[i] = waves_at(points[i] + turns * burgers, angles[i], spacing[i]);
+      waves[i] =
+          waves_at(CGAL::PowerRTF::to_double(points[i]) + turns * burgers, angles[i], spacing[i]);
     }
   }
 
@@ -73,9 +72,8 @@ struct Flat_lattice {
     v.points = points.data();
     v.normals = normals.data();
     v.components = components.data();
-    v.spacing = spacing.data();
+    v.node_spacing = spacing.data();
     v.turning = turning.data();
-    v.directions = directions.data();
     v.axes = axes.data();
     v.waves = waves.data();
     return v;
@@ -83,12 +81,8 @@ struct Flat_lattice {
 
 private:
   static Vec3f axis_at(double theta) { return {float(std::cos(theta)), float(std::sin(theta)), 0}; }
-  static Phasor direction_at(double theta)
-  {
-    return CGAL::PowerRTF::phasor_at(float(6 * theta / (2 * pi)));
-  }
   /// `p`: from a point of the lattice
-  static Waves waves_at(const Vec3d& p, double theta, double h)
+  static Stored_waves waves_at(const Vec3d& p, double theta, double h)
   {
     using CGAL::PowerRTF::phasor_at;
     const double x = std::cos(theta) * p.x + std::sin(theta) * p.y;

@@ -74,15 +74,15 @@ TEST_CASE("a perfect lattice is a fixed point, whatever the nodes' axes")
     double worst_wave = 0, worst_direction = 0, worst_point = 0, farthest = 0;
     for (int i = 0; i < view.size; ++i) {
       float distance;
-      const Vec3d p = nearest_lattice_point(view, i, distance);
+      const Vec3d p = to_double(nearest_lattice_point(view, i, distance));
       worst_point = std::max(worst_point, distance_to_lattice(p, angle, 0.11, origin));
       farthest = std::max(farthest, double(distance));
       const int j = (7 * i + 1) % view.size;
       const Waves arrived = carried(wave_edge(view, j, view, i), view.waves[j]);
       for (int k = 0; k < Waves::size; ++k)
         worst_wave = std::max(worst_wave, distance_of(arrived.wave[k], view.waves[i].wave[k]));
-      const Phasor direction = direction_turn(view, j, view, i) * view.directions[j];
-      worst_direction = std::max(worst_direction, distance_of(direction, view.directions[i]));
+      const Phasor direction = direction_turn(view, j, view, i) * axis_direction(view, j);
+      worst_direction = std::max(worst_direction, distance_of(direction, axis_direction(view, i)));
     }
     CHECK(worst_wave < 1e-3);
     CHECK(worst_direction < 1e-3);
@@ -98,7 +98,7 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
   std::vector<Lattice_edge> edges(flat.points.size() * Lattice_view::degree);
   for (std::size_t i = 0; i < flat.points.size(); ++i) {
     flat.points[i].x += 1; // away from the pole
-    flat.spacing[i] = float(0.1 * length(flat.points[i]));
+    flat.spacing[i] = 0.1f * length(flat.points[i]);
   }
   Host_backend<CGAL::Sequential_tag> backend;
   const Point_tree tree(backend, flat.points.data(), static_cast<int>(flat.points.size()));
@@ -109,7 +109,7 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
   std::vector<double> errors;
   for (int i = 0; i < view.size; ++i) {
     Set_turning{view}(i);
-    const Vec3d p = flat.points[i];
+    const Vec3d p = to_double(flat.points[i]);
     const double r_2 = squared_length(p);
     errors.push_back(std::hypot(view.turning[i].x + p.y / r_2, view.turning[i].y - p.x / r_2));
   }
@@ -127,30 +127,27 @@ TEST_CASE("a flat piece gets one lattice, whatever it begins from")
   std::vector<Lattice_nodes> levels;
   for (int count = 2700; count > 32; count /= 2) {
     Lattice_nodes nodes;
-    nodes.free = count;
+    nodes.resize(count, 0);
     for (int i = 0; i < count; ++i) {
       const auto [f, w] = strata.place(i, count, 0);
       const auto corner = [&](int k) { return surface.points[surface.triangles[f][k]]; };
-      nodes.points.push_back(w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2));
-      nodes.normals.push_back({0, 0, 1});
+      nodes.points[i] = to_real<float>(w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2));
+      nodes.normals[i] = {0, 0, 1};
+      nodes.components[i] = 0;
+      nodes.spacing[i] = float(std::sqrt(2 / std::sqrt(3.) * share.cell_mass));
     }
-    nodes.components.assign(count, 0);
-    nodes.spacing.assign(count, float(std::sqrt(2 / std::sqrt(3.) * share.cell_mass)));
-    nodes.directions.assign(count, Phasor{});
-    nodes.is_directed.assign(count, 0);
     levels.push_back(nodes);
   }
   Host_backend<CGAL::Sequential_tag> backend;
   for (unsigned seed = 0; seed < 3; ++seed) {
     Lattice_field<Host_backend<CGAL::Sequential_tag>> field(backend, levels, true, seed);
-    field.orient();
-    field.place(1);
+    field.solve(1);
     const Lattice_view view = field.view();
     double worst = 0;
     for (int i = 1; i < view.size; ++i) {
-      worst = std::max(worst, distance_of(view.directions[i], view.directions[0]));
-      worst =
-          std::max(worst, std::abs(std::hypot(view.directions[i].x, view.directions[i].y) - 1.));
+      const Phasor direction = axis_direction(view, i);
+      worst = std::max(worst, distance_of(direction, axis_direction(view, 0)));
+      worst = std::max(worst, std::abs(std::hypot(direction.x, direction.y) - 1.));
     }
     CHECK(worst < 0.05); // 0.5 degrees of the axes
     int agree = 0, edges = 0;

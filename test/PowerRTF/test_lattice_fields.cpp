@@ -42,7 +42,7 @@ Flat_defects flat_defects(Flat_lattice& flat, int index, int dislocations)
     const Node_loop loop(view, i);
     double turns = 0; // of the loop around the middle
     loop.for_each_step([&](int j, int k) {
-      const Vec3d p = view.points[j], q = view.points[k];
+      const Vec3f p = view.points[j], q = view.points[k];
       turns += std::atan2(p.x * q.y - p.y * q.x, p.x * q.x + p.y * q.y) / (2 * Flat_lattice::pi);
     });
     const bool is_around = std::lround(turns) == 1;

@@ -10,9 +10,14 @@
 namespace CGAL::PowerRTF {
 
 /// The box of a point of an array.
+template <class Real>
 struct Box_of_point {
-  const Vec3d* points;
-  CGAL_POWER_RTF_HD Box3<double> operator()(int i) const { return {points[i], points[i]}; }
+  const Vec3<Real>* points;
+  CGAL_POWER_RTF_HD Box3<double> operator()(int i) const
+  {
+    const Vec3d p{points[i].x, points[i].y, points[i].z};
+    return {p, p};
+  }
 };
 
 /// Some of the points.
@@ -23,8 +28,9 @@ struct Near_points {
 };
 
 /// Non-owning.
+template <class Real>
 struct Point_tree_view {
-  const Vec3d* points = nullptr;
+  const Vec3<Real>* points = nullptr;
   Packed_tree_layout tree;
   const Child_boxes* nodes = nullptr;
 
@@ -34,15 +40,15 @@ struct Point_tree_view {
   /// Writes the `K` nearest points to `p`, at most `radius` away, of those that `counts(i)`
   /// accepts, by increasing distance, equal distances by place. Returns their number.
   template <int K, class Counts>
-  CGAL_POWER_RTF_HD int nearest(const Vec3d& p, double radius, int* found, Counts counts) const
+  CGAL_POWER_RTF_HD int nearest(const Vec3<Real>& p, Real radius, int* found, Counts counts) const
   {
-    double distances[K];
-    Nearest_items<double> nearest{K, distances, found};
+    Real distances[K];
+    Nearest_items<Real> nearest{K, distances, found};
     visit_near(
         tree, nodes, Point_query(p),
         [&]() { return bound_of(nearest.is_full() ? nearest.farthest() : radius * radius); },
         [&](int i) {
-          const double d = squared_length(points[i] - p);
+          const Real d = squared_length(points[i] - p);
           if (nearest.takes(d, i) && counts(i)) nearest.insert(d, i);
         });
     return nearest.count;
@@ -50,10 +56,11 @@ struct Point_tree_view {
 
   /// Finds all points no farther than `radius` from the box of the points [`begin`, `end`).
   /// \returns `false` if they are too many
-  CGAL_POWER_RTF_HD bool find_near(int begin, int end, double radius, Near_points& near) const
+  CGAL_POWER_RTF_HD bool find_near(int begin, int end, Real radius, Near_points& near) const
   {
-    Box3<double> box{points[begin], points[begin]};
-    for (int i = begin + 1; i < end; ++i) box.add(points[i]);
+    const Box_of_point<Real> box_of{points};
+    Box3<double> box = box_of(begin);
+    for (int i = begin + 1; i < end; ++i) box.add(box_of(i));
     const float bound = bound_of(radius * radius);
     near.count = 0;
     visit_near(
@@ -68,12 +75,12 @@ struct Point_tree_view {
 
   /// `nearest()` among the points of `near`.
   template <int K, class Counts>
-  CGAL_POWER_RTF_HD int nearest_of(const Near_points& near, const Vec3d& p, double radius,
+  CGAL_POWER_RTF_HD int nearest_of(const Near_points& near, const Vec3<Real>& p, Real radius,
                                    int* found, Counts counts) const
   {
-    double squared[Near_points::capacity], distances[K];
+    Real squared[Near_points::capacity], distances[K];
     for (int k = 0; k < near.count; ++k) squared[k] = squared_length(points[near.items[k]] - p);
-    Nearest_items<double> nearest{K, distances, found};
+    Nearest_items<Real> nearest{K, distances, found};
     for (int k = 0; k < near.count; ++k) {
       const int i = near.items[k];
       if (squared[k] <= radius * radius && nearest.takes(squared[k], i) && counts(i))
@@ -84,7 +91,7 @@ struct Point_tree_view {
 
   /// Whether `is_it(i)` for a point no farther than `radius` from `p`.
   template <class Is_it>
-  CGAL_POWER_RTF_HD bool any_near(const Vec3d& p, double radius, Is_it is_it) const
+  CGAL_POWER_RTF_HD bool any_near(const Vec3<Real>& p, Real radius, Is_it is_it) const
   {
     bool found = false;
     visit_near(
@@ -97,37 +104,38 @@ struct Point_tree_view {
 };
 
 /// Computes the node `k` of a level; the levels are done in ascending order.
+template <class Real>
 struct Fit_point_node {
   Packed_tree_layout tree;
   int level;
-  const Vec3d* points;
+  const Vec3<Real>* points;
   Box3<double>* boxes;
   Child_boxes* nodes;
   CGAL_POWER_RTF_HD void operator()(int k) const
   {
-    fit_child_boxes(tree, level, k, Box_of_point{points}, boxes, nodes);
+    fit_child_boxes(tree, level, k, Box_of_point<Real>{points}, boxes, nodes);
   }
 };
 
 /// Owns what is behind a `Point_tree_view`, but for the points.
-template <class Backend>
+template <class Backend, class Real>
 class Point_tree {
 public:
   /// Of `n` points with coordinates of size at most 1, where the backend sees them.
-  Point_tree(Backend& backend, const Vec3d* points, int n) : m_points(points), m_tree(n)
+  Point_tree(Backend& backend, const Vec3<Real>* points, int n) : m_points(points), m_tree(n)
   {
     typename Backend::template Buffer<Box3<double>> boxes;
     boxes.allocate(backend, m_tree.nodes());
     m_nodes.allocate(backend, m_tree.nodes());
     for (int level = 0; level < m_tree.levels; ++level)
       backend.for_each(m_tree.nodes(level),
-                       Fit_point_node{m_tree, level, m_points, boxes.data(), m_nodes.data()});
+                       Fit_point_node<Real>{m_tree, level, m_points, boxes.data(), m_nodes.data()});
   }
 
-  Point_tree_view view() const { return {m_points, m_tree, m_nodes.data()}; }
+  Point_tree_view<Real> view() const { return {m_points, m_tree, m_nodes.data()}; }
 
 private:
-  const Vec3d* m_points;
+  const Vec3<Real>* m_points;
   Packed_tree_layout m_tree;
   typename Backend::template Buffer<Child_boxes> m_nodes;
 };

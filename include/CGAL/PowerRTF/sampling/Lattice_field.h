@@ -22,22 +22,24 @@ namespace CGAL::PowerRTF {
 /// borders, which are points of the lattice.
 struct Lattice_nodes {
   int free = 0;
-  internal::Unset_vector<Vec3d> points;
-  internal::Unset_vector<Vec3f> normals;     ///< unit
-  internal::Unset_vector<int> components;    ///< of the surface
-  internal::Unset_vector<float> spacing;     ///< h
-  internal::Unset_vector<Phasor> directions; ///< of sites along a curve, six times the angle
+  internal::Unset_vector<Vec3f> points;   ///< in the unit box
+  internal::Unset_vector<Vec3f> normals;  ///< unit
+  internal::Unset_vector<int> components; ///< of the surface
+  internal::Unset_vector<float> spacing;  ///< h
+  // Of the sites:
+  internal::Unset_vector<Phasor> directions;         ///< along a curve, six times the angle
   internal::Unset_vector<unsigned char> is_directed; ///< the direction stays
 
   int size() const { return static_cast<int>(points.size()); }
-  void resize(std::size_t n)
+  void resize(std::size_t free_nodes, std::size_t sites)
   {
-    points.resize(n);
-    normals.resize(n);
-    components.resize(n);
-    spacing.resize(n);
-    directions.resize(n);
-    is_directed.resize(n);
+    free = static_cast<int>(free_nodes);
+    points.resize(free_nodes + sites);
+    normals.resize(points.size());
+    components.resize(points.size());
+    spacing.resize(points.size());
+    directions.resize(sites);
+    is_directed.resize(sites);
   }
 };
 
@@ -51,71 +53,33 @@ public:
   /// `is_even`: the spacing is the same everywhere.
   Lattice_field(Backend& backend, const std::vector<Lattice_nodes>& levels, bool is_even,
                 std::uint64_t seed)
-      : m_backend(backend), m_seed(seed)
+      : m_backend(backend), m_is_turning(!is_even), m_seed(seed)
   {
     float reach = neighbor_reach;
     for (const Lattice_nodes& nodes : levels) {
       m_levels.emplace_back();
       m_levels.back().set_nodes(m_backend, nodes, reach);
-      if (!is_even) m_levels.back().find_turning(m_backend);
       reach *= 2;
     }
   }
 
-  /// The directions of the rows.
-  void orient()
+  /// The directions of the rows, and the places of the points for all spacings times `factor`.
+  void solve(float factor)
   {
     for (std::size_t l = m_levels.size(); l-- > 0;) {
-      const internal::Progress_part level_part(share_down_to(l));
-      internal::Progress_part part(0.2);
       Level& level = m_levels[l];
-      const Lattice_view view = level.view();
-      if (l + 1 == m_levels.size())
-        m_backend.for_each(view.free, Draw_direction{view, m_seed});
-      else
-        m_backend.for_each(view.free, Refine_direction{m_levels[l + 1].view(), view});
-      m_backend.for_each(view.size, Set_direction_edges{view});
-      level.next_directions.allocate(m_backend, view.size);
-      const bool is_coarsest = l + 1 == m_levels.size();
-      const int sweeps = is_coarsest ? coarsest_sweeps : direction_sweeps;
-      for (int sweep = 0; sweep < sweeps; ++sweep) {
-        part.next(0.2 + 0.8 * (sweep + 1) / sweeps);
-        m_backend.for_each(view.size, Smooth_direction{level.view(), level.is_directed.data(),
-                                                       level.next_directions.data()});
-        std::swap(level.directions, level.next_directions);
-      }
-      level.next_directions = {};
-      m_backend.for_each(view.size, Set_axis{level.view()});
-    }
-  }
-
-  /// The places of the points, for all spacings times `factor`.
-  void place(float factor)
-  {
-    for (std::size_t l = m_levels.size(); l-- > 0;) {
-      const internal::Progress_part level_part(share_down_to(l));
+      Level* const coarser = l + 1 < m_levels.size() ? &m_levels[l + 1] : nullptr;
+      const internal::Progress_part level_part(std::ldexp(1., -2 * int(l))); // of all nodes
       internal::Progress_part part(0.2);
-      Level& level = m_levels[l];
-      for (Buffer<Waves>* waves : {&level.waves, &level.next_waves}) {
-        waves->allocate(m_backend, level.size);
-        m_backend.for_each(level.size, Set_crests{waves->data()}); // what sites have
-      }
-      const Lattice_view view = level.view();
-      m_backend.for_each(view.size,
-                         Scale_spacing{level.nodes_spacing.data(), factor, level.spacing.data()});
-      if (l + 1 == m_levels.size())
-        m_backend.for_each(view.free, Set_crests{view.waves});
-      else
-        m_backend.for_each(view.free, Refine_waves{m_levels[l + 1].view(), view});
-      m_backend.for_each(view.size, Set_wave_edges{view});
-      const int sweeps = l == 0 ? last_wave_sweeps : wave_sweeps;
-      for (int sweep = 0; sweep < sweeps; ++sweep) {
-        part.next(0.2 + 0.8 * (sweep + 1) / sweeps);
-        m_backend.for_each(view.free, Smooth_waves{level.view(), level.next_waves.data(),
-                                                   sweep == 0 ? 1 : wave_acceleration});
-        std::swap(level.waves, level.next_waves);
-      }
-      level.next_waves = {};
+      if (coarser) coarser->edges = {};
+      level.scale = factor;
+      level.find_neighbors(m_backend);
+      part.next(0.4);
+      if (level.axes.size() == 0)
+        orient(level, coarser, coarser ? direction_sweeps : coarsest_sweeps);
+      part.next(1);
+      place(level, coarser, l == 0 ? last_wave_sweeps : wave_sweeps);
+      if (coarser) coarser->release();
     }
   }
 
@@ -134,31 +98,27 @@ private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// Of the work on all levels, that on the coarse ones down to `level`.
-  static double share_down_to(std::size_t level) { return std::ldexp(1., -2 * int(level)); }
-
   /// The direction in which a random vector points: no choice of frames has a part in it.
   struct Draw_direction {
     Lattice_view view;
     std::uint64_t seed;
+    Phasor* result;
     CGAL_POWER_RTF_HD void operator()(int i) const
     {
       const auto coordinate = [&](int k) { return float(counted_random(seed, i, k)) - 0.5f; };
       const Vec3f v{coordinate(0), coordinate(1), coordinate(2)};
       const Tangent_frame<float> frame(view.normals[i]);
-      view.directions[i] = unit(sixth_power(unit({dot(v, frame.u), dot(v, frame.v)})));
+      result[i] = unit(sixth_power(unit({dot(v, frame.u), dot(v, frame.v)})));
     }
   };
   /// The node is a point of the lattice.
   struct Set_crests {
-    Waves* waves;
-    CGAL_POWER_RTF_HD void operator()(int i) const { waves[i] = {{{1, 0}, {1, 0}, {1, 0}}}; }
-  };
-  struct Scale_spacing {
-    const float* from;
-    float factor;
-    float* to;
-    CGAL_POWER_RTF_HD void operator()(int i) const { to[i] = factor * from[i]; }
+    Stored_waves* waves;
+    CGAL_POWER_RTF_HD void operator()(int i) const
+    {
+      constexpr Phasor one{1, 0};
+      waves[i] = {{one, one, one}};
+    }
   };
   /// An array of the nodes where the backend sees it.
   template <class T>
@@ -182,16 +142,15 @@ private:
 
   struct Level {
     int size = 0, free = 0;
-    Given<Vec3d> points;
-    Given<Vec3f> normals;
+    Given<Vec3f> points, normals;
     Given<int> components;
-    Given<float> nodes_spacing;
+    Given<float> spacing;
+    float scale = 1, reach = 0;
+    const Phasor* site_directions = nullptr; // where the nodes were given
     Given<unsigned char> is_directed;
     Buffer<Vec3f> turning, axes;
-    Buffer<float> spacing;
-    Buffer<Phasor> directions, next_directions;
-    Buffer<Waves> waves, next_waves;
     Buffer<Lattice_edge> edges;
+    Buffer<Stored_waves> waves;
 
     Lattice_view view()
     {
@@ -201,31 +160,26 @@ private:
       v.points = points.data();
       v.normals = normals.data();
       v.components = components.data();
-      v.spacing = spacing.data();
+      v.node_spacing = spacing.data();
+      v.scale = scale;
       v.edges = edges.data();
       v.turning = turning.size() > 0 ? turning.data() : nullptr;
-      v.directions = directions.data();
       v.axes = axes.data();
       v.waves = waves.data();
       return v;
     }
 
-    void set_nodes(Backend& backend, const Lattice_nodes& nodes, float reach)
+    void set_nodes(Backend& backend, const Lattice_nodes& nodes, float neighbor_reach)
     {
       size = nodes.size();
       free = nodes.free;
+      reach = neighbor_reach;
       points.set(backend, nodes.points);
       normals.set(backend, nodes.normals);
       components.set(backend, nodes.components);
-      nodes_spacing.set(backend, nodes.spacing);
+      spacing.set(backend, nodes.spacing);
+      site_directions = nodes.directions.data();
       is_directed.set(backend, nodes.is_directed);
-      spacing.allocate(backend, size);
-      backend.upload(spacing.data(), nodes.spacing.data(), size);
-      directions.allocate(backend, size);
-      backend.upload(directions.data(), nodes.directions.data(), size);
-      axes.allocate(backend, size);
-      edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
-      find_neighbors(backend, reach);
     }
 
     void find_turning(Backend& backend)
@@ -240,15 +194,72 @@ private:
       }
     }
 
-    void find_neighbors(Backend& backend, float reach)
+    /// If they are not known.
+    void find_neighbors(Backend& backend)
     {
-      const Point_tree<Backend> tree(backend, points.data(), size);
+      if (edges.size() > 0) return;
+      edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
+      const Point_tree tree(backend, points.data(), size);
       backend.for_each(tree.view().leaves(),
                        Find_lattice_neighbors{view(), tree.view(), cos_neighbor_angle, reach});
     }
+
+    /// Frees what finer levels need no longer.
+    void release()
+    {
+      turning = {};
+      axes = {};
+      waves = {};
+    }
   };
 
+  /// `coarser`: has axes; null: there is none.
+  void orient(Level& level, Level* coarser, int sweeps)
+  {
+    level.axes.allocate(m_backend, level.size);
+    if (m_is_turning) level.find_turning(m_backend);
+    Buffer<Phasor> directions, next;
+    for (Buffer<Phasor>* b : {&directions, &next}) b->allocate(m_backend, level.size);
+    m_backend.upload(directions.data() + level.free, level.site_directions,
+                     level.size - level.free);
+    const Lattice_view view = level.view();
+    if (coarser)
+      m_backend.for_each(view.free, Refine_direction{coarser->view(), view, directions.data()});
+    else
+      m_backend.for_each(view.free, Draw_direction{view, m_seed, directions.data()});
+    m_backend.for_each(view.size, Set_direction_edges{view});
+    internal::Progress_part part(0);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      part.next((sweep + 1.) / sweeps);
+      m_backend.for_each(view.size, Smooth_direction{view, directions.data(),
+                                                     level.is_directed.data(), next.data()});
+      std::swap(directions, next);
+    }
+    m_backend.for_each(view.size, Set_axis{view, directions.data()});
+  }
+
+  /// `coarser`: has waves; null: there is none.
+  void place(Level& level, Level* coarser, int sweeps)
+  {
+    Buffer<Stored_waves> next;
+    for (Buffer<Stored_waves>* waves : {&level.waves, &next}) {
+      waves->allocate(m_backend, level.size);
+      m_backend.for_each(level.size, Set_crests{waves->data()}); // what sites have
+    }
+    const Lattice_view view = level.view();
+    if (coarser) m_backend.for_each(view.free, Refine_waves{coarser->view(), view});
+    m_backend.for_each(view.size, Set_wave_edges{view});
+    internal::Progress_part part(0);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      part.next((sweep + 1.) / sweeps);
+      m_backend.for_each(
+          view.free, Smooth_waves{level.view(), next.data(), sweep == 0 ? 1 : wave_acceleration});
+      std::swap(level.waves, next);
+    }
+  }
+
   Backend& m_backend;
+  bool m_is_turning;
   std::uint64_t m_seed;
   std::deque<Level> m_levels; // from fine to coarse
 };

@@ -66,12 +66,14 @@ public:
   {
     internal::Progress_part part(0.05);
     make_nodes();
-    part.next(0.25);
-    Field field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
-    part.next(0.8);
-    find_points(field);
-    part.next(0.85);
-    add_gaps(field.view());
+    {
+      Field field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
+      part.next(0.8);
+      find_points(field);
+      part.next(0.85);
+      add_gaps(field.view());
+    }
+    m_levels.resize(1);
     part.next(1);
     return eliminate();
   }
@@ -101,14 +103,13 @@ private:
   /// The fields, and the points with their number scaled to what is wanted.
   void find_points(Field& field)
   {
-    internal::Progress_part part(0.2);
-    field.orient();
+    internal::Progress_part part(0);
     // Rows that end cost points: a share that falls slowly with n (kitten, fertility, armadillo).
     double scale = 1 - 0.02 * std::pow(3000. / static_cast<double>(m_size), 0.2);
     for (int step = 0;; ++step) {
-      part.next(0.2 + 0.8 * (step + 0.8) / (max_scalings + 1));
-      field.place(static_cast<float>(scale));
-      part.next(0.2 + 0.8 * (step + 1) / (max_scalings + 1));
+      part.next(1 - 0.3 / (step + 1)); // mostly one step does
+      field.solve(static_cast<float>(scale));
+      part.next(1 - 0.2 / (step + 1));
       choose_points(field.view());
       const double count = static_cast<double>(distinct_points(field.view()));
       const double wanted = static_cast<double>(m_lattice_size);
@@ -127,19 +128,21 @@ private:
           std::to_string(m_size) +
           " samples are more than a lattice can have: use another `sampling`");
     for (int level = 0;; ++level, count /= coarsening) {
+      const std::size_t stride = std::size_t(1) << level; // as much farther apart as nodes
+      const std::size_t sites = (m_features.sites.size() + stride - 1) / stride;
       m_levels.emplace_back();
-      add_strata(strata, static_cast<int>(std::ceil(count)), m_levels.back());
-      add_sites(std::size_t(1) << level, m_levels.back()); // as much farther apart as nodes
+      add_strata(strata, static_cast<int>(std::ceil(count)), sites, m_levels.back());
+      add_sites(stride, m_levels.back());
       if (count <= coarsest_level) break;
     }
   }
 
-  void add_strata(const Surface_strata& strata, int count, Lattice_nodes& nodes)
+  /// Free nodes, and room for sites.
+  void add_strata(const Surface_strata& strata, int count, std::size_t sites, Lattice_nodes& nodes)
   {
     const std::size_t level = m_levels.size();
     if (level == 1) m_facets.resize(count);
-    nodes.free = count;
-    nodes.resize(count);
+    nodes.resize(count, sites);
     m_backend.for_each(count, [&](int i) {
       const auto [f, w] = strata.place(i, count, m_seed + level);
       const Triangle& t = m_surface.triangles[f];
@@ -160,11 +163,12 @@ private:
     std::vector<int> before(sites.size(), -1);
     for (std::size_t s = 0; s < sites.size(); ++s)
       if (m_features.next[s] >= 0) before[m_features.next[s]] = static_cast<int>(s);
-    nodes.resize(nodes.free + (sites.size() + stride - 1) / stride);
     m_backend.for_each(nodes.size() - nodes.free, [&](int k) {
       const int i = nodes.free + k, at = static_cast<int>(k * stride);
       set_node(i, sites.points[at], sites.normals[at], sites.density[at],
                m_component[sites.facets[at]], nodes);
+      nodes.directions[k] = {};
+      nodes.is_directed[k] = 0;
       const auto way = [&](int from, int to) {
         return from < 0 || to < 0 ? Vec3d{0, 0, 0}
                                   : normalized(sites.points[to] - sites.points[from]);
@@ -173,44 +177,34 @@ private:
       if (!(dot(in, out) > straight)) return;
       const Tangent_frame<double> frame(sites.normals[at]);
       const Vec3d along = in + out;
-      nodes.is_directed[i] = 1;
-      nodes.directions[i] = unit(sixth_power(unit(
+      nodes.is_directed[k] = 1;
+      nodes.directions[k] = unit(sixth_power(unit(
           {static_cast<float>(dot(along, frame.u)), static_cast<float>(dot(along, frame.v))})));
     });
   }
 
-  /// A node that has no direction.
   void set_node(int i, const Vec3d& point, const Vec3d& normal, double density, int component,
                 Lattice_nodes& nodes) const
   {
-    nodes.points[i] = m_cube.to_inside(point);
-    nodes.normals[i] = {static_cast<float>(normal.x), static_cast<float>(normal.y),
-                        static_cast<float>(normal.z)};
+    nodes.points[i] = to_real<float>(m_cube.to_inside(point));
+    nodes.normals[i] = to_real<float>(normal);
     nodes.components[i] = component;
     const double cell = m_shares[component].cell_mass / density; // sqrt(3) / 2 h^2
     nodes.spacing[i] = static_cast<float>(m_cube.scale * std::sqrt(2 / std::sqrt(3.) * cell));
-    nodes.directions[i] = {};
-    nodes.is_directed[i] = 0;
   }
 
   void choose_points(const Lattice_view& view)
   {
     typename Backend::template Buffer<Seen_point> seen;
-    typename Backend::template Buffer<unsigned char> is_chosen;
-    typename Backend::template Buffer<Vec3d> points;
     seen.allocate(m_backend, view.size);
-    is_chosen.allocate(m_backend, view.free);
-    points.allocate(m_backend, view.free);
     m_backend.for_each(view.size, See_points{view, seen.data()});
-    m_backend.for_each(view.free,
-                       Choose_points{view, seen.data(), is_chosen.data(), points.data()});
-    const std::vector<int> chosen =
-        internal::select(m_backend.concurrency(), view.free,
-                         [&](int i) { return is_chosen.data()[i] && has_lattice(i); });
+    const Choose_points choose{view, seen.data()};
+    const std::vector<int> chosen = internal::select(
+        m_backend.concurrency(), view.free, [&](int i) { return has_lattice(i) && choose(i); });
     m_candidates.resize(chosen.size());
     m_backend.for_each(static_cast<int>(chosen.size()), [&](int k) {
       const int i = chosen[k];
-      m_candidates[k] = {points.data()[i], i, seen.data()[i].distance};
+      m_candidates[k] = {mean_seen_point(view, seen.data(), i), i, seen.data()[i].distance};
     });
   }
 
@@ -220,11 +214,11 @@ private:
     const int size = static_cast<int>(m_candidates.size());
     std::vector<Vec3d> points(size);
     m_backend.for_each(size, [&](int c) { points[c] = m_candidates[c].point; });
-    const Point_tree<Backend> tree(m_backend, points.data(), size);
+    const Point_tree tree(m_backend, points.data(), size);
     const auto is_twin = [&](int c) {
       const Sample_candidate& own = m_candidates[c];
       return tree.view().any_near(
-          own.point, twin_distance * double(view.spacing[own.node]), [&](int o) {
+          own.point, twin_distance * double(view.spacing(own.node)), [&](int o) {
             const Sample_candidate& other = m_candidates[o];
             return o != c && sees(view, own.node, other.node) &&
                    (other.distance < own.distance || (other.distance == own.distance && o < c));
@@ -250,12 +244,12 @@ private:
     std::vector<int> nodes(near.size());
     m_backend.for_each(points + sites, [&](int k) {
       nodes[k] = k < points ? m_candidates[k].node : view.free + k - points;
-      near[k] = k < points ? m_candidates[k].point : view.points[nodes[k]];
+      near[k] = k < points ? m_candidates[k].point : to_double(view.points[nodes[k]]);
     });
-    const Point_tree<Backend> tree(m_backend, near.data(), points + sites);
+    const Point_tree tree(m_backend, near.data(), points + sites);
     add_nodes([&](int i) {
       return !has_lattice(i) ||
-             !tree.view().any_near(view.points[i], gap_radius * double(view.spacing[i]),
+             !tree.view().any_near(to_double(view.points[i]), gap_radius * double(view.spacing(i)),
                                    [&](int c) { return sees(view, i, nodes[c]); });
     });
   }
@@ -266,7 +260,7 @@ private:
   {
     const Lattice_nodes& nodes = m_levels.front();
     for (const int i : internal::select(m_backend.concurrency(), nodes.free, is_wanted))
-      m_candidates.push_back({nodes.points[i], i, -1});
+      m_candidates.push_back({to_double(nodes.points[i]), i, -1});
   }
 
   /// The samples of each component from its candidates.
@@ -306,7 +300,7 @@ private:
     m_backend.for_each(static_cast<int>(all.size()), [&](int k) {
       const bool is_free = k < static_cast<int>(free);
       const int i = is_free ? m_candidates[candidates[k]].node : sites[k - free];
-      all[k] = {is_free ? m_candidates[candidates[k]].point : nodes.points[i],
+      all[k] = {is_free ? m_candidates[candidates[k]].point : to_double(nodes.points[i]),
                 to_double(nodes.normals[i]), 0.5 * double(nodes.spacing[i])};
     });
     return eliminate_samples(all, 0, n, sites.size(), m_backend.concurrency());
@@ -334,7 +328,7 @@ private:
     if (f < 0) f = near;
     const double h = double(nodes.spacing[candidate.node]) / m_cube.scale;
     if (beyond(point, f) > max_beyond * h) {
-      point = m_cube.to_outside(nodes.points[candidate.node]);
+      point = m_cube.to_outside(to_double(nodes.points[candidate.node]));
       f = near;
     }
     const auto [a, b, c] = corners(f);
@@ -362,10 +356,10 @@ private:
   {
     Lattice_fields fields;
     for (int i = 0; i < view.size; ++i) {
-      fields.nodes.push_back(m_cube.to_outside(view.points[i]));
+      fields.nodes.push_back(m_cube.to_outside(to_double(view.points[i])));
       fields.normals.push_back(to_double(view.normals[i]));
       fields.axes.push_back(to_double(view.axes[i]));
-      fields.spacing.push_back(view.spacing[i] / m_cube.scale);
+      fields.spacing.push_back(view.spacing(i) / m_cube.scale);
     }
     fields.indices.resize(view.size);
     fields.dislocations.resize(view.size);

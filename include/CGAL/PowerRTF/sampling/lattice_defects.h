@@ -121,9 +121,9 @@ inline int orientation_index(const Lattice_view& view, const Node_loop& loop)
   float sum = 0;
   Phasor around{1, 0};
   loop.for_each_step([&](int j, int k) {
-    const Phasor arrived = direction_turn(view, j, view, k) * view.directions[j];
+    const Phasor arrived = direction_turn(view, j, view, k) * axis_direction(view, j);
     sum += 6 * per_turn * turning_between(view, j, view, k) +
-           turns_of(view.directions[k] * conjugate(arrived));
+           turns_of(axis_direction(view, k) * conjugate(arrived));
     around = around * frame_turn(view.normals[j], view.normals[k]);
   });
   return loop.empty() ? 0 : static_cast<int>(std::lround(sum + 6 * turns_of(around)));
@@ -150,7 +150,7 @@ inline int dislocation(const Lattice_view& view, const Node_loop& loop)
     sixths += step.sixths;
     const float phases[] = {step.phases[0], step.phases[1], -step.phases[0] - step.phases[1]};
     for (int m = 0; m < Waves::size; ++m) {
-      const float residual = turns_of(view.waves[k].wave[m] * conjugate(arrived.wave[m]));
+      const float residual = turns_of(Phasor(view.waves[k].wave[m]) * conjugate(arrived.wave[m]));
       sums[(m + sixths) % Waves::size] += (sixths % 2 ? -1.f : 1.f) * (phases[m] + residual);
     }
   });

@@ -30,28 +30,33 @@ struct Lattice_edge {
 /// the wave vector b_k, b_0 = (1, -1/sqrt 3) / h, b_1 = (0, 2/sqrt 3) / h, b_2 = -b_0 - b_1 in the
 /// frame of the node's axis, and its phase at the node is b_k (node - p) turns, for any point p of
 /// the lattice.
-struct Waves {
+template <class Phasor>
+struct Basic_waves {
   static constexpr int size = 3;
   Phasor wave[size];
 };
+using Waves = Basic_waves<Phasor>;
+using Stored_waves = Basic_waves<Short_phasor>;
 
 /// Nodes of one level of the hierarchy. Non-owning.
 struct Lattice_view {
   static constexpr int degree = 8; ///< a node's neighbors, at most
 
   int size = 0;
-  int free = 0; ///< nodes from there on are sites on creases and borders
-  const Vec3d* points = nullptr;
+  int free = 0;                    ///< nodes from there on are sites on creases and borders
+  const Vec3f* points = nullptr;   ///< in the unit box
   const Vec3f* normals = nullptr;  ///< unit
   const int* components = nullptr; ///< of the surface
-  const float* spacing = nullptr;  ///< h, the distance between neighbors in the lattice
-  Lattice_edge* edges = nullptr;   ///< `degree` per node, by increasing distance
+  const float* node_spacing = nullptr;
+  float scale = 1;               ///< of all spacings
+  Lattice_edge* edges = nullptr; ///< `degree` per node, by increasing distance
 
-  Vec3f* turning = nullptr;     ///< angle of the lattice per length (`Set_turning`); null: none
-  Phasor* directions = nullptr; ///< of the axes in their `Tangent_frame`, six times the angle
-  Vec3f* axes = nullptr;        ///< unit tangents along a row of the lattice
-  Waves* waves = nullptr;
+  Vec3f* turning = nullptr; ///< angle of the lattice per length (`Set_turning`); null: none
+  Vec3f* axes = nullptr;    ///< unit tangents along a row of the lattice
+  Stored_waves* waves = nullptr;
 
+  /// h, the distance between neighbors in the lattice.
+  CGAL_POWER_RTF_HD float spacing(int i) const { return scale * node_spacing[i]; }
   CGAL_POWER_RTF_HD Lattice_edge* first_edge(int i) const
   {
     return edges + static_cast<std::size_t>(degree) * i;
@@ -69,8 +74,7 @@ CGAL_POWER_RTF_HD inline int coarse_node(const Lattice_view& coarse, const Latti
 CGAL_POWER_RTF_HD inline Vec3f step_between(const Lattice_view& from, int j, const Lattice_view& to,
                                             int i)
 {
-  const Vec3d d = to.points[i] - from.points[j];
-  return {float(d.x), float(d.y), float(d.z)};
+  return to.points[i] - from.points[j];
 }
 
 /// The angle by which the lattice turns on that way, by the trapezoidal rule.
@@ -97,17 +101,18 @@ CGAL_POWER_RTF_HD inline Vec3f carried(const Vec3f& v, const Vec3f& a, const Vec
 /// the tree, which have most of those that are near in common.
 struct Find_lattice_neighbors {
   Lattice_view view;
-  Point_tree_view tree;
+  Point_tree_view<float> tree;
   float cos_angle;
   float reach; ///< distance within which most have so many, relative to the spacing
 
   CGAL_POWER_RTF_HD void operator()(int leaf) const
   {
     constexpr int enough = 4, degree = Lattice_view::degree;
-    constexpr double everywhere = 4; // the coordinates are those of the unit box
+    constexpr float everywhere = 4; // the coordinates are those of the unit box
     const int begin = tree.tree.children_begin(leaf), end = tree.tree.children_end(0, leaf);
     float largest = 0;
-    for (int i = begin; i < end; ++i) largest = internal::larger(largest, reach * view.spacing[i]);
+    for (int i = begin; i < end; ++i)
+      largest = internal::larger(largest, reach * view.node_spacing[i]);
     Near_points near;
     const bool are_known = tree.find_near(begin, end, largest, near);
     for (int i = begin; i < end; ++i) {
@@ -115,8 +120,8 @@ struct Find_lattice_neighbors {
         return j != i && view.components[j] == view.components[i] &&
                dot(view.normals[i], view.normals[j]) > cos_angle;
       };
-      const Vec3d p = view.points[i];
-      const double radius = reach * view.spacing[i];
+      const Vec3f p = view.points[i];
+      const float radius = reach * view.node_spacing[i];
       int found[degree];
       int count = are_known ? tree.nearest_of<degree>(near, p, radius, found, counts)
                             : tree.nearest<degree>(p, radius, found, counts);
@@ -149,7 +154,7 @@ struct Set_turning {
     for_each_edge(view, i, [&](const Lattice_edge& edge) {
       const Vec3f d = step_between(view, i, view, int(edge.node));
       const float x = dot(d, frame.u), y = dot(d, frame.v);
-      const float growth = std::log(view.spacing[edge.node] / view.spacing[i]);
+      const float growth = std::log(view.node_spacing[edge.node] / view.node_spacing[i]);
       xx += x * x;
       xy += x * y;
       yy += y * y;

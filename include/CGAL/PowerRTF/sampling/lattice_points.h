@@ -11,7 +11,7 @@ namespace CGAL::PowerRTF {
 
 /// The lattice's point that a node sees nearest to itself.
 struct Seen_point {
-  Vec3d point;
+  Vec3f point;
   float distance; ///< from the node, relative to the spacing; -1: the node is a site and the point
 };
 
@@ -27,35 +27,45 @@ struct See_points {
 };
 
 /// Several nodes see each point, a little differently where the field is not perfect. The one that
-/// is nearest to its point has a say: the mean of what it and its neighbors see.
+/// is nearest to its point has a say.
 struct Choose_points {
   Lattice_view view;
   const Seen_point* seen;
-  unsigned char* is_chosen;
-  Vec3d* result;
 
-  CGAL_POWER_RTF_HD void operator()(int i) const
+  CGAL_POWER_RTF_HD bool operator()(int i) const
   {
-    constexpr float same = 0.5f, sure = 0.3f; // distances relative to the spacing
+    constexpr float same = 0.5f; // distance relative to the spacing
     const Seen_point own = seen[i];
-    const double h = view.spacing[i];
+    const float radius = same * view.spacing(i);
     bool is_nearest = true;
-    Vec3d sum = own.point;
-    int count = 1;
     for_each_edge(view, i, [&](const Lattice_edge& edge) {
       const Seen_point other = seen[edge.node];
-      const double squared = squared_length(other.point - own.point);
-      if (squared > same * same * h * h) return;
+      if (squared_length(other.point - own.point) > radius * radius) return;
       if (other.distance < own.distance || (other.distance == own.distance && int(edge.node) < i))
         is_nearest = false;
-      if (squared > sure * sure * h * h) return;
-      sum += other.point;
-      ++count;
     });
-    is_chosen[i] = is_nearest;
-    result[i] = (1. / count) * sum;
+    return is_nearest;
   }
 };
+
+/// The point of a chosen node: the mean of what it and its neighbors see.
+CGAL_POWER_RTF_HD inline Vec3d mean_seen_point(const Lattice_view& view, const Seen_point* seen,
+                                               int i)
+{
+  constexpr float sure = 0.3f; // distance relative to the spacing
+  const Vec3f own = seen[i].point;
+  const float radius = sure * view.spacing(i);
+  Vec3f sum{0, 0, 0}; // from there
+  int count = 1;
+  for_each_edge(view, i, [&](const Lattice_edge& edge) {
+    const Vec3f d = seen[edge.node].point - own;
+    if (squared_length(d) > radius * radius) return;
+    sum += d;
+    ++count;
+  });
+  const Vec3f mean = own + (1.f / float(count)) * sum;
+  return {mean.x, mean.y, mean.z};
+}
 
 } // namespace CGAL::PowerRTF
 

@@ -34,6 +34,13 @@ CGAL_POWER_RTF_HD inline Phasor direction_turn(const Lattice_view& from, int j,
   return sixth_power(frame_turn(from.normals[j], n)) * phasor_at(turns);
 }
 
+/// u of a node whose axis is known.
+CGAL_POWER_RTF_HD inline Phasor axis_direction(const Lattice_view& view, int i)
+{
+  const Tangent_frame<float> frame(view.normals[i]);
+  return sixth_power({dot(view.axes[i], frame.u), dot(view.axes[i], frame.v)});
+}
+
 struct Set_direction_edges {
   Lattice_view view;
 
@@ -48,26 +55,28 @@ struct Set_direction_edges {
 /// The first guess of free node i: the direction of its coarse node.
 struct Refine_direction {
   Lattice_view coarse, fine;
+  Phasor* result;
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
     const int j = coarse_node(coarse, fine, i);
-    fine.directions[i] = direction_turn(coarse, j, fine, i) * coarse.directions[j];
+    result[i] = direction_turn(coarse, j, fine, i) * axis_direction(coarse, j);
   }
 };
 
 /// One sweep: u_i <- (u_i + sum t_ij u_j) / |...|.
 struct Smooth_direction {
   Lattice_view view;
-  const unsigned char* is_fixed;
+  const Phasor* directions;
+  const unsigned char* is_directed; ///< of the sites
   Phasor* result;
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
-    Phasor sum = view.directions[i];
-    if (!is_fixed[i]) {
+    Phasor sum = directions[i];
+    if (i < view.free || !is_directed[i - view.free]) {
       for_each_edge(view, i, [&](const Lattice_edge& edge) {
-        sum = sum + Phasor(edge.turn[0]) * view.directions[edge.node];
+        sum = sum + Phasor(edge.turn[0]) * directions[edge.node];
       });
       sum = unit(sum);
     }
@@ -77,11 +86,12 @@ struct Smooth_direction {
 
 struct Set_axis {
   Lattice_view view;
+  const Phasor* directions;
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
     const Tangent_frame<float> frame(view.normals[i]);
-    const Phasor a = phasor_at(turns_of(view.directions[i]) / 6);
+    const Phasor a = phasor_at(turns_of(directions[i]) / 6);
     view.axes[i] = a.x * frame.u + a.y * frame.v;
   }
 };

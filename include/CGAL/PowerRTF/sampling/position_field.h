@@ -26,7 +26,7 @@ CGAL_POWER_RTF_HD inline Lattice_vector unrolled(const Lattice_view& view, int i
   const Vec3f axis = view.axes[i];
   const float x = dot(v, axis), y = dot(v, cross(view.normals[i], axis));
   const float flat = std::sqrt(x * x + y * y);
-  const float factor = length / ((flat > 0.1f * length ? flat : 0.1f * length) * view.spacing[i]);
+  const float factor = length / ((flat > 0.1f * length ? flat : 0.1f * length) * view.spacing(i));
   return length > 0 ? Lattice_vector{factor * x, factor * y} : Lattice_vector{0, 0};
 }
 
@@ -81,7 +81,7 @@ CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
 }
 
 /// The waves of the edge's node as they arrive.
-CGAL_POWER_RTF_HD inline Waves carried(const Lattice_edge& edge, const Waves& from)
+CGAL_POWER_RTF_HD inline Waves carried(const Lattice_edge& edge, const Stored_waves& from)
 {
   const Phasor first = edge.turn[0], second = edge.turn[1];
   const Phasor turn[] = {first, second, conjugate(first * second)};
@@ -91,6 +91,11 @@ CGAL_POWER_RTF_HD inline Waves carried(const Lattice_edge& edge, const Waves& fr
     to.wave[k] = turn[k] * (edge.sixths % 2 ? conjugate(wave) : wave);
   }
   return to;
+}
+
+CGAL_POWER_RTF_HD inline Stored_waves stored(const Waves& w)
+{
+  return {{w.wave[0], w.wave[1], w.wave[2]}};
 }
 
 struct Set_wave_edges {
@@ -110,9 +115,9 @@ struct Refine_waves {
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
     const int j = coarse_node(coarse, fine, i);
-    fine.waves[i] = is_carried(coarse.normals[j], fine.normals[i])
-                        ? carried(wave_edge(coarse, j, fine, i), coarse.waves[j])
-                        : Waves{};
+    const bool has_guess = is_carried(coarse.normals[j], fine.normals[i]);
+    fine.waves[i] =
+        stored(has_guess ? carried(wave_edge(coarse, j, fine, i), coarse.waves[j]) : Waves{});
   }
 };
 
@@ -122,12 +127,13 @@ struct Refine_waves {
 /// overrelaxation iterative methods, and second order Richardson iterative methods", 1961.)
 struct Smooth_waves {
   Lattice_view view;
-  Waves* result;      ///< w' before
-  float acceleration; ///< a; 1: w' is not read
+  Stored_waves* result; ///< w' before
+  float acceleration;   ///< a; 1: w' is not read
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
-    Waves sum = view.waves[i];
+    const Stored_waves& own = view.waves[i];
+    Waves sum{{own.wave[0], own.wave[1], own.wave[2]}};
     for_each_edge(view, i, [&](const Lattice_edge& edge) {
       const Waves waves = carried(edge, view.waves[edge.node]);
       for (int k = 0; k < Waves::size; ++k) sum.wave[k] = sum.wave[k] + waves.wave[k];
@@ -143,10 +149,10 @@ struct Smooth_waves {
 
 /// The lattice's point that is nearest to node i, in the node's tangent plane; `distance`: from the
 /// node, relative to the spacing.
-CGAL_POWER_RTF_HD inline Vec3d nearest_lattice_point(const Lattice_view& view, int i,
+CGAL_POWER_RTF_HD inline Vec3f nearest_lattice_point(const Lattice_view& view, int i,
                                                      float& distance)
 {
-  const Waves& w = view.waves[i];
+  const Stored_waves& w = view.waves[i];
   const float phases[] = {turns_of(w.wave[0]), turns_of(w.wave[1]), turns_of(w.wave[2])};
   // The three have the sum 0 but for full turns; what is left is shared.
   const float sum = phases[0] + phases[1] + phases[2];
@@ -164,8 +170,7 @@ CGAL_POWER_RTF_HD inline Vec3d nearest_lattice_point(const Lattice_view& view, i
     }
   distance = std::sqrt(best);
   const Vec3f axis = view.axes[i];
-  const Vec3f offset = view.spacing[i] * (x * axis + y * cross(view.normals[i], axis));
-  return view.points[i] - Vec3d{offset.x, offset.y, offset.z};
+  return view.points[i] - view.spacing(i) * (x * axis + y * cross(view.normals[i], axis));
 }
 
 } // namespace CGAL::PowerRTF
