@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
 
 #include <cstddef>
@@ -19,9 +20,9 @@ namespace CGAL::PowerRTF {
 /// The surface as an engine gets it: its vertices in their order, its facets in that of their tree,
 /// which owns them and has to live as long.
 struct Packed_surface {
-  Surface_view<double> facets;                       ///< the tree's
-  std::vector<int> facet_vertices;                   ///< three per facet
-  std::vector<Vertex_attributes<double>> attributes; ///< per vertex
+  Surface_view<double> facets;                                  ///< the tree's
+  internal::Unset_vector<int> facet_vertices;                   ///< three per facet
+  internal::Unset_vector<Vertex_attributes<double>> attributes; ///< per vertex
   double area = 0;
   // For rules that ask for the nearest vertices; else empty:
   std::vector<Vec3d> vertices;

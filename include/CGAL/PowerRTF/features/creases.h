@@ -125,6 +125,7 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
     (is_sharp ? sharp : soft) += length(surface.points[b] - surface.points[a]);
     if (is_sharp) creases.push_back(sorted_edge(a, b));
   }
+  if (creases.empty()) return {};
   const std::vector<char> on_border = internal::border_vertices(surface);
   const internal::Edge_graph graph(creases, surface.points.size());
   std::size_t dangling = 0;
@@ -132,7 +133,7 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
     dangling += graph.degree(v) == 1 && !on_border[v];
   const bool clean =
       30 * dangling <= creases.size() || (6 * dangling <= creases.size() && soft <= sharp);
-  if (!clean || creases.empty()) return {};
+  if (!clean) return {};
   const double h = std::sqrt(surface.area / static_cast<double>(n));
   std::sort(creases.begin(), creases.end());
   const std::vector<Edge> flat = flat_patch_boundaries(surface, creases, h);

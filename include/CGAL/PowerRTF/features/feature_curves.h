@@ -157,6 +157,7 @@ private:
 /// none).
 inline std::vector<Feature_curve> feature_curves(const Surface& surface, double scale)
 {
+  if (surface.creases.empty() && surface.adjacency.border_edges == 0) return {};
   return internal::Feature_tracer(surface, scale).curves();
 }
 

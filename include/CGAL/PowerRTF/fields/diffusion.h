@@ -7,11 +7,13 @@
 
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -54,21 +56,27 @@ void diffuse(const Surface_edges& edges, const std::vector<double>& times, int s
   const double last = *std::max_element(times.begin(), times.end()) / steps;
   const double stages = std::ceil(std::sqrt(0.25 + 4 * last) - 0.5);
   const double share = 2 / (stages * (stages + 1) * steps); // of the times, by one stage
-  std::vector<Value> before(values.size()), next(values.size());
+  const int size = static_cast<int>(values.size());
+  internal::Unset_vector<Value> others[2];
+  for (auto& x : others) x.resize(values.size());
+  Value *now = values.data(), *before = others[0].data(), *next = others[1].data();
+  internal::for_each_index(concurrency, size, [&](int v) { before[v] = now[v]; });
   for (int step = 0; step < steps; ++step)
     for (double j = 1; j <= stages; ++j) {
       const double mu = (2 * j - 1) / j, nu = (1 - j) / j; // their sum is 1
-      internal::for_each_index(concurrency, static_cast<int>(values.size()), [&](int v) {
+      internal::for_each_index(concurrency, size, [&](int v) {
         Value sum{}; // of the differences: a constant stays as it is
         for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
-          sum += values[edges.neighbor[e]] - values[v];
+          sum += now[edges.neighbor[e]] - now[v];
         const int degree = (std::max)(1, edges.first[v + 1] - edges.first[v]);
-        next[v] = values[v] + nu * (before[v] - values[v]) + mu * share * times[v] / degree * sum;
+        next[v] = now[v] + nu * (before[v] - now[v]) + mu * share * times[v] / degree * sum;
         if (j == stages) next[v] = finish(v, next[v]);
       });
-      before.swap(values);
-      values.swap(next);
+      std::swap(before, now);
+      std::swap(now, next);
     }
+  if (now == values.data()) return;
+  internal::for_each_index(concurrency, size, [&](int v) { values[v] = now[v]; });
 }
 template <class Value>
 void diffuse(const Surface_edges& edges, const std::vector<double>& times, int steps,

@@ -25,7 +25,7 @@ public:
       : m_concurrency(concurrency), m_tree(static_cast<int>(triangles.size())),
         m_facets(triangles.size()), m_patches(patches.size()), m_places(triangles.size())
   {
-    std::vector<Vec3d> centers(triangles.size());
+    internal::Unset_vector<Vec3d> centers(triangles.size());
     internal::for_each_index(concurrency, m_tree.items, [&](int f) {
       const Triangle& t = triangles[f];
       centers[f] = (points[t[0]] + points[t[1]] + points[t[2]]) * (1.0 / 3);
@@ -73,7 +73,7 @@ public:
   }
 
   /// The nodes of the tree.
-  const std::vector<Child_boxes>& nodes() const { return m_nodes; }
+  const internal::Unset_vector<Child_boxes>& nodes() const { return m_nodes; }
   /// The facets in the order of the tree.
   const std::vector<int>& order() const { return m_order; }
   /// The place of facet `f` in the tree.
@@ -112,7 +112,7 @@ private:
   internal::Unset_vector<Facet_corners<double>>
       m_facets; // in the order of the tree, as what follows
   std::vector<int> m_order, m_patches;
-  std::vector<Child_boxes> m_nodes;
+  internal::Unset_vector<Child_boxes> m_nodes;
   internal::Unset_vector<int> m_places; // by facet
 };
 

@@ -17,10 +17,10 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// The indices of `points` along the Hilbert curve through the cube around them. No size or
-/// position decides it.
-inline std::vector<int> spatial_order(const std::vector<Vec3d>& points,
-                                      Concurrency concurrency = Sequential_tag())
+/// The indices of `points`, a vector, along the Hilbert curve through the cube around them. No size
+/// or position decides it.
+template <class Points>
+std::vector<int> spatial_order(const Points& points, Concurrency concurrency = Sequential_tag())
 {
   if (points.empty()) return {};
   const int n = static_cast<int>(points.size());

@@ -26,23 +26,19 @@ CGAL_POWER_RTF_HD inline std::uint64_t spread_bits(std::uint64_t x)
 CGAL_POWER_RTF_HD inline std::uint64_t hilbert_index(std::uint32_t i, std::uint32_t j,
                                                      std::uint32_t k)
 {
-  constexpr std::uint32_t top = 1u << 20;
+  constexpr int bits = 21;
   std::uint32_t x[3] = {i, j, k};
-  for (std::uint32_t q = top; q > 1; q >>= 1)
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::uint32_t below = q - 1, t = (x[0] ^ x[axis]) & below;
-      if (x[axis] & q) {
-        x[0] ^= below;
-      } else {
-        x[0] ^= t;
-        x[axis] ^= t;
-      }
+  for (int bit = bits - 1; bit > 0; --bit)
+    for (int axis = 0; axis < 3; ++axis) { // without branches: they would be guessed wrong
+      const std::uint32_t below = (1u << bit) - 1, is_set = 0u - (x[axis] >> bit & 1);
+      const std::uint32_t exchanged = (x[0] ^ x[axis]) & below & ~is_set;
+      x[0] ^= exchanged | (below & is_set);
+      x[axis] ^= exchanged;
     }
   x[1] ^= x[0]; // Gray code
   x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = top; q > 1; q >>= 1)
-    if (x[2] & q) t ^= q - 1;
+  std::uint32_t t = x[2] >> 1; // becomes the parity of all higher bits
+  for (int shift = 1; shift < bits; shift *= 2) t ^= t >> shift;
   return spread_bits(x[0] ^ t) << 2 | spread_bits(x[1] ^ t) << 1 | spread_bits(x[2] ^ t);
 }
 

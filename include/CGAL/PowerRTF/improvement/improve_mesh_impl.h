@@ -60,7 +60,7 @@ public:
                 Concurrency concurrency)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_concurrency(concurrency),
         m_locked(mesh.points.size(), false), m_stars(std::in_place, mesh, m_projector, concurrency),
-        m_tracker(*m_stars), m_flat(surface),
+        m_tracker(*m_stars), m_flat(surface, Flat_patches::level_sine, concurrency),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}

@@ -55,7 +55,7 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles, concurrency);
   report.edge_length = {unit * lengths.mean, unit * lengths.min, unit * lengths.max};
-  const Box3<double> box = internal::bounding_box(surface.points, surface.triangles);
+  const Box3<double> box = internal::bounding_box(surface.points, surface.triangles, concurrency);
   report.diagonal = unit * length(box.hi - box.lo);
   part.next(1);
   report.distance = surface_distance(patches.points, patches.triangles, tree, mesh.points,

@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -22,12 +23,16 @@ namespace CGAL::PowerRTF {
 namespace internal {
 
 inline Box3<double> bounding_box(const std::vector<Vec3d>& points,
-                                 const std::vector<Triangle>& triangles)
+                                 const std::vector<Triangle>& triangles,
+                                 Concurrency concurrency = Sequential_tag())
 {
-  Box3<double> box{points[triangles[0][0]], points[triangles[0][0]]};
-  for (const Triangle& t : triangles)
-    for (const int v : t) box.add(points[v]);
-  return box;
+  const Vec3d& first = points[triangles[0][0]];
+  return reduce(
+      concurrency, static_cast<int>(triangles.size()), Box3<double>{first, first},
+      [&](Box3<double>& box, int f) {
+        for (const int v : triangles[f]) box.add(points[v]);
+      },
+      [](Box3<double>& box, const Box3<double>& part) { box.add(part); });
 }
 
 /// Walks over a triangulated surface in spatial order: its vertices, and points spread over it.
@@ -36,10 +41,13 @@ public:
   /// `tree`: of the triangles.
   Surface_samples(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                   const Facet_tree& tree, Concurrency concurrency)
-      : m_facets(tree.view().facets), m_areas(triangles.size() + 1, 0)
+      : m_facets(tree.view().facets), m_areas(triangles.size() + 1)
   {
     const int facets = static_cast<int>(triangles.size());
-    std::vector<int> first_corner(points.size(), 3 * facets); // in the order of the tree
+    Unset_vector<int> first_corner(points.size()); // in the order of the tree
+    for_each_index(concurrency, static_cast<int>(points.size()),
+                   [&](int v) { first_corner[v] = 3 * facets; });
+    m_areas.back() = 0;
     const auto vertex = [&](int corner) { return triangles[tree.order()[corner / 3]][corner % 3]; };
     for_each_index(concurrency, facets, [&](int place) {
       const auto& f = m_facets[place];
@@ -55,7 +63,7 @@ public:
   }
 
   /// The used vertices.
-  const std::vector<Vec3d>& vertices() const { return m_vertices; }
+  const Unset_vector<Vec3d>& vertices() const { return m_vertices; }
 
   /// The i-th of `n` points that are spread evenly by area: every facet gets its share of them
   /// rounded up or down, and they fill the facets as the R2 sequence fills a square.
@@ -72,8 +80,8 @@ public:
 
 private:
   const Facet_corners<double>* m_facets; ///< the tree's
-  std::vector<double> m_areas;           ///< of the facets before this one, and of all
-  std::vector<Vec3d> m_vertices;
+  Unset_vector<double> m_areas;          ///< of the facets before this one, and of all
+  Unset_vector<Vec3d> m_vertices;
 };
 
 struct Squared_distances {
@@ -123,7 +131,7 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
 {
   Distance_statistics result;
   if (input_triangles.empty() || output_triangles.empty()) return result;
-  const Box3<double> box = internal::bounding_box(input_points, input_triangles);
+  const Box3<double> box = internal::bounding_box(input_points, input_triangles, concurrency);
   const double diagonal = length(box.hi - box.lo);
   if (!(diagonal > 0)) return result;
 

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/geometry/surface_geometry.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/sampling/component_shares.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -58,7 +59,7 @@ public:
     m_facets = internal::select(concurrency, static_cast<int>(component.size()),
                                 [&](int f) { return shares[component[f]].samples > 0; });
     const int size = static_cast<int>(m_facets.size());
-    std::vector<std::tuple<int, std::uint64_t, int>> order(size);
+    internal::Unset_vector<std::tuple<int, std::uint64_t, int>> order(size);
     internal::for_each_index(concurrency, size, [&](int k) {
       const int f = m_facets[k];
       const Triangle& t = surface.triangles[f];
@@ -67,7 +68,8 @@ public:
       order[k] = {component[f], hilbert_code(cube.to_inside(center)), f};
     });
     internal::sort(concurrency, order.begin(), order.end());
-    m_sums.assign(size + 1, 0);
+    m_sums.resize(size + 1);
+    m_sums[size] = 0;
     internal::for_each_index(concurrency, size, [&](int k) {
       const int f = m_facets[k] = std::get<2>(order[k]);
       const Component_share& share = shares[component[f]];
@@ -146,7 +148,7 @@ private:
 
   const Surface& m_surface;
   std::vector<int> m_facets;
-  std::vector<double> m_sums; // of the masses of the facets before
+  internal::Unset_vector<double> m_sums; // of the masses of the facets before
 };
 
 /// A random point in each of as many parts of equal mass as there are samples.

@@ -121,11 +121,15 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
   for (const Component_topology& c :
        component_topologies(surface, component, components, concurrency))
     least.push_back(c.least_samples());
+  const double mass = density_integral(surface, concurrency);
   std::vector<double> masses(components, 0);
-  for (std::size_t f = 0; f < component.size(); ++f)
-    masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
+  if (components == 1)
+    masses[0] = mass;
+  else
+    for (std::size_t f = 0; f < component.size(); ++f)
+      masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
   std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
-  const double cell_mass = density_integral(surface, concurrency) / equivalent_cells(n, features);
+  const double cell_mass = mass / equivalent_cells(n, features);
   for (std::size_t s = 0; s < features.sites.size(); ++s) {
     const int c = features.sites.patches[s];
     least[c] = 0;
