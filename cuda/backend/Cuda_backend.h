@@ -147,8 +147,12 @@ public:
   class Buffer {
   public:
     Buffer() = default;
-    Buffer(const Buffer&) = delete;
-    Buffer& operator=(const Buffer&) = delete;
+    Buffer(Buffer&& other) noexcept { swap(other); }
+    Buffer& operator=(Buffer&& other) noexcept
+    {
+      Buffer(std::move(other)).swap(*this);
+      return *this;
+    }
     ~Buffer() { release(); }
 
     /// \throws Cuda_error when the memory does not suffice, with how much was needed
@@ -168,6 +172,13 @@ public:
     std::size_t size() const { return m_size; }
 
   private:
+    void swap(Buffer& other) noexcept
+    {
+      std::swap(m_backend, other.m_backend);
+      std::swap(m_data, other.m_data);
+      std::swap(m_size, other.m_size);
+      std::swap(m_capacity, other.m_capacity);
+    }
     void release()
     {
       if (m_data) m_backend->give_back(m_data, m_capacity * sizeof(T));
