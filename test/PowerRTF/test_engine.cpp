@@ -120,7 +120,8 @@ TEST_CASE("the engine: cells of the surface, Lloyd's steps, statistics")
 TEST_CASE("L-BFGS gets nearer to centroidal samples than Lloyd's method does in as many steps")
 {
   const Surface surface = shapes::make_surface(shapes::torus(60, 30, 1, 0.4));
-  const Remeshing_options options = options_for(400);
+  Remeshing_options options = options_for(400);
+  options.sampling = Sampling::stratified; // far from centroidal
   const auto displacement_after = [&](Position_method method) {
     Cpu_engine<Sequential_tag> engine(surface, options);
     engine.set_samples(sample_surface(surface, options));
@@ -132,6 +133,10 @@ TEST_CASE("L-BFGS gets nearer to centroidal samples than Lloyd's method does in 
     engine.restore_best();
     return engine.displacement();
   };
-  CHECK(displacement_after(Position_method::lbfgs) <
-        0.8 * displacement_after(Position_method::lloyd));
+  double lbfgs = 0, lloyd = 0;
+  for (options.random_seed = 0; options.random_seed < 5; ++options.random_seed) {
+    lbfgs += displacement_after(Position_method::lbfgs);
+    lloyd += displacement_after(Position_method::lloyd);
+  }
+  CHECK(lbfgs < 0.5 * lloyd);
 }
