@@ -3,6 +3,8 @@
 #include "Cuda_backend.h"
 
 #include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_select.cuh>
+#include <thrust/iterator/counting_iterator.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -114,6 +116,24 @@ void Cuda_backend::sort_order(int n, std::uint64_t* keys, int* order)
   check(cub::DeviceRadixSort::SortPairs(m_scratch.data(), bytes, keys, m_keys.data(), places, order,
                                         n, begin, 63, m_stream),
         "sorting");
+}
+
+int Cuda_backend::select(int n, const unsigned char* is_wanted, int* items)
+{
+  if (n <= 0) return 0;
+  m_selected.allocate(*this, 1);
+  const thrust::counting_iterator<int> all(0);
+  std::size_t bytes = 0;
+  check(cub::DeviceSelect::Flagged(nullptr, bytes, all, is_wanted, items, m_selected.data(), n,
+                                   m_stream),
+        "selecting");
+  m_scratch.allocate(*this, bytes);
+  check(cub::DeviceSelect::Flagged(m_scratch.data(), bytes, all, is_wanted, items,
+                                   m_selected.data(), n, m_stream),
+        "selecting");
+  int count = 0;
+  download(&count, m_selected.data(), 1);
+  return count;
 }
 
 } // namespace device

@@ -295,6 +295,9 @@ public:
   /// theirs. `keys` are lost.
   void sort_order(int n, std::uint64_t* keys, int* order);
 
+  /// Writes the items i of [0, n) with `is_wanted[i]` in order. \returns their number
+  int select(int n, const unsigned char* is_wanted, int* items);
+
   template <class T>
   void upload(T* to, const T* from, std::size_t n)
   {
@@ -372,6 +375,7 @@ private:
   Buffer<std::uint64_t> m_keys; // of sort_order()
   Buffer<int> m_places;
   Buffer<unsigned char> m_scratch;
+  Buffer<int> m_selected; // their number
 };
 
 } // namespace CGAL::PowerRTF::device

@@ -152,7 +152,8 @@ private:
     const PowerRTF::Facet_tree& tree = m_engine.facet_tree();
     part.next(0.85);
     const PowerRTF::Samples samples = PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
-        m_patches.surface(), m_options, features, &tree, &m_report.off_lattice_samples);
+        m_patches.surface(), m_options, features, &tree, &m_report.off_lattice_samples,
+        m_engine.lattice_field_maker());
     part.next(1);
     m_engine.set_samples(samples, features);
     m_report.iterations.clear();

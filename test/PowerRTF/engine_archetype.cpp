@@ -14,6 +14,7 @@ public:
   Engine_archetype(const Surface&, const Remeshing_options&);
   Engine_archetype(const Engine_archetype&) = delete;
   Engine_archetype& operator=(const Engine_archetype&) = delete;
+  Make_lattice_field lattice_field_maker();
   void set_samples(const Samples& samples, const Feature_samples& features);
   void build_cells();
   bool optimize_weights(int passes);

@@ -4,12 +4,17 @@
 // The CUDA engine on a GPU, against the CPU engine and the oracle. Skipped where there is no GPU or
 // the engine is not built.
 #include "engine_comparison.h"
+#include "relative_distances.h"
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <iostream>
 #include <limits>
+#include <vector>
 
 using namespace engine_comparison;
 
@@ -42,6 +47,53 @@ Case large_case(bool paper, Density density)
 TEST_CASE("in double precision the steps are those of the CPU engine")
 {
   for (const Case& c : cases()) compare<Cuda_engine<double>>(c, 1e-6);
+}
+
+TEST_CASE("a lattice made on the device is that of the CPU, but for rounding")
+{
+  const shapes::Soup torus = shapes::torus(96, 48, 1, 0.3);
+  const Case shapes[] = {
+      {"torus", torus, options_of(false, Density::uniform, 0)},
+      {"torus", torus, options_of(false, Density::curvature, 0)},
+      {"box with creases", shapes::box(4), options_of(false, Density::uniform, 0)}};
+  for (Case c : shapes)
+    for (const std::size_t n : {60u, 900u, 6000u})
+      for (unsigned seed = 0; seed < 3; ++seed) {
+        CAPTURE(c.name);
+        CAPTURE(n);
+        CAPTURE(seed);
+        c.options.number_of_samples = n;
+        c.options.random_seed = seed;
+        const Start start(c);
+        const Surface& surface = start.patches->surface();
+        const auto sample = [&](const Make_lattice_field& make) {
+          return sample_surface<CGAL::Parallel_if_available_tag>(
+              surface, c.options, start.patches->features(), nullptr, nullptr, make);
+        };
+        const auto sample_on_device = [&] {
+          return sample(Cuda_engine<float>(surface, c.options).lattice_field_maker());
+        };
+        const Samples host = sample({}), device = sample_on_device();
+        CHECK(device.points == sample_on_device().points);
+        REQUIRE(device.size() == host.size());
+        // A whole lattice may slide at nearly no cost: rounding decides then where it stays.
+        const double C = spacing_constant(surface, n);
+        std::vector<double> distances; // of samples to the other lattice, by the spacing
+        for (std::size_t i = 0; i < host.size(); ++i) {
+          double nearest = 4;
+          for (const Vec3d& p : device.points)
+            nearest = std::min(nearest, squared_length(p - host.points[i]));
+          distances.push_back(std::sqrt(nearest * host.density[i]) / C);
+        }
+        std::sort(distances.begin(), distances.end());
+        CHECK(distances[distances.size() / 2] < 0.05);
+        // Both are as regular.
+        const auto a = relative_distances(surface, host), b = relative_distances(surface, device);
+        for (const double share : {0.2, 0.5, 0.8}) {
+          const std::size_t k = std::size_t(share * double(a.size()));
+          CHECK(std::abs(a[k] - b[k]) < 0.02);
+        }
+      }
 }
 
 TEST_CASE("the same input gives the same samples bit for bit")

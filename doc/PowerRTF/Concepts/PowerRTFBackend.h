@@ -72,6 +72,10 @@ public:
   /// The order of n items by their keys, equal ones by number. The keys may be lost.
   void sort_order(int n, std::uint64_t* keys, int* order);
 
+  /// Writes the items i of [0, n) with `is_wanted[i]`, in order, to `items`, which has room for n.
+  /// Returns their number.
+  int select(int n, const unsigned char* is_wanted, int* items);
+
   template <class T>
   void upload(T* to, const T* from, std::size_t n);
   /// Waits for the work so far.

@@ -28,6 +28,9 @@ public:
   PowerRTFEngine(const CGAL::PowerRTF::Surface& surface,
                  const CGAL::PowerRTF::Remeshing_options& options);
 
+  /// What makes the fields of a lattice, on which samples begin, where the engine works; or empty.
+  CGAL::PowerRTF::Make_lattice_field lattice_field_maker();
+
   /// Takes the samples' points and facets; their normals and densities come from the surface, their
   /// weights become 0. The engine may reorder them, once. `features`: samples that stay where they
   /// are; the copies of each, one for every patch at it, bound cells and have none.

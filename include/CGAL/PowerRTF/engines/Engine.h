@@ -13,10 +13,13 @@
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
 #include <CGAL/PowerRTF/optimization/position_steps.h>
 #include <CGAL/PowerRTF/optimization/weight_steps.h>
+#include <CGAL/PowerRTF/sampling/Lattice_field.h>
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -42,6 +45,11 @@ public:
     m_scalar.allocate(m_backend, 1);
   }
 
+  std::unique_ptr<Lattice_field_base> make_lattice_field(const std::vector<Lattice_nodes>& levels,
+                                                         bool is_even, std::uint64_t seed) override
+  {
+    return std::make_unique<Lattice_field<Backend>>(m_backend, levels, is_even, seed);
+  }
   void set_samples(const Engine_samples& samples) override;
   void build_cells() override;
   bool optimize_weights(int passes) override;

@@ -11,8 +11,11 @@
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
+#include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -64,6 +67,10 @@ struct Engine_samples {
 class Engine_base {
 public:
   virtual ~Engine_base() = default;
+  /// As `Make_lattice_field`. The engine has to live as long as the result.
+  virtual std::unique_ptr<Lattice_field_base>
+  make_lattice_field(const std::vector<Lattice_nodes>& levels, bool is_even,
+                     std::uint64_t seed) = 0;
   /// Takes the samples with cells into spatial order; the others keep theirs. Weights become 0.
   virtual void set_samples(const Engine_samples& samples) = 0;
   virtual void build_cells() = 0;

@@ -26,6 +26,9 @@ public:
   Surface_engine_base(const Surface_engine_base&) = delete;
   Surface_engine_base& operator=(const Surface_engine_base&) = delete;
 
+  /// Makes the fields of a lattice where the engine works. The surface's normals and density are
+  /// those of then.
+  Make_lattice_field lattice_field_maker();
   void set_samples(const Samples& samples, const Feature_samples& features = {});
   void build_cells() { m_engine->build_cells(); }
   bool optimize_weights(int passes) { return m_engine->optimize_weights(passes); }
@@ -58,6 +61,7 @@ protected:
   ~Surface_engine_base();
 
 private:
+  Engine_base& engine();
   Samples gather(std::size_t count) const;
 
   Remeshing_options m_options;

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -50,13 +51,26 @@ CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
   return *m_tree;
 }
 
-CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
-                                                            const Feature_samples& features)
+CGAL_POWER_RTF_INLINE Engine_base& Surface_engine_base::engine()
 {
   if (!m_engine) { // only now the surface's normals and density are what they will be
     m_packed = internal::packed_surface(m_surface, facet_tree(), m_options, m_concurrency);
     m_engine = m_make(m_packed, m_options);
   }
+  return *m_engine;
+}
+
+CGAL_POWER_RTF_INLINE Make_lattice_field Surface_engine_base::lattice_field_maker()
+{
+  return [this](const std::vector<Lattice_nodes>& levels, bool is_even, std::uint64_t seed) {
+    return engine().make_lattice_field(levels, is_even, seed);
+  };
+}
+
+CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
+                                                            const Feature_samples& features)
+{
+  engine(); // makes the facets' tree, too
   m_size = samples.size();
   const Samples sites = joined(samples, features.sites);
   m_sites = sites.size();

@@ -116,6 +116,15 @@ public:
     for_each(n, [&](int i) { order[i] = items[i].second; });
   }
 
+  /// Writes the items i of [0, n) with `is_wanted[i]` in order. \returns their number
+  int select(int n, const unsigned char* is_wanted, int* items)
+  {
+    const std::vector<int> found =
+        internal::select(concurrency(), n, [=](int i) { return is_wanted[i] != 0; });
+    upload(items, found.data(), found.size());
+    return static_cast<int>(found.size());
+  }
+
   template <class T>
   void upload(T* to, const T* from, std::size_t n)
   {

@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_SAMPLING_LATTICE_FIELD_H
 
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
 #include <CGAL/PowerRTF/sampling/orientation_field.h>
 #include <CGAL/PowerRTF/sampling/position_field.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -18,39 +19,53 @@
 
 namespace CGAL::PowerRTF {
 
-/// Nodes as they come: first those that are free, in spatial order, then the sites on creases and
-/// borders, which are points of the lattice.
-struct Lattice_nodes {
-  int free = 0;
-  internal::Unset_vector<Vec3f> points;   ///< in the unit box
-  internal::Unset_vector<Vec3f> normals;  ///< unit
-  internal::Unset_vector<int> components; ///< of the surface
-  internal::Unset_vector<float> spacing;  ///< h
-  // Of the sites:
-  internal::Unset_vector<Phasor> directions;         ///< along a curve, six times the angle
-  internal::Unset_vector<unsigned char> is_directed; ///< the direction stays
-
-  int size() const { return static_cast<int>(points.size()); }
-  void resize(std::size_t free_nodes, std::size_t sites)
+/// The direction in which a random vector points: no choice of frames has a part in it.
+struct Draw_direction {
+  Lattice_view view;
+  std::uint64_t seed;
+  Phasor* result;
+  CGAL_POWER_RTF_HD void operator()(int i) const
   {
-    free = static_cast<int>(free_nodes);
-    points.resize(free_nodes + sites);
-    normals.resize(points.size());
-    components.resize(points.size());
-    spacing.resize(points.size());
-    directions.resize(sites);
-    is_directed.resize(sites);
+    const auto coordinate = [&](int k) { return float(counted_random(seed, i, k)) - 0.5f; };
+    const Vec3f v{coordinate(0), coordinate(1), coordinate(2)};
+    const Tangent_frame<float> frame(view.normals[i]);
+    result[i] = unit(sixth_power(unit({dot(v, frame.u), dot(v, frame.v)})));
+  }
+};
+
+/// The node is a point of the lattice.
+struct Set_crests {
+  Stored_waves* waves;
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    constexpr Phasor one{1, 0};
+    waves[i] = {{one, one, one}};
+  }
+};
+
+struct Mark_chosen {
+  Choose_points choose;
+  unsigned char* result;
+  CGAL_POWER_RTF_HD void operator()(int i) const { result[i] = choose(i); }
+};
+
+struct Find_mean_points {
+  Lattice_view view;
+  const Seen_point* seen;
+  const int* nodes;
+  Seen_point* result;
+  CGAL_POWER_RTF_HD void operator()(int k) const
+  {
+    result[k] = {mean_seen_point(view, seen, nodes[k]), seen[nodes[k]].distance};
   }
 };
 
 /// Each level is solved from the next coarser one's result by Jacobi's sweeps, so the fields are
 /// the same for any number of threads.
 template <class Backend>
-class Lattice_field {
+class Lattice_field final : public Lattice_field_base {
 public:
-  /// `levels`: from fine to coarse; free nodes of all levels are in the same order along the
-  /// surface. A backend of the host keeps references to them.
-  /// `is_even`: the spacing is the same everywhere.
+  /// As `Make_lattice_field`. A backend of the host keeps references to the nodes.
   Lattice_field(Backend& backend, const std::vector<Lattice_nodes>& levels, bool is_even,
                 std::uint64_t seed)
       : m_backend(backend), m_is_turning(!is_even), m_seed(seed)
@@ -63,8 +78,7 @@ public:
     }
   }
 
-  /// The directions of the rows, and the places of the points for all spacings times `factor`.
-  void solve(float factor)
+  void solve(float factor) override
   {
     for (std::size_t l = m_levels.size(); l-- > 0;) {
       Level& level = m_levels[l];
@@ -83,6 +97,28 @@ public:
     }
   }
 
+  Chosen_points points() override
+  {
+    const Lattice_view view = this->view();
+    Buffer<Seen_point> seen, means;
+    Buffer<unsigned char> is_chosen;
+    Buffer<int> nodes;
+    seen.allocate(m_backend, view.size);
+    is_chosen.allocate(m_backend, view.free);
+    m_backend.for_each(view.size, See_points{view, seen.data()});
+    m_backend.for_each(view.free, Mark_chosen{{view, seen.data()}, is_chosen.data()});
+    nodes.allocate(m_backend, view.free);
+    const int size = m_backend.select(view.free, is_chosen.data(), nodes.data());
+    means.allocate(m_backend, size);
+    m_backend.for_each(size, Find_mean_points{view, seen.data(), nodes.data(), means.data()});
+    Chosen_points chosen;
+    chosen.nodes.resize(size);
+    chosen.points.resize(size);
+    m_backend.download(chosen.nodes.data(), nodes.data(), size);
+    m_backend.download(chosen.points.data(), means.data(), size);
+    return chosen;
+  }
+
   /// Of the finest level.
   Lattice_view view() { return m_levels.front().view(); }
 
@@ -98,28 +134,6 @@ private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// The direction in which a random vector points: no choice of frames has a part in it.
-  struct Draw_direction {
-    Lattice_view view;
-    std::uint64_t seed;
-    Phasor* result;
-    CGAL_POWER_RTF_HD void operator()(int i) const
-    {
-      const auto coordinate = [&](int k) { return float(counted_random(seed, i, k)) - 0.5f; };
-      const Vec3f v{coordinate(0), coordinate(1), coordinate(2)};
-      const Tangent_frame<float> frame(view.normals[i]);
-      result[i] = unit(sixth_power(unit({dot(v, frame.u), dot(v, frame.v)})));
-    }
-  };
-  /// The node is a point of the lattice.
-  struct Set_crests {
-    Stored_waves* waves;
-    CGAL_POWER_RTF_HD void operator()(int i) const
-    {
-      constexpr Phasor one{1, 0};
-      waves[i] = {{one, one, one}};
-    }
-  };
   /// An array of the nodes where the backend sees it.
   template <class T>
   class Given {

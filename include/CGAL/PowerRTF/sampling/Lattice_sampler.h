@@ -62,17 +62,17 @@ public:
     }
   }
 
-  Samples run()
+  Samples run(const Make_lattice_field& make)
   {
     internal::Progress_part part(0.05);
     make_nodes();
     {
-      Field field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
+      const auto field = make(m_levels, has_uniform_density(m_surface), m_seed);
       part.next(0.8);
-      find_points(field);
-      part.next(0.85);
-      add_gaps(field.view());
+      find_points(*field);
     }
+    part.next(0.85);
+    add_gaps(nodes_view(m_scale));
     m_levels.resize(1);
     part.next(1);
     return eliminate();
@@ -81,18 +81,16 @@ public:
   /// Samples of the last run that are no points of the lattice.
   std::size_t off_lattice() const { return m_off_lattice; }
 
-  /// What `run()` begins with.
+  /// What `run()` begins with, made by this backend.
   Lattice_fields fields()
   {
     make_nodes();
-    Field field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
+    Lattice_field<Backend> field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
     find_points(field);
     return described(field.view());
   }
 
 private:
-  using Field = Lattice_field<Backend>;
-
   static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.035;
   static constexpr int coarsest_level = 64, max_scalings = 2;
   static constexpr std::size_t min_lattice = 50; // samples of a component
@@ -101,17 +99,18 @@ private:
   static constexpr double twin_distance = 0.6, gap_radius = 0.7; // relative to the spacing
 
   /// The fields, and the points with their number scaled to what is wanted.
-  void find_points(Field& field)
+  void find_points(Lattice_field_base& field)
   {
     internal::Progress_part part(0);
     // Rows that end cost points: a share that falls slowly with n (kitten, fertility, armadillo).
     double scale = 1 - 0.02 * std::pow(3000. / static_cast<double>(m_size), 0.2);
     for (int step = 0;; ++step) {
       part.next(1 - 0.3 / (step + 1)); // mostly one step does
-      field.solve(static_cast<float>(scale));
+      m_scale = static_cast<float>(scale);
+      field.solve(m_scale);
       part.next(1 - 0.2 / (step + 1));
-      choose_points(field.view());
-      const double count = static_cast<double>(distinct_points(field.view()));
+      choose_points(field);
+      const double count = static_cast<double>(distinct_points(nodes_view(m_scale)));
       const double wanted = static_cast<double>(m_lattice_size);
       if (step == max_scalings || std::fabs(count - wanted) <= tolerance * wanted || count == 0)
         break;
@@ -193,19 +192,30 @@ private:
     nodes.spacing[i] = static_cast<float>(m_cube.scale * std::sqrt(2 / std::sqrt(3.) * cell));
   }
 
-  void choose_points(const Lattice_view& view)
+  void choose_points(Lattice_field_base& field)
   {
-    typename Backend::template Buffer<Seen_point> seen;
-    seen.allocate(m_backend, view.size);
-    m_backend.for_each(view.size, See_points{view, seen.data()});
-    const Choose_points choose{view, seen.data()};
-    const std::vector<int> chosen = internal::select(
-        m_backend.concurrency(), view.free, [&](int i) { return has_lattice(i) && choose(i); });
-    m_candidates.resize(chosen.size());
-    m_backend.for_each(static_cast<int>(chosen.size()), [&](int k) {
-      const int i = chosen[k];
-      m_candidates[k] = {mean_seen_point(view, seen.data(), i), i, seen.data()[i].distance};
-    });
+    const Chosen_points chosen = field.points();
+    m_candidates.clear();
+    m_candidates.reserve(chosen.nodes.size());
+    for (std::size_t k = 0; k < chosen.nodes.size(); ++k)
+      if (has_lattice(chosen.nodes[k]))
+        m_candidates.push_back(
+            {to_double(chosen.points[k].point), chosen.nodes[k], chosen.points[k].distance});
+  }
+
+  /// The finest nodes, for all spacings times `scale`.
+  Lattice_view nodes_view(float scale) const
+  {
+    const Lattice_nodes& nodes = m_levels.front();
+    Lattice_view view;
+    view.size = nodes.size();
+    view.free = nodes.free;
+    view.points = nodes.points.data();
+    view.normals = nodes.normals.data();
+    view.components = nodes.components.data();
+    view.node_spacing = nodes.spacing.data();
+    view.scale = scale;
+    return view;
   }
 
   /// Where the field does not fit, points come twice.
@@ -382,6 +392,7 @@ private:
   std::uint64_t m_seed;
   Surface_cube m_cube; // the nodes' coordinates are inside
   std::size_t m_size = 0, m_lattice_size = 0, m_off_lattice = 0; // samples
+  float m_scale = 1;                                             // of the spacings
   std::vector<Lattice_nodes> m_levels;                           // from fine to coarse
   std::vector<int> m_facets; // of the free nodes of the finest level
   std::vector<Sample_candidate> m_candidates;

@@ -128,7 +128,7 @@ struct Find_lattice_neighbors {
       if (count < enough) count = tree.nearest<degree>(p, everywhere, found, counts);
       Lattice_edge* const edges = view.first_edge(i);
       for (int e = 0; e < degree; ++e)
-        edges[e].node = e < count ? unsigned(found[e]) : Lattice_edge::none;
+        edges[e] = {e < count ? unsigned(found[e]) : Lattice_edge::none, 0, {}};
     }
   }
 };

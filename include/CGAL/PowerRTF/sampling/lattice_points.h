@@ -49,7 +49,7 @@ struct Choose_points {
 };
 
 /// The point of a chosen node: the mean of what it and its neighbors see.
-CGAL_POWER_RTF_HD inline Vec3d mean_seen_point(const Lattice_view& view, const Seen_point* seen,
+CGAL_POWER_RTF_HD inline Vec3f mean_seen_point(const Lattice_view& view, const Seen_point* seen,
                                                int i)
 {
   constexpr float sure = 0.3f; // distance relative to the spacing
@@ -63,8 +63,7 @@ CGAL_POWER_RTF_HD inline Vec3d mean_seen_point(const Lattice_view& view, const S
     sum += d;
     ++count;
   });
-  const Vec3f mean = own + (1.f / float(count)) * sum;
-  return {mean.x, mean.y, mean.z};
+  return own + (1.f / float(count)) * sum;
 }
 
 } // namespace CGAL::PowerRTF

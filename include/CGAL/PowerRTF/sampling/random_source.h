@@ -13,7 +13,8 @@
 namespace CGAL::PowerRTF {
 
 /// Uniform in [0, 1): a function of its arguments alone, so that numbers can be drawn in any order.
-inline double counted_random(std::uint64_t seed, std::uint64_t index, std::uint64_t stream)
+CGAL_POWER_RTF_HD inline double counted_random(std::uint64_t seed, std::uint64_t index,
+                                               std::uint64_t stream)
 {
   using internal::mixed_bits;
   constexpr std::uint64_t golden = 0x9e3779b97f4a7c15u;

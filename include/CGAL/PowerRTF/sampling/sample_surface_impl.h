@@ -13,6 +13,8 @@
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,7 +23,7 @@ namespace CGAL::PowerRTF {
 template <class ConcurrencyTag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                        const Feature_samples& features, const Facet_tree* tree,
-                       std::size_t* off_lattice)
+                       std::size_t* off_lattice, const Make_lattice_field& make)
 {
   validate(options);
   internal::Progress_part part(0.02);
@@ -38,7 +40,9 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
     if (!tree) tree = &own_tree.emplace(surface.points, surface.triangles, surface.facet_patches);
     Lattice_sampler<Backend> sampler(backend, surface, *tree, features, component, shares,
                                      options.random_seed);
-    samples = sampler.run();
+    samples = sampler.run(make ? make : [&](const auto& levels, bool is_even, std::uint64_t seed) {
+      return std::make_unique<Lattice_field<Backend>>(backend, levels, is_even, seed);
+    });
     if (off_lattice) *off_lattice = sampler.off_lattice();
   } else if (options.sampling == Sampling::stratified) {
     samples = stratified_samples(backend, surface, component, shares, options.random_seed);
