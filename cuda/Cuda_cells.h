@@ -53,9 +53,11 @@ public:
   template <class Sink>
   void for_each_cell(Sink&& sink)
   {
-    constexpr int chunk = 1 << 16;
+    constexpr int chunk = 1 << 20; // 800 megabytes; each constructs all cells again
+    Buffer<unsigned char> statuses;
+    statuses.allocate(m_backend, m_cells);
     for (int begin = 0; begin < m_cells; begin += chunk)
-      for_each_cell(begin, std::min(begin + chunk, m_cells), sink);
+      for_each_cell(begin, std::min(begin + chunk, m_cells), statuses, sink);
   }
 
 private:
@@ -64,21 +66,24 @@ private:
   static constexpr int stride = Tangent_polygon<Real>::capacity;
 
   template <class Sink>
-  void for_each_cell(int begin, int end, Sink& sink)
+  void for_each_cell(int begin, int end, Buffer<unsigned char>& statuses, Sink& sink)
   {
     const std::size_t n = end - begin;
     Buffer<Real> x, y;
     Buffer<int> sizes, neighbors;
-    Buffer<unsigned char> statuses;
-    for (Buffer<Real>* b : {&x, &y}) b->allocate(m_backend, n * stride);
     sizes.allocate(m_backend, n);
     neighbors.allocate(m_backend, n * stride);
-    statuses.allocate(m_backend, n);
+    m_backend.fill(neighbors.data(), 0, n * stride); // beyond the sizes nothing is written
+    for (Buffer<Real>* b : {&x, &y}) {
+      b->allocate(m_backend, n * stride);
+      m_backend.fill(b->data(), Real(0), n * stride);
+    }
     m_builder.polygons(begin, end, sizes.data(), x.data(), y.data(), neighbors.data(),
                        statuses.data());
     const std::vector<Real> xs = downloaded(x), ys = downloaded(y);
     const std::vector<int> size = downloaded(sizes), neighbor = downloaded(neighbors);
-    const std::vector<unsigned char> status = downloaded(statuses);
+    std::vector<unsigned char> status(n);
+    m_backend.download(status.data(), statuses.data() + begin, n);
     for (std::size_t i = 0; i < n; ++i) {
       Tangent_polygon<double> polygon;
       polygon.size = size[i];

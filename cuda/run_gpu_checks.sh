@@ -56,7 +56,8 @@ if [ -n "$sanitizer" ]; then
   for tool in memcheck racecheck initcheck; do
     for arguments in '--samples 1000 --iterations 6' \
       '--samples 1000 --preset paper --iterations 3' \
-      '--samples 9000 --density curvature --iterations 2' '--samples 150000 --iterations 1'; do
+      '--samples 9000 --density curvature --iterations 2' '--samples 150000 --iterations 1' \
+      '--samples 9000 --iterations 1 --check'; do
       check "$tool $arguments" compute-sanitizer --tool $tool --error-exitcode 1 \
         "$programs/cuda_remeshing" "$models/fertility.off" $arguments --runs 0
     done

@@ -142,6 +142,28 @@ TEST_CASE("more cells than a GPU has threads: Newton's steps equal them, the sam
   }
 }
 
+TEST_CASE("neighbors of more cells than are brought to the host at a time are mutual")
+{
+  Case c = large_case(false, Density::uniform);
+  c.options.number_of_samples = 1100000;
+  c.options.sampling = Sampling::stratified;
+  const Start start(c);
+  Cuda_engine<float> engine(start.patches->surface(), c.options);
+  engine.set_samples(start.samples, start.patches->features());
+  engine.build_cells();
+  const std::vector<std::vector<int>> neighbors = engine.neighbors();
+  REQUIRE(neighbors.size() == c.options.number_of_samples);
+  std::size_t pairs = 0, mutual = 0;
+  for (std::size_t i = 0; i < neighbors.size(); ++i)
+    for (const int j : neighbors[i]) {
+      if (j < 0) continue;
+      ++pairs;
+      mutual += std::count(neighbors[j].begin(), neighbors[j].end(), int(i));
+    }
+  CHECK(pairs > 5 * neighbors.size());
+  CHECK(mutual > 0.99 * pairs); // tangent planes differ a little
+}
+
 TEST_CASE("cells at tips do not keep the others from equal capacities")
 {
   check_tips<Cuda_engine<float>>();
