@@ -13,6 +13,21 @@
 
 namespace CGAL::PowerRTF::device {
 
+/// Row i of `padded`, of `sizes[i]` items, to where `first[i] - origin` says.
+struct Pack_rows {
+  static constexpr int stride = Tangent_polygon<float>::capacity;
+  const int* sizes;
+  const std::size_t* first;
+  std::size_t origin;
+  const int* padded;
+  int* packed;
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    for (int k = 0; k < sizes[i]; ++k)
+      packed[first[i] - origin + k] = padded[std::size_t(i) * stride + k];
+  }
+};
+
 /// Models `PowerRTFCells`.
 template <class Real>
 class Cuda_cells {
@@ -53,11 +68,19 @@ public:
   template <class Sink>
   void for_each_cell(Sink&& sink)
   {
-    constexpr int chunk = 1 << 20; // 800 megabytes; each constructs all cells again
-    Buffer<unsigned char> statuses;
-    statuses.allocate(m_backend, m_cells);
-    for (int begin = 0; begin < m_cells; begin += chunk)
-      for_each_cell(begin, std::min(begin + chunk, m_cells), statuses, sink);
+    for_each_chunk([&](int begin, int end, unsigned char* statuses) {
+      for_each_cell(begin, end, statuses, sink);
+    });
+  }
+
+  Neighbor_cycles neighbors()
+  {
+    Neighbor_cycles all;
+    all.first.reserve(m_cells + std::size_t(1));
+    for_each_chunk([&](int begin, int end, unsigned char* statuses) {
+      add_neighbors(begin, end, statuses, all);
+    });
+    return all;
   }
 
 private:
@@ -65,8 +88,38 @@ private:
   using Buffer = Cuda_backend::Buffer<T>;
   static constexpr int stride = Tangent_polygon<Real>::capacity;
 
+  // Calls `f(begin, end, statuses)`; `statuses`: of all cells.
+  template <class F>
+  void for_each_chunk(F&& f)
+  {
+    constexpr int chunk = 1 << 20; // 800 megabytes; each constructs all cells again
+    Buffer<unsigned char> statuses;
+    statuses.allocate(m_backend, m_cells);
+    for (int begin = 0; begin < m_cells; begin += chunk)
+      f(begin, std::min(begin + chunk, m_cells), statuses.data());
+  }
+
+  // Only they are brought to the host, without gaps between them.
+  void add_neighbors(int begin, int end, unsigned char* statuses, Neighbor_cycles& all)
+  {
+    const std::size_t n = end - begin, before = all.neighbors.size();
+    Buffer<int> sizes, padded, packed;
+    Buffer<std::size_t> first;
+    sizes.allocate(m_backend, n);
+    padded.allocate(m_backend, n * stride);
+    m_builder.polygons(begin, end, sizes.data(), nullptr, nullptr, padded.data(), statuses);
+    for (const int size : downloaded(sizes)) all.first.push_back(all.first.back() + size);
+    first.allocate(m_backend, n);
+    m_backend.upload(first.data(), all.first.data() + begin, n);
+    packed.allocate(m_backend, all.first.back() - before);
+    m_backend.for_each(int(n),
+                       Pack_rows{sizes.data(), first.data(), before, padded.data(), packed.data()});
+    all.neighbors.resize(all.first.back());
+    m_backend.download(all.neighbors.data() + before, packed.data(), packed.size());
+  }
+
   template <class Sink>
-  void for_each_cell(int begin, int end, Buffer<unsigned char>& statuses, Sink& sink)
+  void for_each_cell(int begin, int end, unsigned char* statuses, Sink& sink)
   {
     const std::size_t n = end - begin;
     Buffer<Real> x, y;
@@ -78,12 +131,11 @@ private:
       b->allocate(m_backend, n * stride);
       m_backend.fill(b->data(), Real(0), n * stride);
     }
-    m_builder.polygons(begin, end, sizes.data(), x.data(), y.data(), neighbors.data(),
-                       statuses.data());
+    m_builder.polygons(begin, end, sizes.data(), x.data(), y.data(), neighbors.data(), statuses);
     const std::vector<Real> xs = downloaded(x), ys = downloaded(y);
     const std::vector<int> size = downloaded(sizes), neighbor = downloaded(neighbors);
     std::vector<unsigned char> status(n);
-    m_backend.download(status.data(), statuses.data() + begin, n);
+    m_backend.download(status.data(), statuses + begin, n);
     for (std::size_t i = 0; i < n; ++i) {
       Tangent_polygon<double> polygon;
       polygon.size = size[i];

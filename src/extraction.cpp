@@ -12,12 +12,11 @@ namespace CGAL::PowerRTF {
 
 template Extracted_mesh extract_from_cells<Sequential_tag>(const Surface&, const Samples&,
                                                            const Feature_samples&,
-                                                           std::vector<std::vector<int>>&&,
+                                                           Neighbor_cycles&&,
                                                            Cell_extraction_statistics*);
 #ifdef CGAL_LINKED_WITH_TBB
 template Extracted_mesh extract_from_cells<Parallel_tag>(const Surface&, const Samples&,
-                                                         const Feature_samples&,
-                                                         std::vector<std::vector<int>>&&,
+                                                         const Feature_samples&, Neighbor_cycles&&,
                                                          Cell_extraction_statistics*);
 #endif
 

@@ -59,7 +59,7 @@ public:
   void neighbor_distances(bool compatible, Real* first, Real* sixth);
 
   /// The cells [begin, end) in full. Vertex and edge k < 64 of cell i: at [(i - begin) * 64 + k];
-  /// x and y in its `Tangent_frame`; neighbors below 0 are sides of the guard square.
+  /// x and y, if wanted, in its `Tangent_frame`; neighbors below 0 are sides of the guard square.
   /// `status`: of all cells.
   void polygons(int begin, int end, int* size, Real* x, Real* y, int* neighbor,
                 unsigned char* status);

@@ -64,8 +64,8 @@ __device__ inline void write_polygon(const Group_view<Real>& view, const Polygon
   out.size[id - out.begin] = polygon.size;
   for (int k = 0; k < polygon.size; ++k) {
     const int j = polygon.neighbor[k];
-    out.x[first + k] = polygon.x[k];
-    out.y[first + k] = polygon.y[k];
+    if (out.x) out.x[first + k] = polygon.x[k];
+    if (out.y) out.y[first + k] = polygon.y[k];
     out.neighbor[first + k] = j < 0 ? j : view.caller[j];
   }
 }

@@ -253,7 +253,7 @@ private:
     const bool is_opened = !m_surface.seams.empty(); // its cells are those of the surface as it was
     const bool by_cells = m_options.extraction == Method::cells && !is_opened && !all_fixed();
     Progress_part part(0.2);
-    std::vector<std::vector<int>> neighbors;
+    PowerRTF::Neighbor_cycles neighbors;
     if (by_cells) neighbors = m_engine.neighbors();
     m_engine.release_memory();
     part.next(1);

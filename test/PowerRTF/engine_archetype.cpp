@@ -30,7 +30,7 @@ public:
   Samples sites() const;
   std::vector<Cell_polygon> cells();
   void release_memory();
-  std::vector<std::vector<int>> neighbors();
+  Neighbor_cycles neighbors();
   double epsilon() const;
   const Facet_tree& facet_tree();
   Device_report device_report() const;

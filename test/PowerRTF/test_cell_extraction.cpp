@@ -64,7 +64,9 @@ struct Sampled {
       engine.move_samples(Position_method::lbfgs);
     }
     samples = joined(patches.on_whole(engine.samples()), features.samples);
-    neighbors = engine.neighbors();
+    const Neighbor_cycles cycles = engine.neighbors();
+    for (std::size_t i = 0; i < cycles.size(); ++i)
+      neighbors.emplace_back(cycles[i].begin(), cycles[i].end());
   }
   Sampled(const Sampled&) = delete;
 
@@ -72,7 +74,7 @@ struct Sampled {
   Extracted_mesh extract(Cell_extraction_statistics* statistics = nullptr) const
   {
     return extract_from_cells<ConcurrencyTag>(surface, samples, patches.features(),
-                                              Neighbors(neighbors), statistics);
+                                              Neighbor_cycles(neighbors), statistics);
   }
   Extracted_mesh insert() const
   {

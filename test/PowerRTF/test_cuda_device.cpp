@@ -151,7 +151,7 @@ TEST_CASE("neighbors of more cells than are brought to the host at a time are mu
   Cuda_engine<float> engine(start.patches->surface(), c.options);
   engine.set_samples(start.samples, start.patches->features());
   engine.build_cells();
-  const std::vector<std::vector<int>> neighbors = engine.neighbors();
+  const Neighbor_cycles neighbors = engine.neighbors();
   REQUIRE(neighbors.size() == c.options.number_of_samples);
   std::size_t pairs = 0, mutual = 0;
   for (std::size_t i = 0; i < neighbors.size(); ++i)

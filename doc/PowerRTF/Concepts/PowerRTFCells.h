@@ -45,4 +45,6 @@ public:
   /// `polygon` is a `Tangent_polygon` or has its members.
   template <class Sink>
   void for_each_cell(Sink&& sink);
+  /// The neighbors of all cells.
+  CGAL::PowerRTF::Neighbor_cycles neighbors();
 };

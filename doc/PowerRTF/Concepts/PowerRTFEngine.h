@@ -84,9 +84,8 @@ public:
   /// neighbors are numbers of sites.
   std::vector<CGAL::PowerRTF::Cell_polygon> cells();
 
-  /// The neighbors of each sample's cell, were there no weights: numbers of sites,
-  /// counter-clockwise seen from outside; negative: a side of the guard square.
-  std::vector<std::vector<int>> neighbors();
+  /// The neighbors of each sample's cell, were there no weights: numbers of sites.
+  CGAL::PowerRTF::Neighbor_cycles neighbors();
 
   /// Frees what only further steps need. They would make it again.
   void release_memory();

@@ -8,9 +8,11 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
+#include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/cells/Neighbor_lists.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -104,6 +106,17 @@ public:
   void for_each_cell(Sink&& sink)
   {
     m_construction(*this, sink);
+  }
+
+  /// The neighbors of all cells.
+  Neighbor_cycles neighbors()
+  {
+    std::vector<std::vector<int>> cycles(size());
+    for_each_cell([&](int i, Cell_status, const auto& polygon, const auto&) {
+      const auto first = std::begin(polygon.neighbor);
+      cycles[i].assign(first, first + polygon.size);
+    });
+    return Neighbor_cycles(cycles);
   }
 
   /// Distances of every cell's site to its nearest and to its sixth compatible neighbor.

@@ -61,7 +61,7 @@ public:
   std::size_t constructions() const override { return m_constructions; }
   Engine_samples samples() override;
   std::vector<Cell_polygon> cells() override;
-  std::vector<std::vector<int>> neighbors() override;
+  Neighbor_cycles neighbors() override;
   void release_memory() override;
   double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }
   Device_report device_report() override

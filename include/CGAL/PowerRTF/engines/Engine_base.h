@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
+#include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
@@ -83,7 +84,7 @@ public:
   virtual std::size_t constructions() const = 0;
   virtual Engine_samples samples() = 0;
   virtual std::vector<Cell_polygon> cells() = 0;
-  virtual std::vector<std::vector<int>> neighbors() = 0;
+  virtual Neighbor_cycles neighbors() = 0;
   virtual void release_memory() = 0;
   virtual double epsilon() const = 0;
   virtual Device_report device_report() = 0;

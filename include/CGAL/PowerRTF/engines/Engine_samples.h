@@ -207,7 +207,7 @@ std::vector<Cell_polygon> Engine<R, B, C>::cells()
 }
 
 template <class R, class B, class C>
-std::vector<std::vector<int>> Engine<R, B, C>::neighbors()
+Neighbor_cycles Engine<R, B, C>::neighbors()
 {
   Buffer<Site<R>> plain;
   plain.allocate(m_backend, m_size);
@@ -215,10 +215,7 @@ std::vector<std::vector<int>> Engine<R, B, C>::neighbors()
   Sites_arrays<R> in = sites();
   in.sites = plain.data();
   m_builder->set_weights(in);
-  std::vector<std::vector<int>> neighbors(m_cells);
-  m_builder->for_each_cell([&](int i, Cell_status, const auto& polygon, const auto&) {
-    for (int k = 0; k < polygon.size; ++k) neighbors[i].push_back(polygon.neighbor[k]);
-  });
+  Neighbor_cycles neighbors = m_builder->neighbors();
   m_builder->set_weights(sites());
   return neighbors;
 }

@@ -45,7 +45,7 @@ public:
   Samples samples() const { return gather(m_size); }
   Samples sites() const { return gather(m_sites); }
   std::vector<Cell_polygon> cells() { return m_engine->cells(); }
-  std::vector<std::vector<int>> neighbors() { return m_engine->neighbors(); }
+  Neighbor_cycles neighbors() { return m_engine->neighbors(); }
   void release_memory() { m_engine->release_memory(); }
   double epsilon() const { return m_engine->epsilon(); }
   Device_report device_report() const { return m_engine->device_report(); }

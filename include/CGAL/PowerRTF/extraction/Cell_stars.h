@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 #define CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 
+#include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -27,14 +28,15 @@ template <class ConcurrencyTag>
 class Cell_stars {
 public:
   /// `neighbors`: of each cell, as `PowerRTFEngine::neighbors()` has them.
-  Cell_stars(std::vector<std::vector<int>>&& neighbors, const Feature_samples& features)
+  Cell_stars(Neighbor_cycles&& neighbors, const Feature_samples& features)
       : m_cells(static_cast<int>(neighbors.size())), m_neighbors(std::move(neighbors)),
         m_is_agreed(m_cells, 1)
   {
-    for_each_index<ConcurrencyTag>(m_cells, [&](int i) {
-      for (int& j : m_neighbors[i])
+    if (features.size() > 0)
+      for_each_index<ConcurrencyTag>(static_cast<int>(m_neighbors.neighbors.size()), [&](int k) {
+        int& j = m_neighbors.neighbors[k];
         if (j >= m_cells) j = m_cells + features.samples_of_sites[j - m_cells];
-    });
+      });
     for_each_index<ConcurrencyTag>(m_cells, [&](int i) {
       for (std::size_t k = 0; k < m_neighbors[i].size(); ++k)
         if (!is_agreed(i, corner(i, k))) m_is_agreed[i] = 0;
@@ -49,7 +51,7 @@ public:
   bool is_agreed(int i) const { return m_is_agreed[i]; }
 
   /// The neighbors of a cell.
-  const std::vector<int>& neighbors(int i) const { return m_neighbors[i]; }
+  Neighbor_cycles::Cycle neighbors(int i) const { return m_neighbors[i]; }
 
   /// Calls `f(corner)` for the agreed triangles at `v`.
   template <class F>
@@ -77,8 +79,8 @@ public:
 private:
   Fan_corner corner(int i, std::size_t k) const
   {
-    const std::vector<int>& around = m_neighbors[i];
-    return {around[k], around[k + 1 < around.size() ? k + 1 : 0]};
+    const Neighbor_cycles::Cycle around = m_neighbors[i];
+    return {around[k], around.after(k)};
   }
 
   // Whether `a` is followed by `b` around the cell; one without a cell agrees.
@@ -113,7 +115,7 @@ private:
   }
 
   int m_cells;
-  std::vector<std::vector<int>> m_neighbors; // samples
+  Neighbor_cycles m_neighbors; // samples
   std::vector<char> m_is_agreed;
   std::vector<Triangle_at> m_at_features; // the agreed triangles there, sorted
 };

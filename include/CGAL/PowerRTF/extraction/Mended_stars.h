@@ -35,7 +35,7 @@ class Mended_stars {
 public:
   /// Keeps references to all but `neighbors`; see `extract_from_cells()`.
   Mended_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
-               std::vector<std::vector<int>>&& neighbors)
+               Neighbor_cycles&& neighbors)
       : m_surface(surface), m_samples(samples), m_features(features),
         m_stars(std::move(neighbors), features), m_size(static_cast<int>(samples.size())),
         m_openings(samples.size(), 0), m_has_made(samples.size(), 0), m_on_curves(features.size()),
@@ -138,7 +138,7 @@ private:
   {
     const bool has_cell = v < m_stars.cells();
     if (has_cell && m_stars.is_agreed(v) && !is_open(v) && !m_has_made[v]) {
-      const std::vector<int>& around = m_stars.neighbors(v);
+      const Neighbor_cycles::Cycle around = m_stars.neighbors(v);
       return around.size() >= 3 && are_distinct(around) &&
              std::none_of(around.begin(), around.end(), [this](int w) { return is_open(w); });
     }
@@ -159,7 +159,7 @@ private:
     });
   }
 
-  static bool are_distinct(const std::vector<int>& items)
+  static bool are_distinct(const Neighbor_cycles::Cycle& items)
   {
     for (auto it = items.begin(); it != items.end(); ++it)
       if (std::find(it + 1, items.end(), *it) != items.end()) return false;

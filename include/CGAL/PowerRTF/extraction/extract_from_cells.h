@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_FROM_CELLS_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_FROM_CELLS_H
 
+#include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
@@ -33,8 +34,7 @@ struct Cell_extraction_statistics {
 /// `PowerRTFEngine::neighbors()` has them. The result is the same for any number of threads.
 template <class ConcurrencyTag>
 Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples,
-                                  const Feature_samples& features,
-                                  std::vector<std::vector<int>>&& neighbors,
+                                  const Feature_samples& features, Neighbor_cycles&& neighbors,
                                   Cell_extraction_statistics* statistics = nullptr);
 
 } // namespace CGAL::PowerRTF

@@ -18,8 +18,7 @@ namespace CGAL::PowerRTF {
 
 template <class ConcurrencyTag>
 Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples,
-                                  const Feature_samples& features,
-                                  std::vector<std::vector<int>>&& neighbors,
+                                  const Feature_samples& features, Neighbor_cycles&& neighbors,
                                   Cell_extraction_statistics* statistics)
 {
   internal::Progress_part part(0.3);

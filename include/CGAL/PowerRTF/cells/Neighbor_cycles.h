@@ -1,0 +1,53 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The neighbors of all cells, in the order in which they follow each other around a cell.
+#ifndef CGAL_POWER_RTF_CELLS_NEIGHBOR_CYCLES_H
+#define CGAL_POWER_RTF_CELLS_NEIGHBOR_CYCLES_H
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// Those of cell i are `neighbors[first[i]]` to `neighbors[first[i + 1] - 1]`, counter-clockwise
+/// seen from outside; negative: a side of the guard square.
+struct Neighbor_cycles {
+  std::vector<std::size_t> first = {0};
+  std::vector<int> neighbors;
+
+  class Cycle {
+  public:
+    Cycle(const int* begin, const int* end) : m_begin(begin), m_end(end) {}
+    const int* begin() const { return m_begin; }
+    const int* end() const { return m_end; }
+    std::size_t size() const { return m_end - m_begin; }
+    int operator[](std::size_t k) const { return m_begin[k]; }
+    /// What follows place k around the cell.
+    int after(std::size_t k) const { return m_begin[k + 1 < size() ? k + 1 : 0]; }
+
+  private:
+    const int *m_begin, *m_end;
+  };
+
+  Neighbor_cycles() = default;
+  /// `cycles`: of each cell.
+  explicit Neighbor_cycles(const std::vector<std::vector<int>>& cycles)
+  {
+    first.reserve(cycles.size() + 1);
+    for (const auto& cycle : cycles) first.push_back(first.back() + cycle.size());
+    neighbors.reserve(first.back());
+    for (const auto& cycle : cycles) neighbors.insert(neighbors.end(), cycle.begin(), cycle.end());
+  }
+
+  /// The number of cells.
+  std::size_t size() const { return first.size() - 1; }
+  Cycle operator[](std::size_t i) const
+  {
+    return {neighbors.data() + first[i], neighbors.data() + first[i + 1]};
+  }
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_CELLS_NEIGHBOR_CYCLES_H
