@@ -71,11 +71,13 @@ public:
   Descriptions()
   {
     group("Main").add_options()("preset", text("NAME"),
-                                "quality|paper: this package's choice of all parameters, or the "
-                                "paper's; the other options change single ones (quality)");
-    const Remeshing_options quality, paper = Remeshing_options::paper_preset();
+                                "quality|fast|paper: this package's choice of all parameters, "
+                                "the same with fewer steps, or the paper's; the other options "
+                                "change single ones (quality)");
+    const Remeshing_options quality, fast = Remeshing_options::fast_preset(),
+                                     paper = Remeshing_options::paper_preset();
     for_each_option([&](const Option& option, auto member) {
-      const auto value = quality.*member, of_paper = paper.*member;
+      const auto value = quality.*member;
       using T = std::decay_t<decltype(value)>;
       constexpr bool is_switch = std::is_same<T, bool>::value; // off by default
       std::string argument, help = option.meaning;
@@ -88,8 +90,8 @@ public:
       }
       if (*option.symbol) help += " [" + std::string(option.symbol) + "]";
       if (!is_switch)
-        help += " (" + to_text(value) + (value == of_paper ? "" : "; paper: " + to_text(of_paper)) +
-                ")";
+        help += " (" + to_text(value) + of_preset("fast", fast.*member, value) +
+                of_preset("paper", paper.*member, value) + ")";
       const std::string name = option_name(option), other_name = member_name(option);
       add(group(option.group), name == "samples" ? "samples,n" : name, argument, help);
       if (other_name != name) add(m_hidden, other_name, argument, "");
@@ -154,6 +156,13 @@ public:
   }
 
 private:
+  /// What a preset has instead of the default.
+  template <class T>
+  static std::string of_preset(const std::string& preset, const T& value, const T& usual)
+  {
+    return value == usual ? "" : "; " + preset + ": " + to_text(value);
+  }
+
   /// Adds an option; without an `argument` it is a switch.
   static void add(po::options_description& options, const std::string& name,
                   const std::string& argument, const std::string& help)
@@ -183,9 +192,9 @@ private:
 Remeshing_options remeshing_options(const po::variables_map& values)
 {
   Remeshing_options o;
-  if (values.count("preset") &&
-      parse_value<Preset>("preset", values["preset"].as<std::string>(), {}) == Preset::paper)
-    o = Remeshing_options::paper_preset();
+  if (values.count("preset"))
+    o = Remeshing_options::of(
+        parse_value<Preset>("preset", values["preset"].as<std::string>(), {}));
   for_each_option([&](const Option& option, auto member) {
     using T = std::decay_t<decltype(o.*member)>;
     const std::string name = option_name(option), other_name = member_name(option);

@@ -58,14 +58,14 @@ def taken_from_end(description, brackets):
 
 
 def table(text):
-    lines = ["| option | symbol | meaning | allowed | `quality` | `paper` |",
-             "| --- | --- | --- | --- | --- | --- |"]
+    lines = ["| option | symbol | meaning | allowed | `quality` | `fast` | `paper` |",
+             "| --- | --- | --- | --- | --- | --- | --- |"]
     last = ""
     for group, name, description in options(text):
         if group in OTHERS or name == "preset" or not group:
             continue
         if group != last:
-            lines.append(f"| **{group}** | | | | | |")
+            lines.append(f"| **{group}** | | | | | | |")
             last = group
         default, meaning = taken_from_end(description, "()")
         symbol, meaning = taken_from_end(meaning, "[]")
@@ -75,9 +75,11 @@ def table(text):
         elif not allowed: # "yes|no: what that means"
             allowed, meaning = meaning.split(": ", 1)
             allowed = allowed.replace("|", ", ")
-        quality, _, paper = default.partition("; paper: ")
+        quality, *others = default.split("; ")
+        of = dict(other.split(": ") for other in others)
         lines.append(f"| `{name}` | {latex(symbol) if symbol else ''} | {with_formulas(meaning)} "
-                     f"| {allowed} | {quality} | {paper or quality} |")
+                     f"| {allowed} | {quality} | {of.get('fast', quality)} "
+                     f"| {of.get('paper', quality)} |")
     return "\n".join(lines) + "\n"
 
 

@@ -118,8 +118,8 @@ struct Run_types {
  *   \cgalParamNEnd
  *
  *   \cgalParamNBegin{PowerRTF::parameters::remeshing_options}
- *     \cgalParamDescription{all parameters of the method; the preset of the paper is
- *                           `PowerRTF::Remeshing_options::paper_preset()`}
+ *     \cgalParamDescription{all parameters of the method;
+ *                           `PowerRTF::Remeshing_options::of()` gives those of a preset}
  *     \cgalParamType{`PowerRTF::Remeshing_options`}
  *     \cgalParamDefault{`PowerRTF::Remeshing_options()`, the preset `quality`}
  *     \cgalParamExtra{Its `number_of_samples` is not used.}

@@ -112,7 +112,7 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
 :param threads: 0: all. The result is the same for any number
 :param progress: is called with the share of the stage that is done and the stage's name, about
     every 50 ms; or True: a bar by tqdm. What it raises stops the run
-:param preset: "quality" or "paper": whose values the other options have
+:param preset: "quality", "fast" or "paper": whose values the other options have
 {options}
 :returns: :class:`Mesh`, which unpacks as ``vertices, faces``. Its arrays are of the input's kind
     and precision
@@ -133,10 +133,11 @@ def _describe():
                                                              "coordinates")]
     lines, added = [], [inspect.Parameter("preset", inspect.Parameter.KEYWORD_ONLY,
                                           default="quality")]
-    for full_name, default, paper, meaning, allowed in rows:
+    for full_name, default, fast, paper, meaning, allowed in rows:
         name = short.get(full_name, full_name)
-        of_paper = "" if paper == default else f"; paper: {paper!r}"
-        lines.append(f":param {name}: {meaning}; {allowed} ({default!r}{of_paper})")
+        others = "".join(f"; {preset}: {value!r}" for preset, value in
+                         (("fast", fast), ("paper", paper)) if value != default)
+        lines.append(f":param {name}: {meaning}; {allowed} ({default!r}{others})")
         added.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default))
     signature = inspect.signature(remesh)
     own = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]

@@ -37,16 +37,18 @@ nb::object to_python(const T& value)
     return nb::cast(value);
 }
 
-/// A row for each option: name, default, that of the preset `paper`, meaning, allowed values.
+/// A row for each option: name, default, those of the presets `fast` and `paper`, meaning, allowed
+/// values.
 inline nb::list option_rows()
 {
   using namespace CGAL::PowerRTF;
   nb::list rows;
-  const Remeshing_options quality, paper = Remeshing_options::paper_preset();
+  const Remeshing_options quality, fast = Remeshing_options::fast_preset(),
+                                   paper = Remeshing_options::paper_preset();
   for_each_option([&](const Option& option, auto member) {
     using T = std::decay_t<decltype(quality.*member)>;
-    rows.append(nb::make_tuple(option.name, to_python(quality.*member), to_python(paper.*member),
-                               option.meaning,
+    rows.append(nb::make_tuple(option.name, to_python(quality.*member), to_python(fast.*member),
+                               to_python(paper.*member), option.meaning,
                                is_switch<T>() ? "True or False" : allowed_values<T>(option.range)));
   });
   return rows;
@@ -80,8 +82,8 @@ inline CGAL::PowerRTF::Remeshing_options options_of(const nb::dict& values)
   using namespace CGAL::PowerRTF;
   Remeshing_options options;
   const Option preset{"", "preset", "", "", {}};
-  if (values.contains("preset") && from_python<Preset>(preset, values["preset"]) == Preset::paper)
-    options = Remeshing_options::paper_preset();
+  if (values.contains("preset"))
+    options = Remeshing_options::of(from_python<Preset>(preset, values["preset"]));
   for_each_option([&](const Option& option, auto member) {
     if (values.contains(option.name))
       options.*member =

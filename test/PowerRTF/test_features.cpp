@@ -238,8 +238,7 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
       Surface surface = shapes::make_surface(c.soup);
       CHECK_FALSE(surface.seams.empty());
       CHECK(surface.seams == surface.creases);
-      Remeshing_options options;
-      if (preset == Preset::paper) options = Remeshing_options::paper_preset();
+      Remeshing_options options = Remeshing_options::of(preset);
       options.number_of_samples = 300;
       const Surface_patches patches(surface, options);
       CHECK(topology(patches.surface().triangles).oriented);

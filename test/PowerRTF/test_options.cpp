@@ -125,10 +125,13 @@ struct Stop_after : Remeshing_default_visitor {
 
 } // namespace
 
-TEST_CASE("the defaults are allowed, in both presets")
+TEST_CASE("the values of all presets are allowed, and differ")
 {
-  validate(Remeshing_options());
-  validate(Remeshing_options::paper_preset());
+  for (const Preset preset : {Preset::quality, Preset::fast, Preset::paper})
+    CHECK(validate(Remeshing_options::of(preset)).preset == preset);
+  CHECK(Remeshing_options::of(Preset::quality).weight_method == Weight_method::newton);
+  CHECK(Remeshing_options::of(Preset::fast).weight_method == Weight_method::none);
+  CHECK(Remeshing_options::of(Preset::paper).weight_method == Weight_method::multiplicative);
 }
 
 TEST_CASE("every option has a name and a meaning of its own")
@@ -236,8 +239,7 @@ TEST_CASE("a run at any bound of any option ends, with the vertices asked for")
       for_each_number([&](const Option& option, auto member, auto zero) {
         if (std::string(option.name) == "device") return;
         for (const double bound : {option.range.lowest, option.range.highest}) {
-          Remeshing_options options;
-          if (preset == Preset::paper) options = Remeshing_options::paper_preset();
+          Remeshing_options options = Remeshing_options::of(preset);
           options.max_iterations = options.max_weight_iterations = 5;
           options.centroid_tolerance = 0; // or no run would be endless
           options.number_of_samples = 40;

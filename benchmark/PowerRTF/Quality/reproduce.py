@@ -70,7 +70,7 @@ def compare_peers(reproduction, runner, peers, quick):
         n, path = reproduction.size["n"], reproduction.models.get(model)
         crease_angle = CREASE_ANGLE if model in PARTS else 180
         for density in ("uniform",) if model in PARTS else ("uniform", "curvature"):
-            for preset in ("quality", "paper"):
+            for preset in ("quality", "fast", "paper"):
                 add_peer(table, model, density, f"PowerRTF, preset {preset}",
                          runner.later(runner.power_rtf, model, path, n, "--density", density,
                                       "--preset", preset))

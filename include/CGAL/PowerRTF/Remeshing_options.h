@@ -14,7 +14,7 @@ namespace CGAL::PowerRTF {
 /// @{
 
 /// Of this package, or of the paper.
-enum class Preset { quality, paper };
+enum class Preset { quality, fast, paper };
 /// \f$\rho = 1\f$, or \f$\rho = \kappa^p\f$.
 enum class Density { uniform, curvature };
 /// How the first samples are chosen.
@@ -40,7 +40,7 @@ enum class Repair { no, yes };
 enum class Coordinates { double_precision, single_precision };
 
 /// Parameters of `PowerRTF_remesher`. The defaults are those of the preset `quality`;
-/// `paper_preset()` gives those of the paper. Lengths are relative, so no parameter depends on the
+/// `of()` gives those of another preset. Lengths are relative, so no parameter depends on the
 /// input's size or position. Values out of range are refused, see `validate()`.
 struct Remeshing_options {
   Preset preset = Preset::quality;      ///< whose values these are, for reports
@@ -111,6 +111,17 @@ struct Remeshing_options {
   /// What will hold the result's points: its guarantees are those of the rounded points.
   Coordinates coordinates = Coordinates::double_precision;
 
+  /// The guarantees of the preset `quality` sooner: position steps end earlier, and capacities,
+  /// which the triangles do not depend on, are not made equal.
+  static Remeshing_options fast_preset()
+  {
+    Remeshing_options o;
+    o.preset = Preset::fast;
+    o.centroid_tolerance = 0.008;
+    o.weight_method = Weight_method::none;
+    return o;
+  }
+
   /// The paper's own algorithms and parameter values (Section 5). Its initial drawing,
   /// `Sampling::random`, is "replaced by other curvature-adapted sampling methods", as it allows:
   /// a random start needs two to four times as many constructions.
@@ -136,6 +147,14 @@ struct Remeshing_options {
     o.extraction = Extraction_method::insertion;
     o.improvement = Improvement::no;
     return o;
+  }
+
+  /// The values of a preset.
+  static Remeshing_options of(Preset preset)
+  {
+    return preset == Preset::paper  ? paper_preset()
+           : preset == Preset::fast ? fast_preset()
+                                    : Remeshing_options();
   }
 };
 

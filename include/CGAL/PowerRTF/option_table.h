@@ -25,7 +25,7 @@ namespace CGAL::PowerRTF {
 using Value_names = std::vector<const char*>;
 
 // One overload per enumeration, found by the type of its unused argument.
-inline Value_names value_names(Preset) { return {"quality", "paper"}; }
+inline Value_names value_names(Preset) { return {"quality", "fast", "paper"}; }
 inline Value_names value_names(Density) { return {"uniform", "curvature"}; }
 inline Value_names value_names(Sampling)
 {

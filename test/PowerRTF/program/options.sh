@@ -143,6 +143,8 @@ accept '"density": "uniform"' --density uniform
 accept '"density-power": 2.0' --density-power 2
 accept '"gradation": 0.0' --gradation 0
 accept '"preset": "quality"'
+accept '"preset": "fast"' --preset fast
+accept '"weight-method": "none"' --preset fast
 accept '"preset": "paper"' --preset paper
 accept '"normal-angle": 60.0' --preset paper
 accept '"normal-angle": 75.0' --preset paper --normal-angle 75

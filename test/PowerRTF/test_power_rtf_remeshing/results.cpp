@@ -57,9 +57,8 @@ TEST_CASE("closed shapes: guarantees, quality and equal capacities")
 TEST_CASE("surfaces with borders keep them")
 {
   for (const Soup& soup : {shapes::plane_patch(10, 10), shapes::open_cylinder(40, 20, 1, 2)})
-    for (const Preset preset : {Preset::quality, Preset::paper}) {
-      Remeshing_options options;
-      if (preset == Preset::paper) options = Remeshing_options::paper_preset();
+    for (const Preset preset : {Preset::quality, Preset::fast, Preset::paper}) {
+      Remeshing_options options = Remeshing_options::of(preset);
       options.density = Density::uniform;
       const Result result = remesh(soup, 300, options);
       check_guarantees(result.report);
