@@ -188,6 +188,28 @@ private:
   po::options_description m_hidden;
 };
 
+/// What a percentage is given to instead, as a share: of the input's vertices, or of the diagonal.
+double* share_of_input(const Option& option, Remeshing_options& o)
+{
+  const std::string name = option.name;
+  return name == "number_of_samples" ? &o.vertex_share
+         : name == "edge_length"     ? &o.relative_edge_length
+         : name == "max_distance"    ? &o.relative_max_distance
+                                     : nullptr;
+}
+
+/// \throws Usage_error
+void require_one_resolution(const po::variables_map& values)
+{
+  std::string other;
+  for (const std::string name : {"samples", "number-of-samples", "vertex-share", "edge-length",
+                                 "relative-edge-length", "max-distance", "relative-max-distance"}) {
+    if (!values.count(name)) continue;
+    if (!other.empty()) throw Usage_error("--" + other + " and --" + name + " exclude each other");
+    other = name;
+  }
+}
+
 /// The parameters of the preset, changed by the options for single parameters.
 Remeshing_options remeshing_options(const po::variables_map& values)
 {
@@ -202,11 +224,20 @@ Remeshing_options remeshing_options(const po::variables_map& values)
       throw Usage_error("--" + name + " and --" + other_name + " are the same option");
     const std::string& given = values.count(other_name) ? other_name : name;
     if (!values.count(given)) return;
-    if constexpr (std::is_same<T, bool>::value)
+    if constexpr (std::is_same<T, bool>::value) {
       o.*member = true;
-    else
-      o.*member = parse_value<T>(given, values[given].as<std::string>(), option.range);
+    } else {
+      const std::string text = values[given].as<std::string>();
+      double* const share = share_of_input(option, o);
+      if (share && !text.empty() && text.back() == '%')
+        *share = parse_value<double>(given, text.substr(0, text.size() - 1),
+                                     {Option_range::above_zero, 1e4}) /
+                 100;
+      else
+        o.*member = parse_value<T>(given, text, option.range);
+    }
   });
+  require_one_resolution(values);
   return o;
 }
 

@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/geometry/output_grid.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -75,10 +76,9 @@ auto about_input(const Program_options& options, const Make& make)
   }
 }
 
-/// \throws Invalid_input_error when n is too small, or too large for this machine
+/// \throws Invalid_input_error when n is too large for this machine
 void check_number_of_samples(const Program_options& options)
 {
-  about_input(options, [&] { return validate(options.remeshing); }); // the rest has been checked
   const double bytes_per_sample = 1000; // a low estimate: only what surely does not fit is refused
   const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
   const double most = memory / bytes_per_sample;
@@ -106,23 +106,30 @@ void check_precision(Surface& surface, const Program_options& options)
   }
 }
 
-/// The surface of the input. `run` receives the repairs, the seconds and what is lost.
-Surface load(Run& run)
+/// The polygons of the input. `run` receives the seconds and what is lost.
+Polygon_soup load(Run& run)
 {
-  const Program_options& options = run.options;
   Polygon_mesh mesh;
   {
     const Stage stage("load", run.report.seconds.load);
     const internal::Progress_part part(1);
-    mesh = read_mesh(options.input);
+    mesh = read_mesh(run.options.input);
   }
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   stop_if_interrupted();
+  return std::move(mesh.soup);
+}
+
+/// The surface of the input. `run` receives the number of samples, the repairs and the seconds.
+Surface prepare(Polygon_soup&& soup, Run& run)
+{
+  Program_options& options = run.options;
   const Stage stage("surface");
   Surface surface = about_input(options, [&] {
-    return prepare_surface(std::move(mesh.soup), {}, {}, options.remeshing, run.report,
-                           Concurrency());
+    return prepare_surface(std::move(soup), {}, {}, options.remeshing, run.report, Concurrency());
   });
+  options.remeshing.number_of_samples = run.report.samples_asked;
+  check_number_of_samples(options);
   check_precision(surface, options);
   return surface;
 }
@@ -242,18 +249,14 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Program_optio
   });
 }
 
-/// Goes from the input to the files, which are not yet in their places; the report is not written.
+/// Goes from the surface to the files, which are not yet in their places; the report is not
+/// written.
 template <class Traits>
-void make_results(Run& run, Outputs& outputs)
+void make_results(Run& run, Surface surface, Outputs& outputs)
 {
   using Remesher = CGAL::PowerRTF_remesher<Traits>;
   const Program_options& options = run.options;
-  const Stopwatch total(run.report.seconds.total);
-  check_number_of_samples(options);
-  check_outputs(options);
-  Progress reading(options.quiet);
-  const internal::Cancellation cancellation(reading);
-  Surface surface = load(run);
+  run.options.traits = Traits::name();
   Remesher remesher = about_input(
       options, [&] { return Remesher(std::move(surface), options.remeshing, run.report); });
   Extracted_mesh mesh = make_mesh(remesher, run);
@@ -281,35 +284,69 @@ Exit_code conclude(const Run& run)
   return run.missed.empty() ? done : missed_guarantee;
 }
 
-/// \param gpu_not_used why no GPU is used although any traits will do
+/// Sets the number of samples to what a sphere would need for the distance asked for.
+void guess_samples(const Surface& surface, Run& run)
+{
+  const double n = samples_of_sphere(surface, run.report.max_distance);
+  run.options.remeshing.number_of_samples = static_cast<std::size_t>(std::clamp(n, 4., 3e8));
+}
+
+/// The surface with the number of samples that keep the distance asked for.
 template <class Traits>
-Exit_code remesh_with(const Program_options& options, const std::string& gpu_not_used = {})
+Surface surface_within_distance(const Polygon_soup& soup, Run& run, Progress& progress)
+{
+  const auto prepare_for = [&](const Remeshing_options& options, Remeshing_report& report) {
+    Run trial = run;
+    trial.options.remeshing = options;
+    Surface surface = prepare(Polygon_soup(soup), trial);
+    report = trial.report;
+    return surface;
+  };
+  Remeshing_options& options = run.options.remeshing;
+  options.number_of_samples = samples_within_distance<Traits>(options, prepare_for, progress);
+  return prepare_for(options, run.report);
+}
+
+/// Goes from the input to the files, which are not yet in their places; the report is not written.
+void make_results(Run& run, std::optional<Outputs>& outputs)
+{
+  const Program_options options = run.options;
+  const Stopwatch total(run.report.seconds.total);
+  about_input(options, [&] { return validate(options.remeshing); });
+  check_outputs(options);
+  Progress progress(options.quiet);
+  const internal::Cancellation cancellation(progress);
+  Polygon_soup soup = load(run);
+  const bool is_search = is_distance_asked_for(options.remeshing);
+  Surface surface = prepare(is_search ? Polygon_soup(soup) : std::move(soup), run);
+  if (is_search) guess_samples(surface, run);
+  with_traits(options.traits, run.options.remeshing, [&](auto traits, const std::string& why) {
+    using Traits = typename decltype(traits)::type;
+    run.gpu_not_used = why;
+    if (is_search) surface = surface_within_distance<Traits>(soup, run, progress);
+    outputs.emplace(); // without those of a GPU that has failed
+    const bool may_fail = options.traits == "auto" && Traits::name() == std::string("cuda");
+    make_results<Traits>(run, may_fail ? surface : std::move(surface), *outputs);
+  });
+}
+
+Exit_code remesh(const Program_options& options)
 {
   Run run;
   run.options = options;
-  run.options.traits = Traits::name();
   if (writes_floats(options)) run.options.remeshing.coordinates = Coordinates::single_precision;
-  run.gpu_not_used = gpu_not_used;
 #ifdef CGAL_LINKED_WITH_TBB
   run.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(run.threads));
 #endif
-  Outputs outputs;
-  make_results<Traits>(run, outputs);
+  std::optional<Outputs> outputs;
+  make_results(run, outputs);
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
-  outputs.add(options.report_file, [&](std::ostream& out) { write_json(out, run); });
+  outputs->add(options.report_file, [&](std::ostream& out) { write_json(out, run); });
   stop_if_interrupted();
-  outputs.commit();
+  outputs->commit();
   return conclude(run);
-}
-
-Exit_code remesh(const Program_options& options)
-{
-  return with_traits(options.traits, options.remeshing,
-                     [&](auto traits, const std::string& gpu_not_used) {
-                       return remesh_with<typename decltype(traits)::type>(options, gpu_not_used);
-                     });
 }
 
 } // namespace

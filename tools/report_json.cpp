@@ -132,15 +132,19 @@ void add_mesh(Json& json, const Run& run)
   json["below_30"] = r.quality.below_30;
   json["above_90"] = r.quality.above_90;
   json["edge_length_mean"] = r.edge_length.mean;
+  json["edge_length_median"] = r.edge_length.median;
   json["edge_length_min"] = r.edge_length.min;
   json["edge_length_max"] = r.edge_length.max;
   json["diagonal"] = r.diagonal;
   json["distance_rms"] = r.distance.rms;
   json["distance_mean"] = r.distance.mean;
   json["distance_max"] = r.distance.max;
+  if (r.max_distance > 0) json["distance_bound"] = r.distance.bound;
   json["absolute_distance_rms"] = r.absolute(r.distance.rms);
   json["absolute_distance_mean"] = r.absolute(r.distance.mean);
   json["absolute_distance_max"] = r.absolute(r.distance.max);
+  if (r.max_distance > 0) json["absolute_distance_bound"] = r.absolute(r.distance.bound);
+  json["farthest_point"] = r.distance.farthest;
   json["not_carried_over"] = run.not_carried_over;
   json["missed_guarantees"] = run.missed;
 }

@@ -67,6 +67,7 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
   row(out, "triangles with an angle below 30", percent(q.below_30));
   row(out, "triangles with an angle above 90", percent(q.above_90));
   row(out, "edge length, mean", figure(r.edge_length.mean));
+  row(out, "edge length, median", figure(r.edge_length.median));
   row(out, "edge length, least", figure(r.edge_length.min));
   row(out, "edge length, largest", figure(r.edge_length.max));
   row(out, "", "% of diagonal", "absolute");
@@ -76,6 +77,7 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
   distance("RMS", r.distance.rms);
   distance("mean", r.distance.mean);
   distance("largest", r.distance.max);
+  if (r.max_distance > 0) distance("at most", r.distance.bound);
 }
 
 void print_repairs(std::ostream& out, const Repair_counts& r)

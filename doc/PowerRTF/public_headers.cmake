@@ -6,6 +6,7 @@ set(public_headers
     PowerRTF/PowerRTF_exact_traits_3.h
     PowerRTF/PowerRTF_cuda_traits_3.h
     PowerRTF/Remeshing_options.h
+    PowerRTF/Resolution.h
     PowerRTF/Remeshing_report.h
     PowerRTF/Remeshing_visitor.h
     PowerRTF/named_parameters.h

@@ -43,11 +43,11 @@ public:
   /// Invalid_input_error when an option has a value that is not allowed, or the samples are too few
   /// for the surface.
   PowerRTF_remesher(PowerRTF::Surface surface, const Options& options, const Report& report = {})
-      : m_surface(std::move(surface)), m_options(PowerRTF::validate(options)),
+      : m_surface(std::move(surface)), m_options(with_number_of_samples(options, report)),
         m_patches(m_surface, m_options, typename Traits::Concurrency_tag()),
         m_engine(m_patches.surface(), m_options), m_report(report)
   {
-    m_report.samples_asked = options.number_of_samples;
+    m_report.samples_asked = m_options.number_of_samples;
     m_report.feature_samples = m_patches.features().size();
   }
 
@@ -107,6 +107,15 @@ private:
   using Weight_method = PowerRTF::Weight_method;
   using Progress_part = PowerRTF::internal::Progress_part;
   using Stage = PowerRTF::internal::Stage;
+
+  /// The options, with the n that `prepare_surface()` has found.
+  static Options with_number_of_samples(Options options, const Report& report)
+  {
+    PowerRTF::validate(options);
+    if (PowerRTF::is_number_of_samples_open(options))
+      options.number_of_samples = report.samples_asked;
+    return PowerRTF::validate(options);
+  }
 
   bool all_fixed() const { return m_patches.features().size() == m_options.number_of_samples; }
   int iterations() const { return m_options.relaxation_iterations + m_options.max_iterations; }

@@ -1,20 +1,22 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The package's free function: a mesh and a number of samples in, a mesh on these samples out.
+// The package's free function: a mesh and its resolution in, a mesh of well-distributed vertices
+// out.
 #ifndef CGAL_POWER_RTF_REMESHING_H
 #define CGAL_POWER_RTF_REMESHING_H
 
+#include <CGAL/PowerRTF/Resolution.h>
 #include <CGAL/PowerRTF/extraction/export_mesh.h>
 #include <CGAL/PowerRTF/named_parameters.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Kernel_traits.h>
 
 #include <cstddef>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -33,13 +35,13 @@ struct Has_float_coordinates<Point, std::void_t<decltype(std::declval<const Poin
 /// \tparam Point of the output
 /// \throws Invalid_input_error an option has a value that is not allowed
 template <class Point, class NamedParameters>
-Remeshing_options options_of(std::size_t number_of_samples, const NamedParameters& np)
+Remeshing_options options_of(const Resolution& resolution, const NamedParameters& np)
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
   Remeshing_options options =
       choose_parameter(get_parameter(np, remeshing_options_t()), Remeshing_options());
-  options.number_of_samples = number_of_samples;
+  resolution.set(options);
   if (Has_float_coordinates<Point>::value) options.coordinates = Coordinates::single_precision;
   options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair);
   options.random_seed =
@@ -69,7 +71,7 @@ struct Run_types {
 /*!
  * \ingroup PkgPowerRTFRef
  *
- * \brief remeshes a surface with `number_of_samples` well-distributed vertices.
+ * \brief remeshes a surface with well-distributed vertices.
  *
  * The samples are distributed by the power diagram restricted to their tangent planes, as dense as
  * the curvature of the input (or a density of the user's own, or uniformly), and triangulated with
@@ -86,7 +88,8 @@ struct Run_types {
  * \param input the surface: a 2-manifold, with or without borders, of one or several components.
  *              Facets with more than three sides are triangulated; facets without area and
  *              isolated vertices are ignored.
- * \param number_of_samples the number of vertices asked for, from 4 to 3e8
+ * \param resolution the number of vertices asked for, from 4 to 3e8; or what gives it:
+ *                   `PowerRTF::Resolution::edge_length(0.1)`
  * \param output the result. What it held before is removed; property maps added to a
  *               `Surface_mesh` stay. Its vertices come in the order of the samples; should the
  *               samples' triangles form no 2-manifold, some appear again after that. It may be the
@@ -122,7 +125,7 @@ struct Run_types {
  *                           `PowerRTF::Remeshing_options::of()` gives those of a preset}
  *     \cgalParamType{`PowerRTF::Remeshing_options`}
  *     \cgalParamDefault{`PowerRTF::Remeshing_options()`, the preset `quality`}
- *     \cgalParamExtra{Its `number_of_samples` is not used.}
+ *     \cgalParamExtra{Its members that ask for a resolution are not used.}
  *   \cgalParamNEnd
  *
  *   \cgalParamNBegin{PowerRTF::parameters::repair}
@@ -192,14 +195,15 @@ struct Run_types {
  *
  * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not
  *         finite or is no 2-manifold; a density is not a positive, finite number; the
- *         samples are too few for the surface; `number_of_samples` or an option has a value that is
+ *         samples are too few for the surface; `resolution` or an option has a value that is
  *         not allowed (the message says what is). `output` is as it was.
  */
 template <class ConcurrencyTag = Parallel_if_available_tag, class InputMesh, class OutputMesh,
           class NamedParametersIn = parameters::Default_named_parameters,
           class NamedParametersOut = parameters::Default_named_parameters>
 PowerRTF::Remeshing_report
-power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, OutputMesh& output,
+power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resolution,
+                    OutputMesh& output,
                     const NamedParametersIn& np_in = parameters::default_values(),
                     const NamedParametersOut& np_out = parameters::default_values())
 {
@@ -210,8 +214,8 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, InputMesh, NamedParametersIn>;
   using Output_map = typename GetVertexPointMap<OutputMesh, NamedParametersOut>::type;
   using Output_point = typename boost::property_traits<Output_map>::value_type;
-  const PowerRTF::Remeshing_options options =
-      PowerRTF::internal::options_of<Output_point>(number_of_samples, np_in);
+  PowerRTF::Remeshing_options options =
+      PowerRTF::internal::options_of<Output_point>(resolution, np_in);
   PowerRTF::Remeshing_default_visitor default_visitor;
   typename Types::Visitor visitor = parameters::choose_parameter(
       parameters::get_parameter_reference(np_in, internal_np::visitor), default_visitor);
@@ -219,19 +223,22 @@ power_rtf_remeshing(const InputMesh& input, std::size_t number_of_samples, Outpu
   PowerRTF::Remeshing_report report;
   const auto run = [&] {
     const PowerRTF::internal::Stopwatch total(report.seconds.total);
-    std::optional<PowerRTF_remesher<typename Types::Traits>> remesher;
-    {
+    using Traits = typename Types::Traits;
+    const auto prepare = [&](const PowerRTF::Remeshing_options& o, PowerRTF::Remeshing_report& r) {
       const PowerRTF::internal::Stage stage("surface");
-      PowerRTF::Surface surface =
-          PowerRTF::prepare_surface(input, options, np_in, report, ConcurrencyTag());
-      remesher.emplace(std::move(surface), options, report);
-    }
+      return PowerRTF::prepare_surface(input, o, np_in, r, ConcurrencyTag());
+    };
+    if (PowerRTF::is_distance_asked_for(options))
+      options.number_of_samples =
+          PowerRTF::samples_within_distance<Traits>(options, prepare, visitor);
+    PowerRTF::Surface surface = prepare(options, report);
+    PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
     PowerRTF::Extracted_mesh mesh;
-    if (remesher->optimize(visitor)) mesh = remesher->extract(visitor);
-    report = remesher->report();
+    if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
+    report = remesher.report();
     if (report.cancelled) return;
     const PowerRTF::internal::Stage write("write", report.seconds.write);
-    PowerRTF::export_mesh(mesh, remesher->surface().normalization, output, np_out);
+    PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
   };
   if (!PowerRTF::internal::run_unless_cancelled(visitor, run)) report.cancelled = true;
   return report;

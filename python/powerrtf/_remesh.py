@@ -15,6 +15,8 @@ from ._input import face_arrays, index_array, like, real_array, unpack_mesh
 from ._mesh import Mesh, MissedGuaranteeWarning, Report
 
 _FULL_NAMES = {"n": "number_of_samples", "seed": "random_seed"}
+_RESOLUTIONS = ("edge_length", "relative_edge_length", "max_distance", "relative_max_distance",
+                "vertex_share")
 _TRAITS = ("auto", "cpu", "exact", "cuda")
 
 
@@ -30,8 +32,10 @@ def _bar():
 
 
 def _run(vertices, faces, n, density, constrained_edges, traits, threads, progress, options):
-    if n is None:
-        raise InvalidInputError("n, the number of vertices asked for, is missing")
+    resolutions = [name for name in _RESOLUTIONS if options.get(name)]
+    if (n is not None) + len(resolutions) != 1:
+        raise InvalidInputError(f"one of n, {', '.join(_RESOLUTIONS)} must be given, not "
+                                f"{(n is not None) + len(resolutions)} of them")
     if traits not in _TRAITS:
         raise InvalidInputError(f"traits is {traits!r}, but must be one of {'|'.join(_TRAITS)}")
     if not isinstance(threads, int) or not 0 <= threads <= 4096:
@@ -39,7 +43,8 @@ def _run(vertices, faces, n, density, constrained_edges, traits, threads, progre
     options = {_FULL_NAMES.get(name, name): value for name, value in options.items()}
     for name in options.keys() - _OPTION_NAMES - {"preset", "coordinates"}:
         raise TypeError(f"remesh() got an unexpected keyword argument {name!r}")
-    options["number_of_samples"] = n
+    if n is not None:
+        options["number_of_samples"] = n
     densities = None
     if isinstance(density, str):
         options["density"] = density
@@ -81,7 +86,7 @@ def remesh(vertices, faces=None, n=None, *, density="curvature", constrained_edg
     return _warn(mesh)
 
 
-def remesh_file(input, output, n, *, ascii=False, density="curvature", traits="auto", threads=0,
+def remesh_file(input, output, n=None, *, ascii=False, density="curvature", traits="auto", threads=0,
                 progress=None, **options):
     """Remeshes from file to file.
 
@@ -105,7 +110,8 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
 
 :param vertices: (k, 3) numbers; or a mesh of trimesh, pyvista, Open3D or meshio, without `faces`
 :param faces: (m, 3) or more columns, or polygons of different sizes: vertices, numbered from 0
-:param n: the number of vertices asked for
+:param n: the number of vertices asked for; or instead ``edge_length``, ``max_distance``, one of them
+    relative to the diagonal, or ``vertex_share``
 :param density: "curvature", "uniform", or a positive number for each vertex; only ratios matter
 :param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
 :param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm

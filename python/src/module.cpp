@@ -15,6 +15,7 @@
 #include "traits.h"
 
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <nanobind/stl/optional.h>
@@ -25,6 +26,7 @@
 #include <tbb/task_arena.h>
 #endif
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 
@@ -40,25 +42,17 @@ struct Input {
   std::optional<std::vector<double>> densities;
 };
 
-/// As `CGAL::power_rtf_remeshing()`. Returns an empty mesh when the visitor has stopped it.
+/// From the surface on, as `CGAL::power_rtf_remeshing()`. Returns an empty mesh when the visitor
+/// has stopped it.
 template <class Traits>
-Extracted_mesh remesh_with(tools::Run& run, Input& input, Python_visitor& visitor)
+Extracted_mesh remesh_with(tools::Run& run, Surface surface, Python_visitor& visitor)
 {
-  using Concurrency = typename Traits::Concurrency_tag;
-  const Remeshing_options& options = run.options.remeshing;
   run.options.traits = Traits::name();
-  const internal::Stopwatch total(run.report.seconds.total);
-  std::optional<CGAL::PowerRTF_remesher<Traits>> remesher;
-  {
-    const internal::Stage stage("surface");
-    remesher.emplace(prepare_surface(Polygon_soup(input.soup), input.creases, input.densities,
-                                     options, run.report, Concurrency()),
-                     options, run.report);
-  }
+  CGAL::PowerRTF_remesher<Traits> remesher(std::move(surface), run.options.remeshing, run.report);
   Extracted_mesh mesh;
-  if (remesher->optimize(visitor)) mesh = remesher->extract(visitor);
-  run.report = remesher->report();
-  for (Vec3d& p : mesh.points) p = remesher->surface().normalization.to_outside(p);
+  if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
+  run.report = remesher.report();
+  for (Vec3d& p : mesh.points) p = remesher.surface().normalization.to_outside(p);
   return mesh;
 }
 
@@ -67,10 +61,29 @@ Extracted_mesh remesh_with_traits(tools::Run& run, Input& input, Python_visitor&
   const std::string name = run.options.traits;
   Extracted_mesh mesh;
   const auto remesh = [&] {
+    const internal::Stopwatch total(run.report.seconds.total);
+    Remeshing_options& options = run.options.remeshing;
+    const bool is_search = is_distance_asked_for(options);
+    const auto prepare = [&](const Remeshing_options& o, Remeshing_report& report) {
+      const internal::Stage stage("surface");
+      return prepare_surface(is_search ? Polygon_soup(input.soup) : std::move(input.soup),
+                             input.creases, input.densities, o, report, tools::Concurrency());
+    };
+    Surface surface = prepare(options, run.report);
+    options.number_of_samples =
+        is_search
+            ? std::size_t(std::clamp(samples_of_sphere(surface, run.report.max_distance), 4., 3e8))
+            : run.report.samples_asked;
     mesh = tools::with_traits(
         name, run.options.remeshing, [&](auto traits, const std::string& gpu_not_used) {
+          using Traits = typename decltype(traits)::type;
           run.gpu_not_used = gpu_not_used;
-          return remesh_with<typename decltype(traits)::type>(run, input, visitor);
+          if (is_search) {
+            options.number_of_samples = samples_within_distance<Traits>(options, prepare, visitor);
+            surface = prepare(options, run.report);
+          }
+          const bool may_fail = name == "auto" && Traits::name() == std::string("cuda");
+          return remesh_with<Traits>(run, may_fail ? surface : std::move(surface), visitor);
         });
   };
   const auto cancellable = [&] { internal::run_unless_cancelled(visitor, remesh); };

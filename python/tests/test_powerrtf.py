@@ -62,6 +62,17 @@ def test_read_only_input_is_taken_and_no_input_is_changed():
     assert same(powerrtf.remesh(points, faces, 100), powerrtf.remesh(POINTS, FACES, 100))
 
 
+def test_an_edge_length_or_a_share_of_the_vertices_gives_n():
+    mesh = powerrtf.remesh(POINTS, FACES, edge_length=0.2, density="uniform")
+    assert abs(mesh.report.edge_length_median / 0.2 - 1) < 0.02
+    mesh = powerrtf.remesh(POINTS, FACES, vertex_share=0.5)
+    assert len(mesh.vertices) == len(POINTS) // 2
+    mesh = powerrtf.remesh(POINTS, FACES, relative_max_distance=0.02)
+    assert 0 < mesh.report.distance_bound <= 2 and not mesh.missed_guarantees
+    with pytest.raises(powerrtf.InvalidInputError, match="not 2 of them"):
+        powerrtf.remesh(POINTS, FACES, 100, edge_length=0.2)
+
+
 def test_polygons_may_have_different_sizes():
     cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -89,7 +100,7 @@ def changed(array, place, value):
     ((POINTS[:0], FACES, 100), "facet 0 refers to vertex"),
     ((POINTS, FACES, 3), "number_of_samples is 3, but must be"),
     ((POINTS, FACES, "many"), "number_of_samples is 'many'"),
-    ((POINTS, FACES), "n, the number of vertices"),
+    ((POINTS, FACES), "one of n, edge_length, .* must be given, not 0"),
     ((POINTS,), "faces are missing"),
 ])
 def test_wrong_input_is_refused_with_the_entry(arguments, message):

@@ -109,6 +109,10 @@ void check_all_refuse(const Remeshing_options& options, const std::string& name,
   refuses([&] { set_density(surface, options, std::vector<double>(surface.points.size(), 1)); });
   refuses([&] { sample_surface(surface, options); });
   refuses([&] { Remesher(surface, options); });
+  const bool is_resolution = options.vertex_share != 0 || options.edge_length != 0 ||
+                             options.relative_edge_length != 0 || options.max_distance != 0 ||
+                             options.relative_max_distance != 0;
+  if (is_resolution) return; // an argument of its own of the function
   refuses([&] {
     Mesh output;
     CGAL::power_rtf_remeshing(mesh, options.number_of_samples, output,

@@ -45,8 +45,16 @@ enum class Coordinates { double_precision, single_precision };
 struct Remeshing_options {
   Preset preset = Preset::quality;      ///< whose values these are, for reports
   std::size_t number_of_samples = 3000; ///< \f$n\f$: the vertices of the output
-  unsigned random_seed = 0;             ///< of all random choices
-  Repair repair = Repair::yes;          ///< of the input
+  // Instead of n, at most one of:
+  double vertex_share = 0;         ///< \f$n\f$ over the vertices of the input; 0: not asked for
+  double edge_length = 0;          ///< median of the edges, in the input's unit; 0: not asked for
+  double relative_edge_length = 0; ///< the same over the diagonal of the bounding box
+  /// Largest distance of input and output, both ways, in the input's unit; 0: not asked for. A
+  /// guarantee, and a resolution for functions that look for one.
+  double max_distance = 0;
+  double relative_max_distance = 0; ///< the same over the diagonal of the bounding box
+  unsigned random_seed = 0;         ///< of all random choices
+  Repair repair = Repair::yes;      ///< of the input
 
   /// Degrees: edges whose facets' normals differ by at least this are kept as creases where such
   /// edges make clean curves; 180: none. Creases named by the user go first.
@@ -159,6 +167,18 @@ struct Remeshing_options {
 };
 
 /// @}
+
+/// Whether the number of samples is found from the input.
+inline bool is_number_of_samples_open(const Remeshing_options& options)
+{
+  return options.vertex_share > 0 || options.edge_length > 0 || options.relative_edge_length > 0;
+}
+
+/// Whether the number of samples is to be looked for.
+inline bool is_distance_asked_for(const Remeshing_options& options)
+{
+  return options.max_distance > 0 || options.relative_max_distance > 0;
+}
 
 /// Cosine of the compatibility angle Theta (degrees); -2 when every pair is compatible.
 inline double compatibility_cosine(double normal_angle)

@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_REMESHING_REPORT_H
 
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,7 @@ struct Quality_statistics {
 
 /// Lengths of the edges, every one counted once.
 struct Edge_length_statistics {
-  double mean = 0, min = 0, max = 0;
+  double mean = 0, median = 0, min = 0, max = 0;
 };
 
 /// Combinatorics of a triangle mesh given as a soup of triangles.
@@ -60,7 +61,11 @@ struct Topology_statistics {
 
 /// Two-sided distance between input and output, times 100 / bounding-box diagonal of the input.
 struct Distance_statistics {
-  double rms = 0, mean = 0, max = 0;
+  double rms = 0, mean = 0;
+  double max = 0;                 ///< over all vertices and many other points of both
+  double farthest[3] = {0, 0, 0}; ///< the point of one of them where it is, in its coordinates
+  /// An upper bound for all points of both, at most 1 % above the largest distance; 0: not wanted.
+  double bound = 0;
 };
 
 /// What was mended in the input before it was used.
@@ -100,6 +105,7 @@ struct Iteration_report {
 /// The result of `power_rtf_remeshing()` beside the mesh.
 struct Remeshing_report {
   std::size_t samples_asked = 0; ///< \f$n\f$
+  double max_distance = 0;       ///< asked for, in the input's unit of length; 0: none was
   bool cancelled = false;        ///< the visitor stopped the run
   std::size_t constructions = 0; ///< of all cells, in all (Algorithm 1)
   std::size_t outer_iterations = 0;
@@ -158,6 +164,10 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
                   ? " (the input has " + std::to_string(input_self_intersections) + ")"
                   : std::string()));
   same(lost_feature_edges, std::size_t(0), "lost edges of creases and borders");
+  std::ostringstream distances;
+  distances << "largest distance: up to " << absolute(distance.bound) << " instead of "
+            << max_distance;
+  expect(max_distance == 0 || absolute(distance.bound) <= max_distance, distances.str());
   return missed;
 }
 

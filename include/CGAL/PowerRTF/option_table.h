@@ -92,6 +92,20 @@ void for_each_option(Visitor&& visit)
   // Halfedges are numbered by int: 6 n and those of the input.
   add("number_of_samples", &O::number_of_samples, "n", "samples: the vertices of the output",
       {4, 3e8});
+  add("vertex_share", &O::vertex_share, "",
+      "instead of samples: their number over that of the input's vertices; 0: not asked for",
+      {0, 3e8});
+  add("edge_length", &O::edge_length, "",
+      "instead of samples: the edges' median length, in the input's unit; 0: not asked for",
+      {0, 1e300});
+  add("relative_edge_length", &O::relative_edge_length, "",
+      "the same over the diagonal of the bounding box", {0, 1});
+  add("max_distance", &O::max_distance, "",
+      "instead of samples: so many that no point of input or output is farther from the other than "
+      "this, in the input's unit; 0: not asked for",
+      {0, 1e300});
+  add("relative_max_distance", &O::relative_max_distance, "",
+      "that distance over the diagonal of the bounding box", {0, 1});
   add("density", &O::density, "rho", "even samples, or more of them where the surface is curved",
       no_number);
   add("random_seed", &O::random_seed, "", "seed of all random choices",
@@ -234,9 +248,10 @@ bool is_allowed(const T& value, const Option_range& range)
 
 /// Checks all options.
 /// \returns `options`
-/// \throws Invalid_input_error an option has a value that is not allowed, or the samplings with
-///   candidates would have more than 1e9, `number_of_samples` times `oversampling`; the message
-///   names the option, its value and what is allowed
+/// \throws Invalid_input_error an option has a value that is not allowed; more than one resolution
+///   is asked for instead of `number_of_samples`; or the samplings with candidates would have more
+///   than 1e9, `number_of_samples` times `oversampling`; the message names the option, its value
+///   and what is allowed
 inline const Remeshing_options& validate(const Remeshing_options& options)
 {
   for_each_option([&](const Option& option, auto member) {
@@ -246,6 +261,13 @@ inline const Remeshing_options& validate(const Remeshing_options& options)
                                 ", but must be " +
                                 allowed_values<std::decay_t<decltype(value)>>(option.range));
   });
+  const int resolutions = (options.vertex_share > 0) + (options.edge_length > 0) +
+                          (options.relative_edge_length > 0) + (options.max_distance > 0) +
+                          (options.relative_max_distance > 0);
+  if (resolutions > 1)
+    throw Invalid_input_error(
+        "of vertex_share, edge_length, relative_edge_length, max_distance and "
+        "relative_max_distance only one may be above 0");
   const bool has_candidates =
       options.sampling == Sampling::elimination || options.sampling == Sampling::random;
   constexpr double max_candidates = 1e9; // they are numbered by int

@@ -68,9 +68,9 @@ std::optional<std::vector<double>> vertex_densities(const FaceGraph& mesh,
 /// \param creases pairs of points of the soup (see `set_creases()`); none: those that `options`
 ///   asks for
 /// \param densities one per point of the soup; none: those that `options` asks for
-/// \param report gets the repairs and the seconds
+/// \param report gets the repairs, the seconds, and the number of samples that `options` asks for
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
-/// \throws Invalid_input_error as `import_surface()` and `set_density()`
+/// \throws Invalid_input_error as `import_surface()`, `set_density()` and `number_of_samples()`
 Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edge>>& creases,
                         const std::optional<std::vector<double>>& densities,
                         const Remeshing_options& options, Remeshing_report& report,
@@ -82,9 +82,9 @@ Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edg
 ///
 /// \param np may contain `vertex_point_map` (default: the mesh's own), `edge_is_constrained_map`
 ///   (default: what `set_creases()` finds) and `density_map` (default: what `set_density()` sets)
-/// \param report gets the repairs and the seconds
+/// \param report gets the repairs, the seconds, and the number of samples that `options` asks for
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
-/// \throws Invalid_input_error as `import_surface()` and `set_density()`
+/// \throws Invalid_input_error as `import_surface()`, `set_density()` and `number_of_samples()`
 template <class FaceGraph, class NamedParameters>
 Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
                         const NamedParameters& np, Remeshing_report& report,

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/fields/resolution.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
@@ -28,11 +29,19 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup,
   Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
   soup = {}; // its memory
   part.next(0.2);
-  creases ? set_creases(surface, *creases, concurrency)
-          : set_creases(surface, options, concurrency);
+  Remeshing_options with_number = options;
+  const auto set_fields = [&] {
+    with_number.number_of_samples = number_of_samples(surface, options, concurrency);
+    creases ? set_creases(surface, *creases, concurrency)
+            : set_creases(surface, with_number, concurrency);
+    densities ? set_density(surface, with_number, *densities, concurrency)
+              : set_density(surface, with_number, concurrency);
+  };
   part.next(0.75);
-  densities ? set_density(surface, options, *densities, concurrency)
-            : set_density(surface, options, concurrency);
+  set_fields(); // the density is still uniform
+  if (is_number_of_samples_open(options) && !has_uniform_density(surface)) set_fields();
+  report.max_distance = max_distance(surface, options, concurrency);
+  report.samples_asked = number_of_samples(surface, options, concurrency);
   return surface;
 }
 

@@ -30,7 +30,7 @@ PUBLIC = {
                 "TangentCellTraits_3",
     "Parameters": "density_map remeshing_options repair vertex_point_map edge_is_constrained_map "
                   "geom_traits visitor random_seed number_of_iterations combine",
-    "Options": "Remeshing_options Preset Density Sampling Attributes Projection Position_method "
+    "Options": "Remeshing_options Resolution Preset Density Sampling Attributes Projection Position_method "
                "Weight_method Weight_operator Extraction_method Improvement Repair Option "
                "for_each_option validate",
     "Report": "Remeshing_report Iteration_report Quality_statistics Repair_counts",

@@ -19,6 +19,11 @@ run 2 '--samples' 'missing' -- torus.off out.off --samples
 run 2 '--quiet' -- torus.off out.off --quiet=yes
 run 2 '--samples' -- torus.off out.off -n 100 -n 200
 run 2 'same option' -- torus.off out.off -n 100 --number-of-samples 200
+run 2 'exclude each other' -- torus.off out.off -n 100 --edge-length 1
+run 2 'exclude each other' -- torus.off out.off --edge-length 1 --vertex-share 1
+run 2 "'x'" 'not a number' -- torus.off out.off --edge-length x%
+run 2 "'0'" 'above 0' -- torus.off out.off -n 0%
+run 1 'torus.off' 'edge_length asks for' -- torus.off out.off --edge-length 1e-9
 run 2 'nothing to write' -- torus.off --no-mesh
 run 2 'same file' -- torus.off out.off --report out.off
 run 2 'same file' -- torus.off out.off --report ./a.ply --cells a.ply
@@ -138,6 +143,17 @@ accept '"certified-combinatorics": false'
 accept '"certified_wrong": 0' --check
 accept '"equal_cycles": 100' --check --certified-combinatorics
 accept '"after_iterations": 2' --check-every 2
+for resolution in '-n 25%' '--vertex-share 0.25'; do
+  run 0 -- torus.off out.off $resolution --report r.json
+  expect "$resolution gives a quarter of the vertices" grep -q '"samples": 200,' r.json
+done
+run 0 -- torus.off out.off --edge-length 10% --report r.json
+expect '10% of the diagonal is an edge length' grep -q '"relative-edge-length": 0.1' r.json
+run 0 -- torus.off out.off --max-distance 1% --report r.json
+expect '1% of the diagonal is kept' awk '/"distance_bound"/ { exit !($2 > 0 && $2 <= 1) }' r.json
+printf '%s\n' OFF '8 6 0' '0 0 0' '1 0 0' '0 1 0' '1 1 0' '0 0 1' '1 0 1' '0 1 1' '1 1 1' \
+  '4 0 2 3 1' '4 4 5 7 6' '4 0 1 5 4' '4 2 6 7 3' '4 0 4 6 2' '4 1 3 7 5' >cube.off
+run 3 'largest distance' -- cube.off out.off --max-distance 0.3% --features 180 # cut off
 accept '"density": "curvature"'
 accept '"density": "uniform"' --density uniform
 accept '"density-power": 2.0' --density-power 2

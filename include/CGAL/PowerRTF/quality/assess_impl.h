@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -54,12 +55,16 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles, concurrency);
-  report.edge_length = {unit * lengths.mean, unit * lengths.min, unit * lengths.max};
+  report.edge_length = {unit * lengths.mean, unit * lengths.median, unit * lengths.min,
+                        unit * lengths.max};
   const Box3<double> box = internal::bounding_box(surface.points, surface.triangles, concurrency);
   report.diagonal = unit * length(box.hi - box.lo);
   part.next(1);
   report.distance = surface_distance(patches.points, patches.triangles, tree, mesh.points,
-                                     mesh.triangles, concurrency);
+                                     mesh.triangles, concurrency, report.max_distance > 0);
+  auto& [x, y, z] = report.distance.farthest;
+  const Vec3d farthest = surface.normalization.to_outside({x, y, z});
+  std::tie(x, y, z) = std::tie(farthest.x, farthest.y, farthest.z);
 }
 
 CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Extracted_mesh& mesh,

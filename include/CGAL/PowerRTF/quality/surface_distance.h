@@ -11,29 +11,19 @@
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/bounding_box.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/quality/distance_bound.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 namespace internal {
-
-inline Box3<double> bounding_box(const std::vector<Vec3d>& points,
-                                 const std::vector<Triangle>& triangles,
-                                 Concurrency concurrency = Sequential_tag())
-{
-  const Vec3d& first = points[triangles[0][0]];
-  return reduce(
-      concurrency, static_cast<int>(triangles.size()), Box3<double>{first, first},
-      [&](Box3<double>& box, int f) {
-        for (const int v : triangles[f]) box.add(points[v]);
-      },
-      [](Box3<double>& box, const Box3<double>& part) { box.add(part); });
-}
 
 /// Walks over a triangulated surface in spatial order: its vertices, and points spread over it.
 class Surface_samples {
@@ -86,6 +76,7 @@ private:
 
 struct Squared_distances {
   double sum = 0, sum_of_squares = 0, max_squared = 0;
+  Vec3d farthest{0, 0, 0};
   int hint = -1; ///< nearest facet of the query before
 };
 
@@ -102,7 +93,10 @@ inline Squared_distances one_sided_distance(const Surface_samples& from, const F
         const auto nearest = to.nearest_anywhere(p, s.hint);
         const double d2 = nearest.squared_distance;
         s.hint = nearest.facet;
-        s.max_squared = std::max(s.max_squared, d2);
+        if (d2 > s.max_squared) {
+          s.max_squared = d2;
+          s.farthest = p;
+        }
         if (!is_sample) return;
         s.sum += std::sqrt(d2);
         s.sum_of_squares += d2;
@@ -110,7 +104,10 @@ inline Squared_distances one_sided_distance(const Surface_samples& from, const F
       [](Squared_distances& s, const Squared_distances& t) {
         s.sum += t.sum;
         s.sum_of_squares += t.sum_of_squares;
-        s.max_squared = std::max(s.max_squared, t.max_squared);
+        if (t.max_squared > s.max_squared) {
+          s.max_squared = t.max_squared;
+          s.farthest = t.farthest;
+        }
       });
 }
 
@@ -122,12 +119,14 @@ inline Squared_distances one_sided_distance(const Surface_samples& from, const F
 /// surfaces has no facet or the input no extent.
 ///
 /// \param input_tree of the input's triangles
+/// \param is_bound_wanted find the upper bound, too
 inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
                                             const std::vector<Triangle>& input_triangles,
                                             const Facet_tree& input_tree,
                                             const std::vector<Vec3d>& output_points,
                                             const std::vector<Triangle>& output_triangles,
-                                            internal::Concurrency concurrency = Sequential_tag())
+                                            internal::Concurrency concurrency = Sequential_tag(),
+                                            bool is_bound_wanted = false)
 {
   Distance_statistics result;
   if (input_triangles.empty() || output_triangles.empty()) return result;
@@ -146,7 +145,16 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
   const double percent = 100 / diagonal;
   result.mean = percent * std::max(a.sum, b.sum) / n;
   result.rms = percent * std::sqrt(std::max(a.sum_of_squares, b.sum_of_squares) / n);
-  result.max = percent * std::sqrt(std::max(a.max_squared, b.max_squared));
+  const auto& farther = a.max_squared > b.max_squared ? a : b;
+  const double max = std::sqrt(farther.max_squared);
+  result.max = percent * max;
+  const Vec3d& farthest = farther.farthest;
+  std::tie(result.farthest[0], result.farthest[1], result.farthest[2]) =
+      std::tie(farthest.x, farthest.y, farthest.z);
+  if (is_bound_wanted)
+    result.bound =
+        percent * std::max(internal::distance_bound(input_tree, output_tree, max, concurrency),
+                           internal::distance_bound(output_tree, input_tree, max, concurrency));
   return result;
 }
 

@@ -105,18 +105,24 @@ inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
 {
   const std::vector<Edge> edges = edges_of(triangles, concurrency);
   if (edges.empty()) return {};
-  Edge_length_statistics sum = internal::reduce(
-      concurrency, static_cast<int>(edges.size()),
-      Edge_length_statistics{0, std::numeric_limits<double>::max(), 0},
+  const int size = static_cast<int>(edges.size());
+  std::vector<double> lengths(size);
+  internal::for_each_index(concurrency, size, [&](int e) {
+    lengths[e] = length(points[edges[e][1]] - points[edges[e][0]]);
+  });
+  Edge_length_statistics result = internal::reduce(
+      concurrency, size, Edge_length_statistics{0, 0, std::numeric_limits<double>::max(), 0},
       [&](Edge_length_statistics& s, int e) {
-        const double l = length(points[edges[e][1]] - points[edges[e][0]]);
-        s = {s.mean + l, std::min(s.min, l), std::max(s.max, l)};
+        s = {s.mean + lengths[e], 0, std::min(s.min, lengths[e]), std::max(s.max, lengths[e])};
       },
       [](Edge_length_statistics& s, const Edge_length_statistics& part) {
-        s = {s.mean + part.mean, std::min(s.min, part.min), std::max(s.max, part.max)};
+        s = {s.mean + part.mean, 0, std::min(s.min, part.min), std::max(s.max, part.max)};
       });
-  sum.mean /= static_cast<double>(edges.size());
-  return sum;
+  result.mean /= size;
+  const auto middle = lengths.begin() + size / 2;
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  result.median = *middle;
+  return result;
 }
 
 } // namespace CGAL::PowerRTF

@@ -1,0 +1,214 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_of_shape.h"
+#include "shapes.h"
+
+#include <CGAL/PowerRTF/Resolution.h>
+#include <CGAL/PowerRTF/fields/resolution.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/power_rtf_remeshing.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+using doctest::Approx;
+using shapes::make_mesh;
+using shapes::Mesh;
+using shapes::soup_of;
+namespace params = CGAL::PowerRTF::parameters;
+
+namespace {
+
+// m rows of equilateral triangles with edges of length 1.
+shapes::Soup equilateral_rows(int m)
+{
+  shapes::Soup soup;
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= m; ++i) soup.points.push_back({i + 0.5 * j, std::sqrt(0.75) * j, 0});
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < m; ++i) {
+      const int v = j * (m + 1) + i, w = v + m + 1;
+      soup.triangles.push_back({v, v + 1, w});
+      soup.triangles.push_back({v + 1, w + 1, w});
+    }
+  return soup;
+}
+
+double median_edge(const shapes::Soup& soup)
+{
+  std::vector<double> lengths;
+  for (const Triangle& t : soup.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (t[k] < t[(k + 1) % 3])
+        lengths.push_back(length(soup.points[t[k]] - soup.points[t[(k + 1) % 3]]));
+  const auto middle = lengths.begin() + lengths.size() / 2;
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+struct Result {
+  Remeshing_report report;
+  shapes::Soup soup;
+};
+
+Result remesh(const shapes::Soup& input, const Resolution& resolution,
+              Density density = Density::uniform)
+{
+  Remeshing_options options;
+  options.density = density;
+  const Mesh mesh = make_mesh(input);
+  Mesh output;
+  Result result;
+  result.report =
+      CGAL::power_rtf_remeshing(mesh, resolution, output, params::remeshing_options(options));
+  result.soup = soup_of(output);
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("equilateral triangles: an edge length gives the vertices there are")
+{
+  for (const shapes::Soup& soup :
+       {shapes::tetrahedron(), shapes::octahedron(), shapes::icosahedron(), equilateral_rows(1),
+        equilateral_rows(7)}) {
+    const Surface surface = shapes::make_surface(soup);
+    const double edge =
+        length(soup.points[soup.triangles[0][0]] - soup.points[soup.triangles[0][1]]);
+    const double inside = edge * surface.normalization.scale;
+    CHECK(vertices_by_edge_length(surface, inside) ==
+          Approx(double(soup.points.size())).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the median edge has the length asked for")
+{
+  for (const shapes::Soup& soup :
+       {shapes::ellipsoid(1, 0.6, 0.4, 4), shapes::torus(60, 30, 1, 0.4), shapes::box(6),
+        shapes::open_cylinder(40, 20, 1, 2), shapes::plane_patch(10, 10)})
+    for (const Density density : {Density::uniform, Density::curvature})
+      for (const double edge : {0.05, 0.11}) {
+        CAPTURE(edge);
+        CAPTURE(int(density));
+        const Result result = remesh(soup, Resolution::edge_length(edge), density);
+        CHECK(result.report.missed_guarantees().empty());
+        CHECK(result.report.samples_asked == result.soup.points.size());
+        const double median = median_edge(result.soup);
+        CHECK(std::abs(median / edge - 1) < 0.02);
+        CHECK(result.report.edge_length.median == Approx(median).epsilon(0.01)); // the border twice
+      }
+}
+
+TEST_CASE("an edge length is in the input's unit, or relative to its diagonal")
+{
+  const shapes::Soup soup = shapes::torus(40, 20, 1, 0.4);
+  const std::size_t n = remesh(soup, Resolution::edge_length(0.1)).report.samples_asked;
+  CHECK(n > 500);
+  const double diagonal = length(Vec3d{2.8, 2.8, 0.8}); // its vertices come near it
+  for (const double scale : {1e-9, 1., 3e7}) {
+    const shapes::Soup scaled = shapes::translated(shapes::scaled(soup, scale), {scale, 0, 0});
+    CHECK(remesh(scaled, Resolution::edge_length(0.1 * scale)).report.samples_asked == n);
+    const Remeshing_report relative =
+        remesh(scaled, Resolution::relative_edge_length(0.1 / diagonal)).report;
+    CHECK(double(relative.samples_asked) == Approx(double(n)).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a share of the input's vertices")
+{
+  const shapes::Soup soup = shapes::torus(40, 20, 1, 0.4);
+  CHECK(remesh(soup, Resolution::vertex_share(0.5)).report.samples_asked == 400);
+  CHECK(remesh(soup, Resolution::vertex_share(1.25)).report.samples_asked == 1000);
+  CHECK(remesh(soup, 300).report.samples_asked == 300);
+}
+
+TEST_CASE("a largest distance is kept by about as few vertices as can be")
+{
+  for (const shapes::Soup& soup :
+       {shapes::ellipsoid(1, 0.6, 0.4, 4), shapes::torus(60, 30, 1, 0.4)})
+    for (const double distance : {0.03, 0.01}) {
+      CAPTURE(distance);
+      const Result result = remesh(soup, Resolution::max_distance(distance));
+      const Remeshing_report& report = result.report;
+      CHECK(report.missed_guarantees().empty());
+      CHECK(report.max_distance == distance);
+      CHECK(report.absolute(report.distance.bound) <= distance);
+      CHECK(report.absolute(report.distance.bound) > 0.7 * distance);
+      CHECK(report.distance.bound >= report.distance.max);
+      // the point where it is, is on one of the surfaces and that far from the other
+      const auto [x, y, z] = report.distance.farthest;
+      const auto distance_to = [p = Vec3d{x, y, z}](const shapes::Soup& s) {
+        const shapes::Soup small = shapes::scaled(s, 0.25);
+        return 4 * std::sqrt(Facet_tree(small.points, small.triangles)
+                                 .nearest_anywhere(0.25 * p)
+                                 .squared_distance);
+      };
+      CHECK(std::min(distance_to(soup), distance_to(result.soup)) < 1e-12);
+      CHECK(std::max(distance_to(soup), distance_to(result.soup)) ==
+            Approx(report.absolute(report.distance.max)));
+    }
+}
+
+TEST_CASE("a largest distance that cannot be kept is a guarantee that is missed")
+{
+  Remeshing_options options;
+  options.feature_angle = 180;
+  options.density = Density::uniform;
+  const Mesh mesh = make_mesh(shapes::box(1)); // its edges are cut off
+  Mesh output;
+  const Remeshing_report report = CGAL::power_rtf_remeshing(
+      mesh, Resolution::max_distance(0.001), output, params::remeshing_options(options));
+  REQUIRE(report.missed_guarantees().size() == 1);
+  CHECK(report.missed_guarantees()[0].find("largest distance: up to 0.0") == 0);
+  CHECK(report.absolute(report.distance.bound) > 0.001);
+}
+
+TEST_CASE("the search for the smallest number")
+{
+  int runs = 0;
+  const auto search = [&](double first, double most, double needed) {
+    return internal::smallest_number(first, most, [&](std::size_t n) {
+      ++runs;
+      return needed / double(n);
+    });
+  };
+  for (const double needed : {7., 100., 5432., 1e6})
+    for (const double first : {4., 3000., 1e7}) {
+      runs = 0;
+      const double n = double(search(first, 1e8, needed));
+      CHECK(n >= needed);
+      CHECK(n <= 1.1 * needed + 2);
+      CHECK(runs <= 16);
+    }
+  CHECK(search(100, 1000.7, 5000) == 1000);
+  CHECK(search(100, 1000, 1) == 4);
+}
+
+TEST_CASE("resolutions that cannot be are refused, with the reason")
+{
+  const shapes::Soup soup = shapes::torus(40, 20, 1, 0.4);
+  const auto check_refused = [&](const Resolution& resolution, const std::string& reason) {
+    CAPTURE(reason);
+    std::string message;
+    try {
+      remesh(soup, resolution);
+    } catch (const Invalid_input_error& e) {
+      message = e.what();
+    }
+    CHECK(message.find(reason) != std::string::npos);
+  };
+  check_refused(Resolution::edge_length(1e-9), "edge_length asks for 1.");
+  check_refused(Resolution::edge_length(-1), "edge_length is -1, but must be");
+  check_refused(Resolution::edge_length(std::nan("")), "edge_length is nan");
+  check_refused(Resolution::edge_length(50), "samples are too few");
+  check_refused(Resolution::relative_edge_length(2), "relative_edge_length is 2, but must be");
+  check_refused(Resolution::vertex_share(1e6), "vertex_share asks for 800000000 samples");
+  Remeshing_options options;
+  options.edge_length = options.vertex_share = 0.5;
+  CHECK_THROWS_WITH_AS(validate(options), doctest::Contains("only one"), Invalid_input_error);
+}
