@@ -104,7 +104,12 @@ public:
         "fields", text("FILE"),
         "write the lattice that the samples begin as: its points, the directions of its rows, and "
         "where they do not fit (VTP)")("ascii", "write PLY and STL as text, not as binary data")(
-        "no-mesh", "stop at the samples: OUTPUT is not needed and not written");
+        "no-mesh", "stop at the samples: OUTPUT is not needed and not written")(
+        "batch",
+        "remesh many files: INPUT is a folder, or a text file with the name of one in each "
+        "line; OUTPUT is a folder")("format", text("NAME"),
+                                    "off|obj|ply|stl|vtp: of a batch's outputs (that of "
+                                    "each input)");
     group("Comparison with exact arithmetic")
         .add_options()("check", "compare the cells with the exact ones")(
             "check-every", text("N"),
@@ -122,6 +127,7 @@ public:
   {
     std::ostringstream out;
     out << "power_rtf_remesh INPUT OUTPUT [options]\n"
+           "power_rtf_remesh --batch INPUTS FOLDER [options]\n"
            "Remeshes a surface by power diagrams restricted to tangent planes (PowerRTF).\n"
            "Reads OFF, OBJ, PLY, STL; writes OFF, OBJ, PLY, STL, VTP, as the file's name ends.\n"
            "In {braces}: what is allowed; in [brackets]: the paper's symbol; in (parentheses): the "
@@ -132,7 +138,8 @@ public:
     out << "\nExit codes: 0 done, every guarantee met; 1 the input cannot be used; 2 wrong usage;\n"
            "3 written, but a guarantee was missed; 4 written, but a cell is wrong that was "
            "certified\n"
-           "(--check); 5 an output cannot be written; 130 cancelled by Ctrl-C, 143 by SIGTERM.\n";
+           "(--check); 5 an output cannot be written; 130 cancelled by Ctrl-C, 143 by SIGTERM.\n"
+           "--batch: 5 or 1 where one of the meshes is not written, else 4, 3 or 0.\n";
     return out.str();
   }
 
@@ -241,6 +248,23 @@ Remeshing_options remeshing_options(const po::variables_map& values)
   return o;
 }
 
+/// \throws Usage_error
+void set_batch(const po::variables_map& values, Program_options& o)
+{
+  o.is_batch = values.count("batch") > 0;
+  if (values.count("format")) {
+    o.format = values["format"].as<std::string>();
+    if (!o.is_batch) throw Usage_error("--format: for --batch; else OUTPUT's name says it");
+    const std::vector<std::string> names{"off", "obj", "ply", "stl", "vtp"};
+    if (std::find(names.begin(), names.end(), o.format) == names.end())
+      reject("format", o.format, "one of off|obj|ply|stl|vtp");
+  }
+  if (!o.is_batch) return;
+  for (const char* other : {"cells", "samples-out", "fields", "no-mesh"})
+    if (values.count(other))
+      throw Usage_error("--batch writes meshes and a report: not with --" + std::string(other));
+}
+
 void set_files(const po::variables_map& values, Program_options& o)
 {
   std::vector<std::string> files;
@@ -305,6 +329,7 @@ Program_options parse_command_line(int argc, const char* const* argv, std::strin
   const std::string threads = values.count("threads") ? values["threads"].as<std::string>() : "0";
   o.threads = parse_value<int>("threads", threads, {0, 4096});
   o.quiet = values.count("quiet") > 0;
+  set_batch(values, o);
   set_files(values, o);
   return o;
 }

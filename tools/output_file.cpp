@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output_file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <unistd.h>
@@ -24,7 +25,7 @@ bool is_device_or_pipe(const fs::path& path)
 
 fs::path temporary_for(const fs::path& target)
 {
-  static int count = 0;
+  static std::atomic<int> count{0};
   return target.parent_path() /
          (".power_rtf_" + std::to_string(::getpid()) + '_' + std::to_string(count++) + ".tmp");
 }

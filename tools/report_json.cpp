@@ -149,14 +149,16 @@ void add_mesh(Json& json, const Run& run)
   json["missed_guarantees"] = run.missed;
 }
 
-} // namespace
-
-void write_json(std::ostream& out, const Run& run)
+Json to_json(const Run& run)
 {
   const Remeshing_report& r = run.report;
   Json json;
   json["program"] = "power_rtf_remesh " POWER_RTF_VERSION;
   if (!run.options.input.empty()) json["input"] = run.options.input;
+  if (!run.error.empty()) {
+    json["error"] = run.error;
+    return json;
+  }
   if (run.options.write_mesh && !run.options.output.empty()) json["output"] = run.options.output;
   json["samples"] = r.samples_asked;
   json["traits"] = run.options.traits;
@@ -180,8 +182,24 @@ void write_json(std::ostream& out, const Run& run)
   if (run.options.check) json["checks"] = checks(run.checks);
   json["parameters"] = parameters(run.options.remeshing);
   json["iterations"] = iterations(r);
+  return json;
+}
+
+void write(std::ostream& out, const Json& json)
+{
   // a file's name need not be valid UTF-8
   out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+} // namespace
+
+void write_json(std::ostream& out, const Run& run) { write(out, to_json(run)); }
+
+void write_json(std::ostream& out, const std::vector<Run>& runs)
+{
+  Json json = Json::array();
+  for (const Run& run : runs) json.push_back(to_json(run));
+  write(out, json);
 }
 
 } // namespace tools

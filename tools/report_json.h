@@ -31,10 +31,14 @@ struct Run {
   int threads = 1;                           ///< used
   std::vector<std::string> missed;           ///< guarantees
   std::vector<Check> checks;                 ///< the last one: of the final cells
+  std::string error;                         ///< of a batch: why there is no result
 };
 
 /// Everything, for programs. Without a mesh (--no-mesh) the fields about it are left out.
 void write_json(std::ostream& out, const Run& run);
+
+/// The same of many runs, as a list; of one that has failed, its input and its error.
+void write_json(std::ostream& out, const std::vector<Run>& runs);
 
 /// The main results, for people.
 void print_table(std::ostream& out, const Run& run);

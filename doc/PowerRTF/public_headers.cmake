@@ -2,6 +2,7 @@
 set(public_headers
     power_rtf_remeshing.h
     PowerRTF_remesher.h
+    PowerRTF/remesh_batch.h
     PowerRTF/PowerRTF_traits_3.h
     PowerRTF/PowerRTF_exact_traits_3.h
     PowerRTF/PowerRTF_cuda_traits_3.h

@@ -1,15 +1,12 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// power_rtf_remesh INPUT OUTPUT [options]: remeshes a surface from file to file.
+#include "remesh_file.h"
+
 #include "Progress.h"
 #include "cells_io.h"
 #include "fields_io.h"
 #include "mesh_io.h"
-#include "options.h"
 #include "output_file.h"
-#include "program.h"
-#include "report_json.h"
 #include "traits.h"
 
 #include <CGAL/PowerRTF/exact/check_cells.h>
@@ -19,34 +16,17 @@
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF_remesher.h>
 
-#ifdef CGAL_LINKED_WITH_TBB
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#endif
-
 #include <algorithm>
-#include <iostream>
 #include <limits>
 #include <list>
-#include <new>
 #include <optional>
 
+namespace tools {
 namespace {
 
 using namespace CGAL::PowerRTF;
-using namespace tools;
 using internal::Stage;
 using internal::Stopwatch;
-
-enum Exit_code {
-  done = 0,
-  unusable_input = 1,
-  wrong_usage = 2,
-  missed_guarantee = 3,
-  wrong_cell = 4,
-  unwritable_output = 5,
-  cancelled = 128 // and the number of the signal
-};
 
 /// Checks before any work that all files can be written. \throws Output_error
 void check_outputs(const Program_options& o)
@@ -159,22 +139,6 @@ private:
   std::list<Output_file> m_files;
 };
 
-Exit_code fail(Exit_code code, const std::string& message)
-{
-  std::cerr << "power_rtf_remesh: " << message << '\n';
-  return code;
-}
-
-/// Tells what the input has that the output does not have.
-void print_losses(const Run& run)
-{
-  if (!run.options.write_mesh || run.not_carried_over.empty()) return;
-  std::string list;
-  for (const std::string& name : run.not_carried_over) list += (list.empty() ? "" : ", ") + name;
-  std::cerr << "power_rtf_remesh: " << run.options.input
-            << ": not carried over to the output: " << list << '\n';
-}
-
 /// Compares the cells of a remesher with the exact ones (--check).
 template <class Remesher>
 Check check(Remesher& remesher, std::size_t iterations)
@@ -265,25 +229,6 @@ void make_results(Run& run, Surface surface, Outputs& outputs)
   write_results(remesher, mesh, options, outputs);
 }
 
-/// Tells the user how the run ended.
-Exit_code conclude(const Run& run)
-{
-  const Program_options& options = run.options;
-  if (!options.quiet) {
-    print_table(std::cout, run);
-    print_losses(run);
-  }
-  for (const std::string& missed : run.missed)
-    std::cerr << "power_rtf_remesh: " << options.output << ": a guarantee is missed: " << missed
-              << '\n';
-  for (const Check& c : run.checks)
-    if (!c.result.passed())
-      return fail(wrong_cell, options.input + ": after " + std::to_string(c.iterations) +
-                                  " iterations " + std::to_string(c.result.certified_wrong) +
-                                  " cells are wrong that were certified: a bug of this program");
-  return run.missed.empty() ? done : missed_guarantee;
-}
-
 /// Sets the number of samples to what a sphere would need for the distance asked for.
 void guess_samples(const Surface& surface, Run& run)
 {
@@ -330,48 +275,21 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
   });
 }
 
-Exit_code remesh(const Program_options& options)
+} // namespace
+
+Run remesh_file(const Program_options& options, int threads)
 {
   Run run;
   run.options = options;
+  run.threads = threads;
   if (writes_floats(options)) run.options.remeshing.coordinates = Coordinates::single_precision;
-#ifdef CGAL_LINKED_WITH_TBB
-  run.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(run.threads));
-#endif
   std::optional<Outputs> outputs;
   make_results(run, outputs);
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
   outputs->add(options.report_file, [&](std::ostream& out) { write_json(out, run); });
   stop_if_interrupted();
   outputs->commit();
-  return conclude(run);
+  return run;
 }
 
-} // namespace
-
-int tools::run_program(int argc, const char* const* argv)
-{
-  handle_interrupts();
-  std::string input;
-  try {
-    std::string information;
-    const Program_options options = parse_command_line(argc, argv, information);
-    if (!information.empty()) return std::cout << information, done;
-    input = options.input;
-    return remesh(options);
-  } catch (const Usage_error& e) {
-    return fail(wrong_usage, e.what() + std::string("\npower_rtf_remesh --help shows the options"));
-  } catch (const Cancelled&) {
-    return fail(Exit_code(cancelled + interrupted), "cancelled; nothing was written");
-  } catch (const std::bad_alloc&) {
-    return fail(unusable_input, input + ": cannot be remeshed: the memory does not suffice");
-  } catch (const Invalid_input_error& e) {
-    return fail(unusable_input, e.what());
-  } catch (const Output_error& e) {
-    return fail(unwritable_output, e.what());
-  } catch (const std::exception& e) {
-    return fail(unusable_input, input + ": cannot be remeshed: " + e.what());
-  }
-}
+} // namespace tools

@@ -1,0 +1,61 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "outcome.h"
+
+#include "Progress.h"
+#include "output_file.h"
+
+#include <CGAL/PowerRTF/internal/errors.h>
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+namespace tools {
+
+Failure current_failure(const std::string& input)
+{
+  try {
+    throw;
+  } catch (const Usage_error& e) {
+    return {wrong_usage, e.what() + std::string("\npower_rtf_remesh --help shows the options")};
+  } catch (const Cancelled&) {
+    return {Exit_code(cancelled + interrupted), "cancelled; nothing was written"};
+  } catch (const std::bad_alloc&) {
+    return {unusable_input, input + ": cannot be remeshed: the memory does not suffice"};
+  } catch (const CGAL::PowerRTF::Invalid_input_error& e) {
+    return {unusable_input, e.what()};
+  } catch (const Output_error& e) {
+    return {unwritable_output, e.what()};
+  } catch (const std::exception& e) {
+    return {unusable_input, input + ": cannot be remeshed: " + e.what()};
+  }
+}
+
+Exit_code exit_code(const Run& run)
+{
+  for (const Check& c : run.checks)
+    if (!c.result.passed()) return wrong_cell;
+  return run.missed.empty() ? done : missed_guarantee;
+}
+
+void print_faults(const Run& run)
+{
+  const Program_options& options = run.options;
+  for (const std::string& missed : run.missed)
+    std::cerr << "power_rtf_remesh: " << options.output << ": a guarantee is missed: " << missed
+              << '\n';
+  for (const Check& c : run.checks)
+    if (!c.result.passed())
+      fail({wrong_cell, options.input + ": after " + std::to_string(c.iterations) + " iterations " +
+                            std::to_string(c.result.certified_wrong) +
+                            " cells are wrong that were certified: a bug of this program"});
+}
+
+Exit_code fail(const Failure& failure)
+{
+  std::cerr << "power_rtf_remesh: " << failure.message << '\n';
+  return failure.code;
+}
+
+} // namespace tools
