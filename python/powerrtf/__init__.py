@@ -10,9 +10,10 @@
 ((50, 3), (96, 3))
 """
 
+from ._cells import Cells
 from ._core import InvalidInputError, OutputError, __version__
 from ._mesh import Mesh, MissedGuaranteeWarning, Report
-from ._remesh import remesh, remesh_file
+from ._remesh import remesh, remesh_file, remesh_open3d, remesh_trimesh
 
-__all__ = ["InvalidInputError", "Mesh", "MissedGuaranteeWarning", "OutputError", "Report", "remesh",
-           "remesh_file"]
+__all__ = ["Cells", "InvalidInputError", "Mesh", "MissedGuaranteeWarning", "OutputError", "Report",
+           "remesh", "remesh_file", "remesh_open3d", "remesh_trimesh"]

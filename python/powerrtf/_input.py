@@ -9,15 +9,31 @@ import numpy as np
 
 from ._core import InvalidInputError
 
+_DLPACK_CPU = 1
+_ARRAY_INTERFACES = ("__array__", "__array_interface__", "__dlpack__")
 
-def as_numpy(values, name):
-    """`values` as a NumPy array; shares their memory where that can be had."""
+
+def to_host(values, name):
+    """`values` as a NumPy array; shares their memory where that can be had. Those of a device (a tensor
+    of torch or an array of cupy on a GPU) are copied to the host."""
+    if hasattr(values, "detach"):  # torch: a tensor that records gradients exports nothing
+        values = values.detach()
     try:
         if hasattr(values, "__dlpack__") and not isinstance(values, np.ndarray):
-            return np.from_dlpack(values)
+            return np.from_dlpack(_on_host(values))
         return np.asarray(values)
     except (BufferError, RuntimeError, TypeError, ValueError) as error:
         raise InvalidInputError(f"{name} cannot be read as an array: {error}") from error
+
+
+def _on_host(values):
+    """`values`, or a copy on the host: the libraries differ in its name."""
+    if values.__dlpack_device__()[0] == _DLPACK_CPU:
+        return values
+    for name in ("cpu", "get", "numpy"):  # torch; cupy; TensorFlow
+        if hasattr(values, name):
+            return getattr(values, name)()
+    return np.asarray(values)  # jax
 
 
 def _with_type(array, name, kinds, types, what):
@@ -30,13 +46,13 @@ def _with_type(array, name, kinds, types, what):
 
 
 def real_array(values, name, columns=None):
-    array = as_numpy(values, name)
+    array = to_host(values, name)
     check_shape(array, name, columns)
     return _with_type(array, name, "fiu", (np.dtype("f4"), np.dtype("f8")), "numbers")
 
 
 def index_array(values, name, columns=None):
-    array = as_numpy(values, name)
+    array = to_host(values, name)
     check_shape(array, name, columns)
     if array.dtype == np.uint64 and array.size and array.max() > np.iinfo(np.int64).max:
         raise InvalidInputError(f"{name} has an entry that is too large: {array.max()}")
@@ -54,9 +70,34 @@ def check_shape(array, name, columns):
         raise InvalidInputError(f"{name} must have the shape {wanted}, not {array.shape}")
 
 
+class Polygons:
+    """Faces of any sizes: all their corners, and how many each has."""
+
+    def __init__(self, corners, sizes):
+        self.corners = corners
+        self.sizes = sizes
+
+    @classmethod
+    def of_packed(cls, packed):
+        """From VTK's rows: the size of each face before its corners."""
+        packed = np.asarray(packed)
+        places, place = [], 0
+        while place < len(packed):
+            places.append(place)
+            place += 1 + int(packed[place])
+        is_corner = np.ones(len(packed), dtype=bool)
+        is_corner[places] = False
+        return cls(packed[is_corner], packed[places])
+
+
 def face_arrays(faces):
     """Corners, a row for each face, and no sizes; or all corners and the faces' sizes."""
-    if not hasattr(faces, "__array__") and not hasattr(faces, "__dlpack__"):
+    if isinstance(faces, Polygons):
+        if len(faces.sizes) and (faces.sizes == faces.sizes[0]).all():
+            return index_array(faces.corners.reshape(-1, faces.sizes[0]), "faces",
+                               range(3, 1 << 16)), None
+        return index_array(faces.corners, "faces"), faces.sizes
+    if not any(hasattr(faces, name) for name in _ARRAY_INTERFACES):
         faces = list(faces)
         try:
             sizes = [len(face) for face in faces]
@@ -74,22 +115,21 @@ def unpack_mesh(mesh):
         return np.asarray(mesh.vertices), np.asarray(mesh.faces)
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D
         return np.asarray(mesh.vertices), np.asarray(mesh.triangles)
-    if hasattr(mesh, "points") and hasattr(mesh, "faces"):  # pyvista: sizes before corners
-        packed, faces, place = np.asarray(mesh.faces), [], 0
-        while place < len(packed):
-            faces.append(packed[place + 1:place + 1 + packed[place]])
-            place += 1 + packed[place]
-        return np.asarray(mesh.points), faces
+    if hasattr(mesh, "points") and hasattr(mesh, "faces"):  # pyvista
+        return np.asarray(mesh.points), Polygons.of_packed(mesh.faces)
     if hasattr(mesh, "points") and hasattr(mesh, "cells"):  # meshio
         return mesh.points, [face for block in mesh.cells for face in block.data if len(face) > 2]
     raise InvalidInputError(f"faces are missing, and {type(mesh).__name__} is no mesh")
 
 
 def like(array, original):
-    """`array` as an array of the library that `original` is from."""
+    """`array` as an array of the library that `original` is from, on its device."""
     if isinstance(original, np.ndarray) or not hasattr(original, "__dlpack__"):
         return array
     library = sys.modules.get(type(original).__module__.partition(".")[0])
     if hasattr(original, "__array_namespace__"):
         library = original.__array_namespace__()
+    if original.__dlpack_device__()[0] != _DLPACK_CPU and hasattr(library, "asarray"):
+        device = {"device": original.device} if hasattr(original, "detach") else {}
+        return library.asarray(array, **device)  # cupy's is that in use
     return library.from_dlpack(array) if hasattr(library, "from_dlpack") else array

@@ -6,6 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from . import _core
+from ._cells import Cells
+from ._input import to_host
+
 
 class MissedGuaranteeWarning(UserWarning):
     """The result lacks something that the library promises; the message says what."""
@@ -44,15 +48,26 @@ class Report(Mapping):
 
 
 class Mesh:
-    """Triangles. Unpacks as ``vertices, faces = mesh``.
+    """The result of a run: triangles. Unpacks as ``vertices, faces = mesh``.
 
-    Attributes: ``vertices`` (n, 3), ``faces`` (m, 3), counter-clockwise seen from outside, and
-    ``report``."""
+    Attributes: ``vertices`` (n, 3) and ``faces`` (m, 3), counter-clockwise seen from outside, arrays of
+    the input's kind; and ``report``, the :class:`Report`. Can be pickled.
 
-    def __init__(self, vertices, faces, report):
+    >>> import powerrtf
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> mesh = powerrtf.remesh(square, [[0, 1, 2, 3]], 100, density="uniform")
+    >>> mesh
+    Mesh(100 vertices, 166 faces)
+    >>> vertices, faces = mesh
+    >>> mesh.report.vertices, mesh.report["faces"], mesh.report.to_dict()["euler_characteristic"]
+    (100, 166, 1)
+    """
+
+    def __init__(self, vertices, faces, report, sites):
         self.vertices = vertices
         self.faces = faces
         self.report = report
+        self._sites = sites
 
     def __iter__(self):
         return iter((self.vertices, self.faces))
@@ -65,20 +80,42 @@ class Mesh:
         """What the result lacks, in words; empty: nothing."""
         return self.report["missed_guarantees"]
 
+    def cells(self):
+        """The :class:`Cells` of the samples. They are made when they are asked for, in double
+        precision, whatever has placed the samples.
+
+        >>> import powerrtf
+        >>> tetrahedron = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        >>> faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+        >>> cells = powerrtf.remesh(tetrahedron, faces, 100).cells()
+        >>> cells[0].shape[1], len(cells) == len(cells.area)
+        (3, True)
+        """
+        return Cells(_core.cells(self._sites))
+
+    def _arrays(self):
+        return to_host(self.vertices, "vertices"), to_host(self.faces, "faces")
+
     def to_trimesh(self):
+        """A ``trimesh.Trimesh``."""
         import trimesh
-        return trimesh.Trimesh(np.asarray(self.vertices), np.asarray(self.faces), process=False)
+        return trimesh.Trimesh(*self._arrays(), process=False)
 
     def to_pyvista(self):
+        """A ``pyvista.PolyData``."""
         import pyvista
-        return pyvista.PolyData.from_regular_faces(np.asarray(self.vertices), np.asarray(self.faces))
+        return pyvista.PolyData.from_regular_faces(*self._arrays())
 
     def to_meshio(self):
+        """A ``meshio.Mesh``, which writes many formats."""
         import meshio
-        return meshio.Mesh(np.asarray(self.vertices), [("triangle", np.asarray(self.faces))])
+        vertices, faces = self._arrays()
+        return meshio.Mesh(vertices, [("triangle", faces)])
 
     def to_open3d(self):
+        """An ``open3d.geometry.TriangleMesh``."""
         import open3d
+        vertices, faces = self._arrays()
         return open3d.geometry.TriangleMesh(
-            open3d.utility.Vector3dVector(np.asarray(self.vertices, dtype=float)),
-            open3d.utility.Vector3iVector(np.asarray(self.faces, dtype=np.int32)))
+            open3d.utility.Vector3dVector(vertices.astype(float)),
+            open3d.utility.Vector3iVector(faces.astype(np.int32)))

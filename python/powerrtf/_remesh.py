@@ -58,11 +58,11 @@ def _run(vertices, faces, n, density, constrained_edges, traits, threads, progre
     corners, sizes = faces
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
-        points, triangles, report = _core.remesh(vertices, corners, sizes, densities,
-                                                 constrained_edges, options, traits, threads, show)
+        points, triangles, report, sites = _core.remesh(
+            vertices, corners, sizes, densities, constrained_edges, options, traits, threads, show)
     finally:
         close()
-    return Mesh(points, triangles, Report(json.loads(report)))
+    return Mesh(points, triangles, Report(json.loads(report)), sites)
 
 
 def _warn(mesh):
@@ -104,6 +104,16 @@ def remesh_file(input, output, n=None, *, ascii=False, density="curvature", trai
     mesh = _run(points, (corners, sizes), n, density, None, traits, threads, progress, options)
     _core.write_mesh(output, mesh.vertices, mesh.faces, ascii)
     return _warn(mesh)
+
+
+def remesh_trimesh(mesh, n=None, **options):
+    """:func:`remesh` of a ``trimesh.Trimesh``. Returns one."""
+    return remesh(mesh, None, n, **options).to_trimesh()
+
+
+def remesh_open3d(mesh, n=None, **options):
+    """:func:`remesh` of an ``open3d.geometry.TriangleMesh``. Returns one."""
+    return remesh(mesh, None, n, **options).to_open3d()
 
 
 _DOC = """Remeshes a surface with `n` well-distributed vertices.

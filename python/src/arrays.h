@@ -56,6 +56,16 @@ void for_each_index(const Index_array& array, const Visit& visit)
                                              : for_each_entry<std::int64_t>(array, visit);
 }
 
+inline std::vector<Vec3d> points_of_array(const Real_array& array)
+{
+  std::vector<Vec3d> points(array.shape(0));
+  for_each_real(array, [&](std::size_t i, double x) {
+    Vec3d& p = points[i / 3];
+    (i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z) = x;
+  });
+  return points;
+}
+
 /// \param faces a row for each polygon; or all corners, and `sizes` the numbers of them
 /// \throws Invalid_input_error an index is out of range
 inline Polygon_soup soup_of_arrays(const Real_array& points, const Index_array& faces,
@@ -63,11 +73,7 @@ inline Polygon_soup soup_of_arrays(const Real_array& points, const Index_array& 
 {
   Polygon_soup soup;
   soup.merges_vertices = true;
-  soup.points.resize(points.shape(0));
-  for_each_real(points, [&](std::size_t i, double x) {
-    Vec3d& p = soup.points[i / 3];
-    (i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z) = x;
-  });
+  soup.points = points_of_array(points);
   std::vector<std::size_t> all_sizes;
   if (sizes)
     for_each_index(*sizes, [&](std::size_t, auto size) { all_sizes.push_back(size); });
@@ -113,7 +119,8 @@ inline std::vector<double> numbers_of_array(const Real_array& array)
 template <class Number, class Row>
 nb::object to_array(std::vector<Row>&& rows)
 {
-  using Entry = std::conditional_t<std::is_same<Row, Vec3d>::value, double, int>;
+  constexpr bool is_real = std::is_same<Row, Vec3d>::value || std::is_same<Row, double>::value;
+  using Entry = std::conditional_t<is_real, double, int>;
   constexpr std::size_t columns = sizeof(Row) / sizeof(Entry);
   static_assert(columns * sizeof(Entry) == sizeof(Row), "rows are packed");
   const std::size_t shape[] = {rows.size(), columns};

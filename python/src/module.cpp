@@ -5,6 +5,7 @@
 // ../powerrtf.
 #include "Python_visitor.h"
 #include "arrays.h"
+#include "cells.h"
 #include "options.h"
 
 #include "mesh_io.h"
@@ -42,24 +43,32 @@ struct Input {
   std::optional<std::vector<double>> densities;
 };
 
-/// From the surface on, as `CGAL::power_rtf_remeshing()`. Returns an empty mesh when the visitor
-/// has stopped it.
+struct Result {
+  Extracted_mesh mesh;
+  Placed_sites sites;
+};
+
+/// From the surface on, as `CGAL::power_rtf_remeshing()`. The result is empty when the visitor has
+/// stopped it.
 template <class Traits>
-Extracted_mesh remesh_with(tools::Run& run, Surface surface, Python_visitor& visitor)
+Result remesh_with(tools::Run& run, Surface surface, Python_visitor& visitor)
 {
   run.options.traits = Traits::name();
   CGAL::PowerRTF_remesher<Traits> remesher(std::move(surface), run.options.remeshing, run.report);
-  Extracted_mesh mesh;
-  if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
+  Result result;
+  if (remesher.optimize(visitor)) {
+    result.mesh = remesher.extract(visitor);
+    result.sites = sites_of(remesher);
+  }
   run.report = remesher.report();
-  for (Vec3d& p : mesh.points) p = remesher.surface().normalization.to_outside(p);
-  return mesh;
+  for (Vec3d& p : result.mesh.points) p = remesher.surface().normalization.to_outside(p);
+  return result;
 }
 
-Extracted_mesh remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor)
+Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor)
 {
   const std::string name = run.options.traits;
-  Extracted_mesh mesh;
+  Result result;
   const auto remesh = [&] {
     const internal::Stopwatch total(run.report.seconds.total);
     Remeshing_options& options = run.options.remeshing;
@@ -74,7 +83,7 @@ Extracted_mesh remesh_with_traits(tools::Run& run, Input& input, Python_visitor&
         is_search
             ? std::size_t(std::clamp(samples_of_sphere(surface, run.report.max_distance), 4., 3e8))
             : run.report.samples_asked;
-    mesh = tools::with_traits(
+    result = tools::with_traits(
         name, run.options.remeshing, [&](auto traits, const std::string& gpu_not_used) {
           using Traits = typename decltype(traits)::type;
           run.gpu_not_used = gpu_not_used;
@@ -96,7 +105,7 @@ Extracted_mesh remesh_with_traits(tools::Run& run, Input& input, Python_visitor&
   cancellable();
 #endif
   run.missed = run.report.missed_guarantees();
-  return mesh;
+  return result;
 }
 
 nb::tuple remesh(const Real_array& points, const Index_array& faces,
@@ -113,21 +122,22 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   run.options.threads = threads;
   const bool is_single = run.options.remeshing.coordinates == Coordinates::single_precision;
   Python_visitor visitor(progress);
-  Extracted_mesh mesh;
+  Result result;
   {
     const nb::gil_scoped_release release;
     Input input;
     input.soup = soup_of_arrays(points, faces, sizes);
     if (constrained_edges) input.creases = edges_of_array(*constrained_edges, input.soup);
     if (density) input.densities = numbers_of_array(*density);
-    mesh = remesh_with_traits(run, input, visitor);
+    result = remesh_with_traits(run, input, visitor);
   }
   visitor.rethrow();
   std::ostringstream report;
   tools::write_json(report, run);
-  nb::object vertices = is_single ? to_array<float>(std::move(mesh.points))
-                                  : to_array<double>(std::move(mesh.points));
-  return nb::make_tuple(vertices, to_array<int>(std::move(mesh.triangles)), report.str());
+  nb::object vertices = is_single ? to_array<float>(std::move(result.mesh.points))
+                                  : to_array<double>(std::move(result.mesh.points));
+  return nb::make_tuple(vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
+                        to_python(std::move(result.sites)));
 }
 
 nb::tuple read_mesh(const std::string& file)
@@ -190,6 +200,7 @@ NB_MODULE(_core, m)
   m.def("options", &option_rows);
   m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "density"_a.none(),
         "constrained_edges"_a.none(), "options"_a, "traits"_a, "threads"_a, "progress"_a.none());
+  m.def("cells", &cells<tools::Concurrency>, "sites"_a);
   m.def("read_mesh", &read_mesh, "file"_a);
   m.def("check_output", &check_output, "file"_a);
   m.def("holds_floats", [](const std::string& file, bool ascii) {

@@ -3,7 +3,10 @@
 #ifndef CGAL_POWER_RTF_CELLS_CELL_POLYGON_H
 #define CGAL_POWER_RTF_CELLS_CELL_POLYGON_H
 
+#include <CGAL/PowerRTF/cells/cell_moments.h>
 #include <CGAL/PowerRTF/cells/construct_cell.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/Tangent_frame.h>
 
 #include <vector>
 
@@ -20,6 +23,25 @@ struct Cell_polygon {
   double weight = 0;          ///< \f$w_i\f$
   Cell_status status = Cell_status::ok;
 };
+
+/// The cell of sample `i`, as it has been constructed in the tangent plane.
+template <class SamplesLike, class Polygon>
+Cell_polygon cell_polygon(const SamplesLike& samples, int i, Cell_status status,
+                          const Polygon& polygon)
+{
+  Cell_polygon cell;
+  const Tangent_frame<double> frame(samples.normals[i]);
+  for (int k = 0; k < polygon.size; ++k) {
+    cell.vertices.push_back(samples.points[i] + frame.u * polygon.x[k] + frame.v * polygon.y[k]);
+    cell.neighbors.push_back(polygon.neighbor[k]);
+  }
+  cell.area = double(cell_moments(polygon).area);
+  cell.density = samples.density[i];
+  cell.mass = cell.area * cell.density;
+  cell.weight = samples.weights[i];
+  cell.status = status;
+  return cell;
+}
 
 } // namespace CGAL::PowerRTF
 

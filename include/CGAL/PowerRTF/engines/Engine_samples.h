@@ -191,17 +191,7 @@ std::vector<Cell_polygon> Engine<R, B, C>::cells()
   const Engine_samples s = samples();
   std::vector<Cell_polygon> cells(m_cells);
   m_builder->for_each_cell([&](int i, Cell_status status, const auto& polygon, const auto&) {
-    Cell_polygon& cell = cells[i];
-    const Tangent_frame<double> frame(s.normals[i]);
-    for (int k = 0; k < polygon.size; ++k) {
-      cell.vertices.push_back(s.points[i] + frame.u * polygon.x[k] + frame.v * polygon.y[k]);
-      cell.neighbors.push_back(polygon.neighbor[k]);
-    }
-    cell.area = double(cell_moments(polygon).area);
-    cell.density = s.density[i];
-    cell.mass = cell.area * cell.density;
-    cell.weight = s.weights[i];
-    cell.status = status;
+    cells[i] = cell_polygon(s, i, status, polygon);
   });
   return cells;
 }

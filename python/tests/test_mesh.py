@@ -1,0 +1,159 @@
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What users do with a result, and the kinds of arrays and meshes that they have."""
+import pickle
+
+import numpy as np
+import pytest
+
+import powerrtf
+from shapes import FACES, POINTS, sphere
+
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4],
+                  [1, 5, 7, 3]])
+
+
+def test_cells_tile_the_surface():
+    mesh = powerrtf.remesh(*sphere(24), 1000, density="uniform")
+    cells = mesh.cells()
+    assert len(cells) == 1000 and (cells.status == 0).all()
+    assert abs(cells.area.sum() / (4 * np.pi) - 1) < .01
+    assert np.allclose(cells.mass, cells.area * cells.density)
+    assert abs(cells.sides.mean() - 6) < .02
+    a, b = cells[7][1:-1] - cells[7][0], cells[7][2:] - cells[7][0]
+    assert np.isclose(np.linalg.norm(np.cross(a, b).sum(0)) / 2, cells.area[7])
+    assert np.linalg.norm(cells[7].mean(0) - mesh.vertices[7]) < np.sqrt(cells.area[7])
+    with pytest.raises(IndexError):
+        cells[1000]
+
+
+def test_samples_on_creases_have_no_cells():
+    mesh = powerrtf.remesh(CUBE, QUADS, 600, density="uniform")
+    cells = mesh.cells()
+    assert len(cells) == 600 - mesh.report.feature_samples
+    assert .8 * 6 < cells.area.sum() < 6  # half a row of cells is missing along each edge
+
+
+@pytest.mark.parametrize("traits", ["cpu", "exact"])
+def test_cells_are_those_of_the_report(traits):
+    mesh = powerrtf.remesh(CUBE * 1e3 + 5e4, QUADS, 600, traits=traits)
+    cells = mesh.cells()
+    for status, name in enumerate(("ok", "guarded", "empty", "incomplete")):
+        assert (cells.status == status).sum() == mesh.report.cells[name]
+    ok = cells.status == 0
+    rms = np.sqrt(((cells.mass[ok] / cells.mass[ok].mean() - 1) ** 2).mean())
+    assert abs(rms - mesh.report.capacity_rms) < 1e-3
+
+
+def test_a_result_can_be_pickled():
+    mesh = powerrtf.remesh(POINTS, FACES, 100)
+    again = pickle.loads(pickle.dumps(mesh))
+    assert np.array_equal(again.vertices, mesh.vertices) and again.report == mesh.report
+    assert np.array_equal(again.cells().points, mesh.cells().points)
+
+
+class WithArrayInterface:
+    def __init__(self, array):
+        self._array = array
+        self.__array_interface__ = array.__array_interface__
+
+
+class WithDLPack:
+    def __init__(self, array):
+        self._array = array
+
+    def __dlpack__(self, **arguments):
+        return self._array.__dlpack__(**arguments)
+
+    def __dlpack_device__(self):
+        return self._array.__dlpack_device__()
+
+
+class OnDevice(WithDLPack):
+    """As cupy's."""
+
+    def __dlpack_device__(self):
+        return 2, 0
+
+    def get(self):
+        return self._array
+
+
+@pytest.mark.parametrize("kind", [WithArrayInterface, WithDLPack, OnDevice])
+def test_arrays_of_other_libraries_are_taken(kind):
+    expected = powerrtf.remesh(POINTS, FACES, 100)
+    found = powerrtf.remesh(kind(POINTS), kind(FACES), 100)
+    assert np.array_equal(found.vertices, expected.vertices)
+
+
+def test_a_tensor_gives_tensors():
+    torch = pytest.importorskip("torch")
+    points = torch.tensor(POINTS, dtype=torch.float32, requires_grad=True)
+    mesh = powerrtf.remesh(points, torch.tensor(FACES), 100)
+    assert isinstance(mesh.vertices, torch.Tensor) and mesh.vertices.dtype == torch.float32
+    assert mesh.faces.dtype == torch.int64 and mesh.to_trimesh().is_watertight
+
+
+def test_a_missed_guarantee_is_a_warning():
+    # two spheres through each other: the result's triangles intersect, too
+    points = np.vstack([POINTS, POINTS + [.5, 0, 0]])
+    faces = np.vstack([FACES, FACES + len(POINTS)])
+    with pytest.warns(powerrtf.MissedGuaranteeWarning, match="self-intersecting"):
+        mesh = powerrtf.remesh(points, faces, 400)
+    assert len(mesh.missed_guarantees) == 1 and len(mesh.vertices) == 400
+
+
+def test_a_bar_shows_the_progress(capsys):
+    pytest.importorskip("tqdm")
+    powerrtf.remesh(POINTS, FACES, 500, progress=True)
+    shown = capsys.readouterr().err
+    assert "optimization" in shown and "100%" in shown
+
+
+def test_trimesh_in_and_out():
+    trimesh = pytest.importorskip("trimesh")
+    found = powerrtf.remesh_trimesh(trimesh.Trimesh(POINTS, FACES, process=False), 100)
+    assert found.is_watertight and found.volume > 3.9 and len(found.vertices) == 100
+    assert np.array_equal(found.vertices, powerrtf.remesh(POINTS, FACES, 100).vertices)
+
+
+def test_meshio_in_and_out():
+    meshio = pytest.importorskip("meshio")
+    mixed = meshio.Mesh(CUBE, [("quad", QUADS[:5]), ("triangle", [[1, 5, 7], [1, 7, 3]]),
+                               ("line", [[0, 1]])])
+    found = powerrtf.remesh(mixed, n=200).to_meshio()
+    assert len(found.points) == 200 and found.cells[0].type == "triangle"
+
+
+def test_pyvista_in_and_out():
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.PolyData.from_regular_faces(CUBE, QUADS)
+    result = powerrtf.remesh(mesh, n=200)
+    found = result.to_pyvista()
+    assert found.n_points == 200 and found.is_all_triangles and found.n_open_edges == 0
+    cells = result.cells().to_pyvista()
+    assert cells.n_cells == len(result.cells()) and np.isclose(
+        cells.compute_cell_sizes()["Area"].sum(), result.cells().area.sum())
+    mixed = pyvista.PolyData(CUBE, np.hstack([[4, *q] for q in QUADS[:5]] + [[3, 1, 5, 7],
+                                                                            [3, 1, 7, 3]]))
+    assert powerrtf.remesh(mixed, n=200).to_pyvista().n_open_edges == 0
+
+
+def test_pyvista_has_the_accessor():
+    pyvista = pytest.importorskip("pyvista")
+    if not hasattr(pyvista, "register_dataset_accessor"):
+        pytest.skip("this pyvista has no accessors")
+    import powerrtf._pyvista  # noqa: F401  (as the entry point does where the package is installed)
+    found = pyvista.PolyData.from_regular_faces(POINTS, FACES).powerrtf.remesh(100, seed=2)
+    assert found.n_points == 100 and found.user_dict["powerrtf"]["seed"] == 2
+
+
+def test_open3d_in_and_out():
+    class Open3d:  # what is read of open3d's mesh, which is a large package
+        vertices, triangles = POINTS, FACES.astype(np.int32)
+    assert len(powerrtf.remesh(Open3d(), n=100).vertices) == 100
+    open3d = pytest.importorskip("open3d")
+    mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(POINTS),
+                                        open3d.utility.Vector3iVector(FACES.astype(np.int32)))
+    assert powerrtf.remesh_open3d(mesh, 100).is_watertight()
