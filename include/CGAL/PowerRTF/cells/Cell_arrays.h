@@ -30,6 +30,13 @@ struct Sites_arrays {
   int cells = 0, sites_size = 0;
 };
 
+/// The radius R with which the search for neighbors begins: of n sites, spread evenly over `area`,
+/// a ball of radius 2 R holds so many.
+inline double first_search_radius(int neighbors, double area, int n)
+{
+  return std::sqrt(neighbors * area / (4 * 3.14159265358979 * n));
+}
+
 /// One entry per cell; a null pointer: not wanted.
 template <class Real>
 struct Cell_outputs {

@@ -12,7 +12,7 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 
-#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -40,11 +40,11 @@ std::vector<Cell_polygon> cells_of_sites(const Cell_sites& in)
   arrays.cells = in.cells;
   Remeshing_options options;
   options.guard_factor = in.guard_factor;
-  const double radius =
-      std::sqrt(options.neighbors * in.area / (4 * 3.14159265358979 * double(s.size())));
+  const int size = static_cast<int>(s.size());
+  const double radius = first_search_radius(options.neighbors, in.area, size);
   Host_backend<ConcurrencyTag> backend;
-  Tree_cells<double, Host_backend<ConcurrencyTag>> tree(backend, int(s.size()), in.cos_angle,
-                                                        radius, options);
+  Tree_cells<double, Host_backend<ConcurrencyTag>> tree(backend, size, in.cos_angle, radius,
+                                                        options);
   tree.set_sites(arrays);
   std::vector<Cell_polygon> cells(in.cells);
   tree.for_each_cell([&](int i, Cell_status status, const auto& polygon, const auto&) {

@@ -5,7 +5,6 @@
 #ifndef CGAL_POWER_RTF_ENGINES_ENGINE_SAMPLES_H
 #define CGAL_POWER_RTF_ENGINES_ENGINE_SAMPLES_H
 
-#include <CGAL/PowerRTF/cells/cell_moments.h>
 #include <CGAL/PowerRTF/engines/Engine.h>
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
@@ -63,9 +62,7 @@ void Engine<R, B, C>::set_samples(const Engine_samples& samples)
 template <class R, class B, class C>
 void Engine<R, B, C>::make_builder()
 {
-  // The first neighbor search: a ball of radius 2 R that holds k samples.
-  const double radius =
-      std::sqrt(m_options.neighbors * m_area_of_surface / (4 * 3.14159265358979 * m_size));
+  const double radius = first_search_radius(m_options.neighbors, m_area_of_surface, m_size);
   m_builder.emplace(m_backend, m_size, m_cos_angle, R(radius), m_options);
 }
 
