@@ -173,7 +173,7 @@ def resident():
         return int(file.read().split()[1]) * resource.getpagesize()
 
 
-BATCH = 100
+BATCH = 300
 
 
 def leaked_bytes():
