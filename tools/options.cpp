@@ -98,6 +98,8 @@ public:
     });
     group("Files").add_options()("report", text("FILE.json"),
                                  "write what was done and what the result is worth")(
+        "html", text("FILE.html"),
+        "write a page that shows input and output, for any browser; it needs no network")(
         "cells", text("FILE"),
         "write the polygons F_i with weight, mass, density, status (PLY, VTP)")(
         "samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")(
@@ -280,8 +282,9 @@ void set_files(const po::variables_map& values, Program_options& o)
   std::vector<std::pair<std::string, std::string>> written;
   if (o.write_mesh) written.emplace_back("OUTPUT", o.output);
   for (const auto& [option, file] :
-       {std::pair{"report", &o.report_file}, std::pair{"cells", &o.cells_file},
-        std::pair{"samples-out", &o.samples_file}, std::pair{"fields", &o.fields_file}}) {
+       {std::pair{"report", &o.report_file}, std::pair{"html", &o.html_file},
+        std::pair{"cells", &o.cells_file}, std::pair{"samples-out", &o.samples_file},
+        std::pair{"fields", &o.fields_file}}) {
     if (!values.count(option)) continue;
     *file = values[option].as<std::string>();
     written.emplace_back("--" + std::string(option), *file);
@@ -289,6 +292,8 @@ void set_files(const po::variables_map& values, Program_options& o)
   if (written.empty())
     throw Usage_error(
         "--no-mesh leaves nothing to write: give --samples-out, --cells, --fields or --report");
+  if (!o.html_file.empty() && !o.write_mesh)
+    throw Usage_error("--html: there is no mesh to show with --no-mesh");
   if (!o.fields_file.empty() && o.remeshing.sampling != Sampling::lattice)
     throw Usage_error("--fields: only the samples of --sampling lattice begin as a lattice");
   for (std::size_t i = 0; i < written.size(); ++i) {

@@ -5,6 +5,7 @@
 #include "Progress.h"
 #include "cells_io.h"
 #include "fields_io.h"
+#include "html_page.h"
 #include "mesh_io.h"
 #include "output_file.h"
 #include "traits.h"
@@ -20,6 +21,7 @@
 #include <limits>
 #include <list>
 #include <optional>
+#include <sstream>
 
 namespace tools {
 namespace {
@@ -39,8 +41,8 @@ void check_outputs(const Program_options& o)
       throw Output_error(file + ": cannot be written: its name does not end in .ply or .vtp");
   if (!o.fields_file.empty() && format_of(o.fields_file) != Format::vtp)
     throw Output_error(o.fields_file + ": cannot be written: its name does not end in .vtp");
-  for (const std::string& file :
-       {o.write_mesh ? o.output : "", o.cells_file, o.samples_file, o.fields_file, o.report_file})
+  for (const std::string& file : {o.write_mesh ? o.output : "", o.cells_file, o.samples_file,
+                                  o.fields_file, o.report_file, o.html_file})
     if (!file.empty()) check_writable(file);
 }
 
@@ -191,10 +193,15 @@ Extracted_mesh make_mesh(Remesher& remesher, Run& run)
 
 /// Writes all files but the report.
 template <class Remesher>
-void write_results(Remesher& remesher, Extracted_mesh& mesh, const Program_options& options,
-                   Outputs& outputs)
+void write_results(Remesher& remesher, Extracted_mesh& mesh, const Run& run, Outputs& outputs)
 {
+  const Program_options& options = run.options;
   const Normalization& normalization = remesher.surface().normalization;
+  outputs.add(options.html_file, [&](std::ostream& out) {
+    std::ostringstream report;
+    write_json(report, run);
+    write_html(out, remesher.surface(), mesh, report.str());
+  });
   for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
   if (options.write_mesh)
     outputs.add(options.output, [&](std::ostream& out) {
@@ -225,8 +232,9 @@ void make_results(Run& run, Surface surface, Outputs& outputs)
       options, [&] { return Remesher(std::move(surface), options.remeshing, run.report); });
   Extracted_mesh mesh = make_mesh(remesher, run);
   run.report = remesher.report();
+  if (options.write_mesh) run.missed = run.report.missed_guarantees();
   const Stage stage("write", run.report.seconds.write);
-  write_results(remesher, mesh, options, outputs);
+  write_results(remesher, mesh, run, outputs);
 }
 
 /// Sets the number of samples to what a sphere would need for the distance asked for.
@@ -285,7 +293,6 @@ Run remesh_file(const Program_options& options, int threads)
   if (writes_floats(options)) run.options.remeshing.coordinates = Coordinates::single_precision;
   std::optional<Outputs> outputs;
   make_results(run, outputs);
-  if (options.write_mesh) run.missed = run.report.missed_guarantees();
   outputs->add(options.report_file, [&](std::ostream& out) { write_json(out, run); });
   stop_if_interrupted();
   outputs->commit();

@@ -9,6 +9,7 @@ import numpy as np
 from . import _core
 from ._cells import Cells
 from ._input import to_host
+from ._page import Page, html_page
 
 
 class MissedGuaranteeWarning(UserWarning):
@@ -63,11 +64,12 @@ class Mesh:
     (100, 166, 1)
     """
 
-    def __init__(self, vertices, faces, report, sites):
+    def __init__(self, vertices, faces, report, sites, given):
         self.vertices = vertices
         self.faces = faces
         self.report = report
         self._sites = sites
+        self._given = given
 
     def __iter__(self):
         return iter((self.vertices, self.faces))
@@ -92,6 +94,10 @@ class Mesh:
         (3, True)
         """
         return Cells(_core.cells(self._sites))
+
+    def show(self, height=900):
+        """The page of :func:`report_html` in a notebook, where it is the cell's value."""
+        return Page(html_page(self), height)
 
     def _arrays(self):
         return to_host(self.vertices, "vertices"), to_host(self.faces, "faces")

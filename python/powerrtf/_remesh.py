@@ -13,10 +13,9 @@ from . import _core
 from ._core import InvalidInputError
 from ._input import face_arrays, index_array, like, real_array, unpack_mesh
 from ._mesh import Mesh, MissedGuaranteeWarning, Report
+from ._page import RESOLUTIONS
 
 _FULL_NAMES = {"n": "number_of_samples", "seed": "random_seed"}
-_RESOLUTIONS = ("edge_length", "relative_edge_length", "max_distance", "relative_max_distance",
-                "vertex_share")
 _TRAITS = ("auto", "cpu", "exact", "cuda")
 
 
@@ -32,9 +31,9 @@ def _bar():
 
 
 def _run(vertices, faces, n, density, constrained_edges, traits, threads, progress, options):
-    resolutions = [name for name in _RESOLUTIONS if options.get(name)]
+    resolutions = [name for name in RESOLUTIONS if options.get(name)]
     if (n is not None) + len(resolutions) != 1:
-        raise InvalidInputError(f"one of n, {', '.join(_RESOLUTIONS)} must be given, not "
+        raise InvalidInputError(f"one of n, {', '.join(RESOLUTIONS)} must be given, not "
                                 f"{(n is not None) + len(resolutions)} of them")
     if traits not in _TRAITS:
         raise InvalidInputError(f"traits is {traits!r}, but must be one of {'|'.join(_TRAITS)}")
@@ -56,13 +55,13 @@ def _run(vertices, faces, n, density, constrained_edges, traits, threads, progre
     if constrained_edges is not None:
         constrained_edges = index_array(constrained_edges, "constrained_edges", (2,))
     corners, sizes = faces
+    given = (vertices, corners, sizes, densities, constrained_edges, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
-        points, triangles, report, sites = _core.remesh(
-            vertices, corners, sizes, densities, constrained_edges, options, traits, threads, show)
+        points, triangles, report, sites = _core.remesh(*given, traits, threads, show)
     finally:
         close()
-    return Mesh(points, triangles, Report(json.loads(report)), sites)
+    return Mesh(points, triangles, Report(json.loads(report)), sites, given)
 
 
 def _warn(mesh):

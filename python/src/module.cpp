@@ -8,6 +8,7 @@
 #include "cells.h"
 #include "options.h"
 
+#include "html_page.h"
 #include "mesh_io.h"
 #include "option_names.h"
 #include "output_file.h"
@@ -42,6 +43,24 @@ struct Input {
   std::optional<std::vector<Edge>> creases;
   std::optional<std::vector<double>> densities;
 };
+
+Input input_of(const Real_array& points, const Index_array& faces,
+               const std::optional<Index_array>& sizes, const std::optional<Real_array>& density,
+               const std::optional<Index_array>& constrained_edges)
+{
+  Input input;
+  input.soup = soup_of_arrays(points, faces, sizes);
+  if (constrained_edges) input.creases = edges_of_array(*constrained_edges, input.soup);
+  if (density) input.densities = numbers_of_array(*density);
+  return input;
+}
+
+std::vector<Triangle> triangles_of(const Polygon_soup& soup)
+{
+  std::vector<Triangle> triangles(soup.corners.size() / 3);
+  for (std::size_t i = 0; i < soup.corners.size(); ++i) triangles[i / 3][i % 3] = soup.corners[i];
+  return triangles;
+}
 
 struct Result {
   Extracted_mesh mesh;
@@ -125,10 +144,7 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   Result result;
   {
     const nb::gil_scoped_release release;
-    Input input;
-    input.soup = soup_of_arrays(points, faces, sizes);
-    if (constrained_edges) input.creases = edges_of_array(*constrained_edges, input.soup);
-    if (density) input.densities = numbers_of_array(*density);
+    Input input = input_of(points, faces, sizes, density, constrained_edges);
     result = remesh_with_traits(run, input, visitor);
   }
   visitor.rethrow();
@@ -138,6 +154,32 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
                                   : to_array<double>(std::move(result.mesh.points));
   return nb::make_tuple(vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
                         to_python(std::move(result.sites)));
+}
+
+/// The page of a run, of what went in and what came out.
+nb::bytes html_page(const Real_array& points, const Index_array& faces,
+                    const std::optional<Index_array>& sizes,
+                    const std::optional<Real_array>& density,
+                    const std::optional<Index_array>& constrained_edges, const nb::dict& options,
+                    const Real_array& vertices, const Index_array& triangles,
+                    const std::string& report)
+{
+  const Remeshing_options remeshing = options_of(options);
+  std::ostringstream page;
+  {
+    const nb::gil_scoped_release release;
+    Input input = input_of(points, faces, sizes, density, constrained_edges);
+    Remeshing_report repairs;
+    const Surface surface = prepare_surface(std::move(input.soup), input.creases, input.densities,
+                                            remeshing, repairs, tools::Concurrency());
+    Extracted_mesh mesh;
+    mesh.points = points_of_array(vertices);
+    for (Vec3d& p : mesh.points) p = surface.normalization.to_inside(p);
+    mesh.triangles = triangles_of(soup_of_arrays(vertices, triangles, {}));
+    tools::write_html(page, surface, mesh, report);
+  }
+  const std::string text = page.str();
+  return nb::bytes(text.data(), text.size());
 }
 
 nb::tuple read_mesh(const std::string& file)
@@ -172,11 +214,9 @@ void write_mesh(const std::string& file, const Real_array& points, const Index_a
                 bool ascii)
 {
   const Polygon_soup soup = soup_of_arrays(points, faces, {});
-  std::vector<Triangle> triangles(soup.corners.size() / 3);
-  for (std::size_t i = 0; i < soup.corners.size(); ++i) triangles[i / 3][i % 3] = soup.corners[i];
   tools::Output_file output(file);
   tools::write_mesh(output.stream(), tools::format_of(file), encoding_of(ascii), soup.points,
-                    triangles);
+                    triangles_of(soup));
   output.close();
   output.commit();
 }
@@ -201,6 +241,8 @@ NB_MODULE(_core, m)
   m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "density"_a.none(),
         "constrained_edges"_a.none(), "options"_a, "traits"_a, "threads"_a, "progress"_a.none());
   m.def("cells", &cells<tools::Concurrency>, "sites"_a);
+  m.def("html_page", &html_page, "points"_a, "faces"_a, "sizes"_a.none(), "density"_a.none(),
+        "constrained_edges"_a.none(), "options"_a, "vertices"_a, "triangles"_a, "report"_a);
   m.def("read_mesh", &read_mesh, "file"_a);
   m.def("check_output", &check_output, "file"_a);
   m.def("holds_floats", [](const std::string& file, bool ascii) {
