@@ -26,8 +26,10 @@ in vec3 weights;
 in vec3 hue;
 uniform float lines;
 uniform float mark;
+uniform float front;
 out vec4 pixel;
 void main() {
+  if (eye.z > front) discard;
   vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
   vec3 width = fwidth(weights), pixels = weights / width;
   float near = min(pixels.x, min(pixels.y, pixels.z));
@@ -45,7 +47,7 @@ class View {
     if (!this.gl) throw new Error("no WebGL 2");
     this.program = this.link();
     this.uniforms = {};
-    for (const name of ["turn", "target", "zoom", "lines", "mark"])
+    for (const name of ["turn", "target", "zoom", "lines", "mark", "front"])
       this.uniforms[name] = this.gl.getUniformLocation(this.program, name);
     this.meshes = meshes.map(mesh => this.upload(mesh.corners));
     this.lines = 1;
@@ -99,10 +101,12 @@ class View {
     this.zoom = .95 / this.radius;
     this.turn = multiply(rotation(0, .3), rotation(1, -.5));
     this.marked = -1;
+    this.front = 1e9;
     this.draw();
   }
 
-  /// Triangle `f` of the second mesh in the middle, seen from outside. `p`: its corners.
+  /// Triangle `f` of the second mesh in the middle, seen from outside, without what is in front of it.
+  /// [a, b, c]: its corners.
   show(f, [a, b, c]) {
     const minus = (p, q) => p.map((x, i) => x - q[i]);
     const u = unit(minus(b, a)), n = unit(cross(u, minus(c, a))), v = cross(n, u);
@@ -110,6 +114,7 @@ class View {
     this.target = a.map((x, i) => (x + b[i] + c[i]) / 3);
     this.zoom = .35 / Math.max(...[minus(b, a), minus(c, a), minus(c, b)].map(length));
     this.marked = f;
+    this.front = .5 / this.zoom;
     this.draw();
   }
 
@@ -134,6 +139,7 @@ class View {
     gl.uniform3fv(this.uniforms.target, this.target);
     gl.uniform2f(this.uniforms.zoom, this.zoom * least / width, this.zoom * least / height);
     gl.uniform1f(this.uniforms.lines, this.lines);
+    gl.uniform1f(this.uniforms.front, this.front);
     this.meshes.forEach((mesh, k) => {
       gl.viewport(k * (canvas.width - width), 0, width, height);
       gl.bindVertexArray(mesh.array);
