@@ -29,6 +29,7 @@ Json to_json(const Stage_seconds& s)
           {"extraction", s.extraction},
           {"improvement", s.improvement},
           {"quality", s.quality},
+          {"transfer", s.transfer},
           {"write", s.write},
           {"total", s.total}};
 }

@@ -7,11 +7,11 @@
 #define CGAL_POWER_RTF_REMESHING_H
 
 #include <CGAL/PowerRTF/Resolution.h>
-#include <CGAL/PowerRTF/extraction/export_mesh.h>
 #include <CGAL/PowerRTF/named_parameters.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
+#include <CGAL/PowerRTF/transfer/export_with_sources.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -185,6 +185,29 @@ struct Run_types {
  *                    type that is constructible from three coordinates as value type}
  *     \cgalParamDefault{`boost::get(CGAL::vertex_point, output)`}
  *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{PowerRTF::parameters::vertex_source_map}
+ *     \cgalParamDescription{a property map that gets where the vertices of `output` come from: the
+ *                           nearest place of `input`, on which they lie but for the improvement,
+ *                           which moves them a little off it. With it
+ *                           `PowerRTF::transfer_vertex_values()` interpolates any values of the
+ *                           vertices of `input`.}
+ *     \cgalParamType{a class model of `WritablePropertyMap` with
+ *                    `boost::graph_traits<OutputMesh>::%vertex_descriptor` as key type and
+ *                    `PowerRTF::Mesh_source<InputMesh>` as value type}
+ *     \cgalParamDefault{none: nothing is looked for}
+ *     \cgalParamExtra{If `output` is the same object as `input`, the sources have the descriptors
+ *                     of elements that are no more.}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{PowerRTF::parameters::face_source_map}
+ *     \cgalParamDescription{the same for the centers of the faces of `output`, for
+ *                           `PowerRTF::transfer_face_values()`}
+ *     \cgalParamType{a class model of `WritablePropertyMap` with
+ *                    `boost::graph_traits<OutputMesh>::%face_descriptor` as key type and
+ *                    `PowerRTF::Mesh_source<InputMesh>` as value type}
+ *     \cgalParamDefault{none: nothing is looked for}
+ *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
  * \returns what was done and what the result is worth. `missed_guarantees()` is empty when the
@@ -207,7 +230,10 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
                     const NamedParametersIn& np_in = parameters::default_values(),
                     const NamedParametersOut& np_out = parameters::default_values())
 {
-  static_assert(!PowerRTF::internal::has_own_parameter<NamedParametersOut>(),
+  static_assert(!PowerRTF::internal::has_output_parameter<NamedParametersIn>(),
+                "vertex_source_map and face_source_map belong into the second chain of named "
+                "parameters");
+  static_assert(!PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
                 "density_map, remeshing_options and repair belong into the first chain of named "
                 "parameters; one that began in CGAL::parameters takes them by "
                 "PowerRTF::parameters::combine(chain, density_map(map))");
@@ -237,8 +263,8 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
     if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
     report = remesher.report();
     if (report.cancelled) return;
-    const PowerRTF::internal::Stage write("write", report.seconds.write);
-    PowerRTF::export_mesh(mesh, remesher.surface().normalization, output, np_out);
+    PowerRTF::internal::export_with_sources(input, np_in, mesh, remesher.surface().normalization,
+                                            output, np_out, report, ConcurrencyTag());
   };
   if (!PowerRTF::internal::run_unless_cancelled(visitor, run)) report.cancelled = true;
   return report;

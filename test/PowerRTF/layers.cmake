@@ -5,7 +5,7 @@
 # folder further down. (`-DINCLUDE=folder` with CGAL/PowerRTF)
 cmake_minimum_required(VERSION 3.22)
 set(layers internal geometry input fields features sampling cells optimization engines extraction
-           improvement exact quality)
+           improvement exact quality transfer)
 
 set(faults "")
 foreach(layer IN LISTS layers)

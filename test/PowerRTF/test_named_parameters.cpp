@@ -168,9 +168,9 @@ TEST_CASE("the last of several values counts; what is not given is not found")
   CHECK(has<internal::density_map_t, decltype(chain)>());
   CHECK_FALSE(has<internal::repair_t, decltype(chain)>());
   CHECK_FALSE(has<CGAL::internal_np::visitor_t, decltype(chain)>());
-  CHECK(internal::has_own_parameter<decltype(chain)>());
-  CHECK_FALSE(internal::has_own_parameter<decltype(params::random_seed(1))>());
-  CHECK_FALSE(internal::has_own_parameter<decltype(params::default_values())>());
+  CHECK(internal::has_input_parameter<decltype(chain)>());
+  CHECK_FALSE(internal::has_input_parameter<decltype(params::random_seed(1))>());
+  CHECK_FALSE(internal::has_input_parameter<decltype(params::default_values())>());
 }
 
 TEST_CASE("references stay references")

@@ -15,8 +15,8 @@ calls come from the thread that started the run.
 */
 class PowerRTFVisitor {
 public:
-  /// A stage begins: "surface", "sampling", "optimization", "extraction", "improvement", "quality"
-  /// or "write".
+  /// A stage begins: "surface", "sampling", "optimization", "extraction", "improvement", "quality",
+  /// "transfer" (where sources are asked for) or "write".
   void on_stage(const char* name);
 
   /// So much of the stage is done: `done` is 0 at its beginning and 1 at its end, unless the stage

@@ -83,7 +83,7 @@ struct Repair_counts {
 /// Times of the stages.
 struct Stage_seconds {
   double load = 0, surface = 0, sampling = 0, optimization = 0, extraction = 0, improvement = 0,
-         quality = 0, write = 0, total = 0;
+         quality = 0, transfer = 0, write = 0, total = 0;
 };
 
 /// What ran the optimization, when it was no CPU.

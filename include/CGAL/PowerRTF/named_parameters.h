@@ -20,6 +20,8 @@ namespace internal {
 enum density_map_t { density_map };
 enum remeshing_options_t { remeshing_options };
 enum repair_t { repair };
+enum vertex_source_map_t { vertex_source_map };
+enum face_source_map_t { face_source_map };
 
 /// A chain of named parameters that goes on with our own and with those of CGAL's that we take.
 template <class T, class Tag, class Base = internal_np::No_property>
@@ -43,6 +45,16 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
     return with<remeshing_options_t>(options);
   }
   auto repair(bool wanted) const { return with<repair_t>(wanted ? Repair::yes : Repair::no); }
+  template <class Map>
+  auto vertex_source_map(const Map& map) const
+  {
+    return with<vertex_source_map_t>(map);
+  }
+  template <class Map>
+  auto face_source_map(const Map& map) const
+  {
+    return with<face_source_map_t>(map);
+  }
 
   template <class Map>
   auto vertex_point_map(const Map& map) const
@@ -75,16 +87,30 @@ Named_parameters<Value, Tag> named_parameter(const Value& value)
   return {value};
 }
 
-/// Whether a chain has one of our own parameters.
-template <class NamedParameters>
-constexpr bool has_own_parameter()
+/// Whether a chain has a parameter.
+template <class NamedParameters, class Tag>
+constexpr bool has_parameter()
 {
   using Base = typename NamedParameters::base;
-  const auto has = [](auto tag) {
-    return !std::is_same<typename internal_np::Get_param<Base, decltype(tag)>::type,
-                         internal_np::Param_not_found>::value;
-  };
-  return has(density_map_t()) || has(remeshing_options_t()) || has(repair_t());
+  return !std::is_same<typename internal_np::Get_param<Base, Tag>::type,
+                       internal_np::Param_not_found>::value;
+}
+
+/// Whether a chain has one of our own parameters about the input.
+template <class NamedParameters>
+constexpr bool has_input_parameter()
+{
+  return has_parameter<NamedParameters, density_map_t>() ||
+         has_parameter<NamedParameters, remeshing_options_t>() ||
+         has_parameter<NamedParameters, repair_t>();
+}
+
+/// Whether a chain has one of our own parameters about the output.
+template <class NamedParameters>
+constexpr bool has_output_parameter()
+{
+  return has_parameter<NamedParameters, vertex_source_map_t>() ||
+         has_parameter<NamedParameters, face_source_map_t>();
 }
 
 } // namespace internal
@@ -115,6 +141,22 @@ inline auto remeshing_options(const Remeshing_options& options)
 inline auto repair(bool wanted)
 {
   return internal::named_parameter<internal::repair_t>(wanted ? Repair::yes : Repair::no);
+}
+
+/// Gets where the vertices of the output come from: a writable property map from them to
+/// `Mesh_source` of the input.
+template <class VertexSourceMap>
+auto vertex_source_map(const VertexSourceMap& map)
+{
+  return internal::named_parameter<internal::vertex_source_map_t>(map);
+}
+
+/// Gets where the faces of the output, their centers, come from: a writable property map from them
+/// to `Mesh_source` of the input.
+template <class FaceSourceMap>
+auto face_source_map(const FaceSourceMap& map)
+{
+  return internal::named_parameter<internal::face_source_map_t>(map);
 }
 
 /// The points of the vertices, as in `CGAL::parameters`.

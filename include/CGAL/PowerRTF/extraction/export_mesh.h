@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -25,6 +26,17 @@ template <class Point>
 class Surface_mesh;
 
 namespace PowerRTF {
+
+/// What `export_mesh()` has made of points and triangles.
+template <class OutputMesh>
+struct Exported_mesh {
+  using Graph_traits = boost::graph_traits<OutputMesh>;
+
+  std::vector<typename Graph_traits::vertex_descriptor> vertices;
+  std::vector<int> points;                                   ///< of the vertices
+  std::vector<typename Graph_traits::face_descriptor> faces; ///< of the triangles
+};
+
 namespace internal {
 
 template <class Point>
@@ -50,10 +62,11 @@ void remove_all_elements(CGAL::Surface_mesh<Point>& mesh)
 }
 
 /// Adds the polygons to the empty mesh. `false`: a halfedge structure cannot hold one of them.
+/// `exported`: gets what has been added.
 template <class OutputMesh, class PointMap>
 bool add_polygons(const std::vector<Vec3d>& points,
                   const std::vector<std::array<std::size_t, 3>>& polygons, OutputMesh& output,
-                  const PointMap& point_map)
+                  const PointMap& point_map, Exported_mesh<OutputMesh>& exported)
 {
   using Point = typename boost::property_traits<PointMap>::value_type;
   using Graph = boost::graph_traits<OutputMesh>;
@@ -61,17 +74,38 @@ bool add_polygons(const std::vector<Vec3d>& points,
   std::vector<char> is_used(points.size(), 0);
   for (const auto& polygon : polygons)
     for (const std::size_t v : polygon) is_used[v] = 1;
+  exported = {};
   std::vector<Vertex> vertices(points.size(), Graph::null_vertex());
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!is_used[v]) continue;
     vertices[v] = add_vertex(output);
     put(point_map, vertices[v], from_vec3d<Point>(points[v]));
+    exported.vertices.push_back(vertices[v]);
+    exported.points.push_back(static_cast<int>(v));
   }
   for (const auto& p : polygons) {
     const std::array<Vertex, 3> corners = {vertices[p[0]], vertices[p[1]], vertices[p[2]]};
-    if (Euler::add_face(corners, output) == Graph::null_face()) return false;
+    exported.faces.push_back(Euler::add_face(corners, output));
+    if (exported.faces.back() == Graph::null_face()) return false;
   }
   return true;
+}
+
+/// Names for the vertices of copied points the points of `mesh` that they are copies of.
+/// `polygons`: the triangles of `mesh`, in their order.
+template <class OutputMesh>
+void name_originals(const Extracted_mesh& mesh, const std::vector<Vec3d>& points,
+                    const std::vector<std::array<std::size_t, 3>>& polygons,
+                    Exported_mesh<OutputMesh>& exported)
+{
+  std::vector<int> originals(points.size());
+  std::iota(originals.begin(), originals.end(), 0);
+  for (std::size_t f = 0; f < polygons.size(); ++f)
+    for (const std::size_t v : polygons[f])
+      if (v >= mesh.points.size())
+        for (const int original : mesh.triangles[f])
+          if (squared_length(points[v] - points[original]) == 0) originals[v] = original;
+  for (int& p : exported.points) p = originals[p];
 }
 
 } // namespace internal
@@ -82,12 +116,14 @@ bool add_polygons(const std::vector<Vec3d>& points,
 /// \tparam OutputMesh a model of `MutableFaceGraph`
 /// \param np may contain `vertex_point_map` (default: the output's own), whose points are
 ///   constructible from three coordinates
+/// \returns which vertices and faces these are
 ///
 /// A halfedge structure holds 2-manifolds only. Where the triangles form none (those of
 /// `extract_by_insertion()` do), vertices are duplicated and triangles turned until they do.
 template <class OutputMesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
-void export_mesh(const Extracted_mesh& mesh, const Normalization& normalization, OutputMesh& output,
-                 const NamedParameters& np = NamedParameters())
+Exported_mesh<OutputMesh> export_mesh(const Extracted_mesh& mesh,
+                                      const Normalization& normalization, OutputMesh& output,
+                                      const NamedParameters& np = NamedParameters())
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
@@ -101,11 +137,14 @@ void export_mesh(const Extracted_mesh& mesh, const Normalization& normalization,
   for (const Triangle& t : mesh.triangles)
     polygons.push_back({std::size_t(t[0]), std::size_t(t[1]), std::size_t(t[2])});
 
+  Exported_mesh<OutputMesh> exported;
   internal::remove_all_elements(output);
-  if (internal::add_polygons(points, polygons, output, point_map)) return;
+  if (internal::add_polygons(points, polygons, output, point_map, exported)) return exported;
   internal::remove_all_elements(output);
   Polygon_mesh_processing::orient_polygon_soup(points, polygons);
-  internal::add_polygons(points, polygons, output, point_map);
+  internal::add_polygons(points, polygons, output, point_map, exported);
+  internal::name_originals(mesh, points, polygons, exported);
+  return exported;
 }
 
 } // namespace PowerRTF

@@ -1,0 +1,86 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From the extracted triangles to a mesh of the user's type, with the sources that are asked for.
+#ifndef CGAL_POWER_RTF_TRANSFER_EXPORT_WITH_SOURCES_H
+#define CGAL_POWER_RTF_TRANSFER_EXPORT_WITH_SOURCES_H
+
+#include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/extraction/export_mesh.h>
+#include <CGAL/PowerRTF/input/read_mesh.h>
+#include <CGAL/PowerRTF/internal/Stage.h>
+#include <CGAL/PowerRTF/named_parameters.h>
+#include <CGAL/PowerRTF/transfer/Mesh_source.h>
+#include <CGAL/PowerRTF/transfer/find_sources.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+/// The elements of a mesh, as the sources number them.
+template <class FaceGraph>
+struct Source_elements {
+  using Graph_traits = boost::graph_traits<FaceGraph>;
+
+  explicit Source_elements(const FaceGraph& mesh)
+      : vertices(CGAL::vertices(mesh).begin(), CGAL::vertices(mesh).end()),
+        faces(CGAL::faces(mesh).begin(), CGAL::faces(mesh).end())
+  {}
+
+  Mesh_source<FaceGraph> operator()(const Source& s) const
+  {
+    const Triangle& t = s.vertices;
+    return {faces[s.face], {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, s.weights};
+  }
+
+  std::vector<typename Graph_traits::vertex_descriptor> vertices;
+  std::vector<typename Graph_traits::face_descriptor> faces;
+};
+
+/// Sets the maps `vertex_source_map` and `face_source_map`, those of them that `np` has.
+template <class FaceGraph, class OutputMesh, class NamedParameters>
+void put_sources(const Sources& sources, const Source_elements<FaceGraph>& input,
+                 const Exported_mesh<OutputMesh>& exported, const NamedParameters& np)
+{
+  if constexpr (has_parameter<NamedParameters, vertex_source_map_t>()) {
+    const auto map = CGAL::parameters::get_parameter(np, vertex_source_map_t());
+    for (std::size_t i = 0; i < exported.vertices.size(); ++i)
+      put(map, exported.vertices[i], input(sources.vertices[exported.points[i]]));
+  }
+  if constexpr (has_parameter<NamedParameters, face_source_map_t>()) {
+    const auto map = CGAL::parameters::get_parameter(np, face_source_map_t());
+    for (std::size_t f = 0; f < exported.faces.size(); ++f)
+      put(map, exported.faces[f], input(sources.faces[f]));
+  }
+}
+
+/// Exports `mesh`, the result of remeshing `input`, as `export_mesh()`, and sets the source maps
+/// that `np_out` has. `report`: of the run; gets the seconds.
+template <class InputMesh, class NamedParametersIn, class OutputMesh, class NamedParametersOut>
+void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
+                         const Extracted_mesh& mesh, const Normalization& normalization,
+                         OutputMesh& output, const NamedParametersOut& np_out,
+                         Remeshing_report& report, Concurrency concurrency)
+{
+  if constexpr (has_output_parameter<NamedParametersOut>()) {
+    const Source_elements<InputMesh> elements(input); // which may be `output`
+    Sources sources;
+    {
+      const Stage stage("transfer", report.seconds.transfer);
+      sources = find_sources(soup_of_mesh(input, np_in), normalization,
+                             report.repairs.reoriented_facets == 0, mesh.points, mesh.triangles,
+                             concurrency);
+    }
+    const Stage stage("write", report.seconds.write);
+    put_sources(sources, elements, export_mesh(mesh, normalization, output, np_out), np_out);
+  } else {
+    const Stage stage("write", report.seconds.write);
+    export_mesh(mesh, normalization, output, np_out);
+  }
+}
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_TRANSFER_EXPORT_WITH_SOURCES_H
