@@ -5,6 +5,8 @@
 #ifndef POWER_RTF_TOOLS_POLYGON_MESH_H
 #define POWER_RTF_TOOLS_POLYGON_MESH_H
 
+#include "Mesh_property.h"
+
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
 
 #include <limits>
@@ -15,7 +17,8 @@ namespace tools {
 
 struct Polygon_mesh {
   CGAL::PowerRTF::Polygon_soup soup;
-  std::set<std::string> attributes; ///< what else the file had, in words: "normals"
+  Mesh_properties properties;
+  std::set<std::string> attributes; ///< what else the file had, in words: "texture coordinates"
 };
 
 /// A number of a file as a corner of a polygon; -1, which no point has, if it is too large.

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <ostream>
 #include <string_view>
+#include <type_traits>
 
 namespace tools {
 namespace {
@@ -62,21 +63,30 @@ class Binary_rows {
 public:
   explicit Binary_rows(Streamed_text& text) : m_text(text) {}
 
-  void add(std::uint8_t x) { add_bytes(x, 1); }
-  void add(int x) { add_bytes(static_cast<std::uint32_t>(x), 4); }
-  void add(double x)
+  template <class Number>
+  void add(Number x)
   {
-    std::uint64_t bits;
-    static_assert(sizeof(bits) == sizeof(x));
-    std::memcpy(&bits, &x, sizeof(x));
-    add_bytes(bits, 8);
+    if constexpr (std::is_integral<Number>::value)
+      add_bytes<sizeof(x)>(static_cast<std::uint64_t>(x));
+    else
+      add_bytes<sizeof(x)>(
+          bits_of<std::conditional_t<sizeof(x) == 4, std::uint32_t, std::uint64_t>>(x));
   }
   void end_row() {}
 
 private:
-  void add_bytes(std::uint64_t bits, std::size_t count)
+  template <class Bits, class Number>
+  static Bits bits_of(Number x)
   {
-    char bytes[8];
+    Bits bits;
+    static_assert(sizeof(bits) == sizeof(x));
+    std::memcpy(&bits, &x, sizeof(x));
+    return bits;
+  }
+  template <std::size_t count>
+  void add_bytes(std::uint64_t bits)
+  {
+    char bytes[count];
     for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<char>(bits >> 8 * i);
     m_text << std::string_view(bytes, count);
   }
@@ -86,15 +96,22 @@ private:
 
 void ply_properties(Streamed_text& text, const std::vector<Field>& fields)
 {
+  constexpr const char* names[] = {"char", "uchar", "short", "ushort",
+                                   "int",  "uint",  "float", "double"};
   for (const Field& f : fields)
-    text << "property " << (f.integers.empty() ? "double " : "int ") << f.name << "\n";
+    text << "property " << (f.integers.empty() ? names[static_cast<int>(f.type)] : "int") << " "
+         << f.name << "\n";
 }
 
 template <class Rows>
 void ply_fields(Rows& rows, const std::vector<Field>& fields, std::size_t i)
 {
-  for (const Field& f : fields)
-    f.integers.empty() ? rows.add(f.values[i]) : rows.add(f.integers[i]);
+  for (const Field& f : fields) {
+    if (f.integers.empty())
+      visit_as(f.type, f.values[i], [&](auto x) { rows.add(x); });
+    else
+      rows.add(f.integers[i]);
+  }
 }
 
 /// Whether a byte holds the number of vertices of every polygon.
@@ -149,6 +166,15 @@ void vtp_array_begin(Streamed_text& text, const char* type, const std::string& n
        << components << "\" format=\"ascii\">\n";
 }
 
+/// A name of the user's as XML has it in an attribute.
+std::string escaped(const std::string& name)
+{
+  std::string text;
+  for (const char c : name)
+    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return text;
+}
+
 void vtp_array_end(Streamed_text& text) { text << "</DataArray>\n"; }
 
 void vtp_vectors(Streamed_text& text, const std::string& name, const std::vector<Vec3d>& vectors)
@@ -160,13 +186,16 @@ void vtp_vectors(Streamed_text& text, const std::string& name, const std::vector
 
 void vtp_fields(Streamed_text& text, const std::vector<Field>& fields)
 {
+  constexpr const char* names[] = {"Int8",  "UInt8",  "Int16",   "UInt16",
+                                   "Int32", "UInt32", "Float32", "Float64"};
   for (const Field& f : fields) {
     if (!f.vectors.empty()) {
       vtp_vectors(text, f.name, f.vectors);
       continue;
     }
-    vtp_array_begin(text, f.integers.empty() ? "Float64" : "Int32", f.name);
-    for (const double x : f.values) text << x << "\n";
+    vtp_array_begin(text, f.integers.empty() ? names[static_cast<int>(f.type)] : "Int32",
+                    escaped(f.name));
+    for (const double x : f.values) visit_as(f.type, x, [&](auto y) { text << y << "\n"; });
     for (const int x : f.integers) text << x << "\n";
     vtp_array_end(text);
   }
@@ -190,6 +219,13 @@ void vtp_cells(Streamed_text& text, const char* section, const std::vector<std::
 }
 
 } // namespace
+
+std::vector<Field> fields_of(const std::vector<Mesh_property>& properties)
+{
+  std::vector<Field> fields;
+  for (const Mesh_property& p : properties) fields.push_back({p.name, p.values, {}, {}, p.type});
+  return fields;
+}
 
 void write_ply(std::ostream& out, const Dataset& data, Encoding encoding)
 {

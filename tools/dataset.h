@@ -7,6 +7,7 @@
 #define POWER_RTF_TOOLS_DATASET_H
 
 #include "Format.h"
+#include "Mesh_property.h"
 
 #include <CGAL/PowerRTF/geometry/vector.h>
 
@@ -23,6 +24,7 @@ struct Field {
   std::vector<double> values;
   std::vector<int> integers;
   std::vector<CGAL::PowerRTF::Vec3d> vectors = {}; ///< VTP only
+  Number_type type = Number_type::float64;         ///< that `values` are rounded to
 };
 
 struct Dataset {
@@ -33,6 +35,9 @@ struct Dataset {
   std::vector<Field> point_fields;
   std::vector<Field> cell_fields; ///< of the dots, the lines and the polygons, in this order
 };
+
+/// The same as fields.
+std::vector<Field> fields_of(const std::vector<Mesh_property>& properties);
 
 /// Text has as many digits as are needed to read back the same doubles.
 void write_ply(std::ostream& out, const Dataset& data, Encoding encoding);

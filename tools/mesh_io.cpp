@@ -145,16 +145,19 @@ Polygon_mesh parse_mesh(Format format, std::string_view data)
 }
 
 void write_mesh(std::ostream& out, Format format, Encoding encoding,
-                const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
+                const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
+                const Mesh_properties& properties)
 {
   if (format == Format::ply || format == Format::vtp) {
     Dataset data;
     data.points = points;
+    data.point_fields = fields_of(properties.vertices);
+    data.cell_fields = fields_of(properties.faces);
     for (const Triangle& t : triangles) data.polygons.emplace_back(t.begin(), t.end());
     return format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
   }
   if (format == Format::off) return write_off(out, points, triangles);
-  if (format == Format::obj) return write_obj(out, points, triangles);
+  if (format == Format::obj) return write_obj(out, points, triangles, properties.vertices);
   std::vector<Point> copies;
   copies.reserve(points.size());
   for (const Vec3d& p : points) copies.emplace_back(p.x, p.y, p.z);

@@ -28,11 +28,13 @@ Polygon_mesh read_mesh(const std::string& file);
 Polygon_mesh parse_mesh(Format format, std::string_view data);
 
 /// Writes triangles as any of the formats; `encoding` is that of PLY and STL. The coordinates read
-/// back the same, except for binary STL, which is in single precision.
+/// back the same, except for binary STL, which is in single precision. Of the properties those are
+/// written that `held_by()` names.
 /// \throws Output_error a coordinate is too large for single precision
 void write_mesh(std::ostream& out, Format format, Encoding encoding,
                 const std::vector<CGAL::PowerRTF::Vec3d>& points,
-                const std::vector<CGAL::PowerRTF::Triangle>& triangles);
+                const std::vector<CGAL::PowerRTF::Triangle>& triangles,
+                const Mesh_properties& properties = {});
 
 } // namespace tools
 

@@ -105,7 +105,10 @@ public:
         "samples-out", text("FILE"), "write the samples with normals, weights, density (PLY, VTP)")(
         "fields", text("FILE"),
         "write the lattice that the samples begin as: its points, the directions of its rows, and "
-        "where they do not fit (VTP)")("ascii", "write PLY and STL as text, not as binary data")(
+        "where they do not fit (VTP)")(
+        "provenance", text("FILE"),
+        "write the mesh with the places of the input that its vertices and faces come from (PLY, "
+        "VTP)")("ascii", "write PLY and STL as text, not as binary data")(
         "no-mesh", "stop at the samples: OUTPUT is not needed and not written")(
         "batch",
         "remesh many files: INPUT is a folder, or a text file with the name of one in each "
@@ -262,7 +265,7 @@ void set_batch(const po::variables_map& values, Program_options& o)
       reject("format", o.format, "one of off|obj|ply|stl|vtp");
   }
   if (!o.is_batch) return;
-  for (const char* other : {"cells", "samples-out", "fields", "no-mesh"})
+  for (const char* other : {"cells", "samples-out", "fields", "provenance", "no-mesh"})
     if (values.count(other))
       throw Usage_error("--batch writes meshes and a report: not with --" + std::string(other));
 }
@@ -284,7 +287,7 @@ void set_files(const po::variables_map& values, Program_options& o)
   for (const auto& [option, file] :
        {std::pair{"report", &o.report_file}, std::pair{"html", &o.html_file},
         std::pair{"cells", &o.cells_file}, std::pair{"samples-out", &o.samples_file},
-        std::pair{"fields", &o.fields_file}}) {
+        std::pair{"fields", &o.fields_file}, std::pair{"provenance", &o.provenance_file}}) {
     if (!values.count(option)) continue;
     *file = values[option].as<std::string>();
     written.emplace_back("--" + std::string(option), *file);
@@ -294,6 +297,8 @@ void set_files(const po::variables_map& values, Program_options& o)
         "--no-mesh leaves nothing to write: give --samples-out, --cells, --fields or --report");
   if (!o.html_file.empty() && !o.write_mesh)
     throw Usage_error("--html: there is no mesh to show with --no-mesh");
+  if (!o.provenance_file.empty() && !o.write_mesh)
+    throw Usage_error("--provenance: with --no-mesh there is none");
   if (!o.fields_file.empty() && o.remeshing.sampling != Sampling::lattice)
     throw Usage_error("--fields: only the samples of --sampling lattice begin as a lattice");
   for (std::size_t i = 0; i < written.size(); ++i) {

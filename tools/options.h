@@ -22,8 +22,8 @@ public:
 
 struct Program_options {
   std::string input, output;
-  std::string report_file, html_file, cells_file, samples_file,
-      fields_file; ///< empty: not asked for
+  std::string report_file, html_file, cells_file, samples_file, fields_file,
+      provenance_file; ///< empty: not asked for
   CGAL::PowerRTF::Remeshing_options remeshing;
   std::string traits;  ///< "cpu", "exact", "cuda", or "auto": the faster of "cpu" and "cuda"
   bool check = false;  ///< compare the cells with the exact ones at the end

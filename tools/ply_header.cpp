@@ -2,23 +2,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ply_header.h"
 
+#include <algorithm>
 #include <iterator>
-#include <map>
 
 namespace tools::ply {
 namespace {
 
 using CGAL::PowerRTF::Invalid_input_error;
 
-bool is_real(Type type) { return type == Type::float32 || type == Type::float64; }
-
 Role role_of(const Element& element, const Property& property)
 {
   const std::string& name = property.name;
   if (element.is_face() && property.length && (name == "vertex_indices" || name == "vertex_index"))
     return Role::corners;
-  if (!element.is_vertex() || property.length) return Role::none;
-  return name == "x" ? Role::x : name == "y" ? Role::y : name == "z" ? Role::z : Role::none;
+  if (property.length || (!element.is_vertex() && !element.is_face())) return Role::none;
+  if (element.is_vertex() && name == "x") return Role::x;
+  if (element.is_vertex() && name == "y") return Role::y;
+  if (element.is_vertex() && name == "z") return Role::z;
+  return Role::value;
 }
 
 /// Reads the header; the tokenizer stays at its last token.
@@ -42,6 +43,7 @@ public:
         m_tokens.reject("is not known in the header of a PLY file");
     }
     check();
+    drop_values();
     return std::move(m_header);
   }
 
@@ -108,7 +110,8 @@ private:
     property.type = type();
     property.name = next("the property's name");
     property.role = role_of(element, property);
-    if (property.role != Role::none && element.has(property.role)) m_tokens.reject("occurs twice");
+    if (property.role >= Role::corners && element.has(property.role))
+      m_tokens.reject("occurs twice");
     if (property.role == Role::corners && is_real(property.type))
       m_tokens.reject("is no list of whole numbers");
     element.properties.push_back(std::move(property));
@@ -129,6 +132,27 @@ private:
     if (facets == 0) throw Invalid_input_error("it has no facets");
   }
 
+  /// Takes the role from values that vertices or facets do not all have, or have twice, and from
+  /// texture coordinates: where they jump, linear interpolation is wrong.
+  void drop_values()
+  {
+    const auto is_alone = [this](const Element& element) {
+      return std::none_of(m_header.elements.begin(), m_header.elements.end(),
+                          [&](const Element& e) {
+                            return &e != &element && e.count > 0 &&
+                                   (element.is_vertex() ? e.is_vertex() : e.is_face());
+                          });
+    };
+    for (Element& element : m_header.elements) {
+      std::set<std::string> names;
+      for (Property& p : element.properties)
+        if (p.role == Role::value &&
+            (!is_alone(element) || !names.insert(p.name).second ||
+             in_words(p.name, element.is_vertex()) == "texture coordinates"))
+          p.role = Role::none;
+    }
+  }
+
   Tokenizer& m_tokens;
   Header m_header;
 };
@@ -139,21 +163,6 @@ Header read_header(Tokenizer& tokens) { return Header_reader(tokens).read(); }
 
 std::set<std::string> attributes(const Header& header)
 {
-  static const std::map<std::string, const char*> meanings = {{"nx", "normals"},
-                                                              {"ny", "normals"},
-                                                              {"nz", "normals"},
-                                                              {"red", "colors"},
-                                                              {"green", "colors"},
-                                                              {"blue", "colors"},
-                                                              {"alpha", "colors"},
-                                                              {"s", "texture coordinates"},
-                                                              {"t", "texture coordinates"},
-                                                              {"u", "texture coordinates"},
-                                                              {"v", "texture coordinates"},
-                                                              {"texture_u", "texture coordinates"},
-                                                              {"texture_v", "texture coordinates"},
-                                                              {"texcoord", "texture coordinates"},
-                                                              {"texnumber", "texture coordinates"}};
   std::set<std::string> found;
   for (const Element& e : header.elements) {
     if (e.count == 0 || e.properties.empty()) continue;
@@ -163,11 +172,7 @@ std::set<std::string> attributes(const Header& header)
     }
     for (const Property& p : e.properties) {
       if (p.role != Role::none) continue;
-      const auto known = meanings.find(p.name);
-      found.insert(known != meanings.end()
-                       ? known->second
-                       : (e.is_vertex() ? "vertex property " : "facet property ") +
-                             printable(p.name));
+      found.insert(in_words(p.name, e.is_vertex()));
     }
   }
   return found;

@@ -5,6 +5,7 @@
 #ifndef POWER_RTF_TOOLS_PLY_HEADER_H
 #define POWER_RTF_TOOLS_PLY_HEADER_H
 
+#include "Mesh_property.h"
 #include "Tokenizer.h"
 
 #include <optional>
@@ -15,9 +16,9 @@
 namespace tools::ply {
 
 enum class Body { text, little_endian, big_endian };
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using Type = Number_type;
 /// What a property is read as.
-enum class Role { none, x, y, z, corners };
+enum class Role { none, value, corners, x, y, z };
 
 struct Property {
   std::string name;
@@ -51,7 +52,7 @@ struct Header {
 /// \throws Invalid_input_error the reason, with the line where it has one
 Header read_header(Tokenizer& tokens);
 
-/// What the file holds beside points and facets, in words: "normals".
+/// What the file holds that is not read, in words: "texture coordinates".
 std::set<std::string> attributes(const Header& header);
 
 } // namespace tools::ply

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -19,7 +20,6 @@ namespace {
 
 using namespace ply;
 using CGAL::PowerRTF::Invalid_input_error;
-using CGAL::PowerRTF::Polygon_soup;
 using CGAL::PowerRTF::internal::Cancellation;
 using CGAL::PowerRTF::internal::for_each_index;
 using CGAL::PowerRTF::internal::select;
@@ -47,6 +47,15 @@ public:
     return count == 0;
   }
   double number() const { return m_tokens.number(); }
+  /// What is no number is not refused: only coordinates must be finite.
+  double value() const
+  {
+    const std::string_view text = m_tokens.token();
+    double x = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    const bool is_number = error == std::errc() && stop == text.data() + text.size();
+    return is_number ? x : std::numeric_limits<double>::quiet_NaN();
+  }
   long long whole_number() const { return m_tokens.whole_number(); }
 
 private:
@@ -109,6 +118,7 @@ public:
       return static_cast<double>(bits);
     }
   }
+  double value() const { return number(); }
   long long whole_number() const { return static_cast<long long>(number()); }
 
 private:
@@ -131,8 +141,9 @@ private:
 template <class Values>
 class Body_reader {
 public:
-  Body_reader(Values values, Polygon_soup& soup)
-      : m_values(std::move(values)), m_soup(soup), m_bytes(m_values.bytes_left())
+  Body_reader(Values values, Polygon_mesh& mesh)
+      : m_values(std::move(values)), m_soup(mesh.soup), m_properties(mesh.properties),
+        m_bytes(m_values.bytes_left())
   {}
 
   void read(const Element& element)
@@ -143,6 +154,8 @@ public:
     if (smallest == 0) return;
     const std::size_t most = m_values.bytes_left() / smallest;
     if (element.count > most) reject("the file is truncated: it has no room for", element, most);
+    for (const Property& p : element.properties)
+      if (p.role == Role::value) properties_of(element).push_back({p.name, p.type, {}});
     if constexpr (std::is_same<Values, Binary_values>::value)
       if (read_even(element)) return;
     if (element.is_vertex() && m_soup.points.empty()) m_soup.points.reserve(element.count);
@@ -162,7 +175,7 @@ private:
   };
   /// What the items consist of, if their lists are as long as those of the first.
   struct Layout {
-    std::vector<Place> lengths, corners;
+    std::vector<Place> lengths, corners, values;
     std::array<Place, 3> xyz{};
     std::size_t size = 0; ///< of an item, in bytes
   };
@@ -190,6 +203,8 @@ private:
         const Place place{result.size, p.type};
         if (p.role == Role::corners)
           result.corners.push_back(place);
+        else if (p.role == Role::value)
+          result.values.push_back(place);
         else if (p.role != Role::none)
           result.xyz[static_cast<std::size_t>(p.role) - static_cast<std::size_t>(Role::x)] = place;
         result.size += Values::size(p.type);
@@ -236,6 +251,11 @@ private:
         m_soup.first[begin + i] = static_cast<int>(end);
       });
     }
+    for (std::size_t k = 0; k < item.values.size(); ++k) {
+      std::vector<double>& values = properties_of(element)[k].values;
+      values.resize(n);
+      for_each_index(concurrency, n, [&](int i) { values[i] = at(i, item.values[k]).number(); });
+    }
     m_values = m_values.after(n * item.size);
     return true;
   }
@@ -246,12 +266,16 @@ private:
       if (!found) reject("the file is truncated: it ends in", element, item);
     };
     std::array<double, 3> xyz{};
+    std::size_t column = 0;
     for (const Property& p : element.properties) {
       if (p.length) {
         expect(m_values.next(*p.length));
         const long long length = m_values.whole_number();
         if (length < 0) reject(m_values.at() + "a list has a negative length in", element, item);
         read_list(p, static_cast<std::size_t>(length), expect);
+      } else if (p.role == Role::value) {
+        expect(m_values.next(p.type));
+        properties_of(element)[column++].values.push_back(m_values.value());
       } else if (p.role != Role::none) {
         expect(m_values.next(p.type));
         xyz[static_cast<std::size_t>(p.role) - static_cast<std::size_t>(Role::x)] =
@@ -275,15 +299,21 @@ private:
     m_soup.end_polygon();
   }
 
+  std::vector<Mesh_property>& properties_of(const Element& element)
+  {
+    return element.is_vertex() ? m_properties.vertices : m_properties.faces;
+  }
+
   Values m_values;
-  Polygon_soup& m_soup;
+  CGAL::PowerRTF::Polygon_soup& m_soup;
+  Mesh_properties& m_properties;
   std::size_t m_bytes;
 };
 
 template <class Values>
-void read_body(Values values, const Header& header, Polygon_soup& soup)
+void read_body(Values values, const Header& header, Polygon_mesh& mesh)
 {
-  Body_reader<Values> reader(std::move(values), soup);
+  Body_reader<Values> reader(std::move(values), mesh);
   for (const Element& element : header.elements) reader.read(element);
 }
 
@@ -297,10 +327,10 @@ Polygon_mesh parse_ply(std::string_view data)
   mesh.attributes = attributes(header);
   tokens.skip_line();
   if (header.body == Body::text)
-    read_body(Text_values(tokens), header, mesh.soup);
+    read_body(Text_values(tokens), header, mesh);
   else // after the end of the line
     read_body(Binary_values(tokens.rest().substr(tokens.rest().empty() ? 0 : 1), *header.body),
-              header, mesh.soup);
+              header, mesh);
   return mesh;
 }
 

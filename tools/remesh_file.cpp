@@ -9,6 +9,7 @@
 #include "mesh_io.h"
 #include "output_file.h"
 #include "traits.h"
+#include "transfer.h"
 
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/output_grid.h>
@@ -36,13 +37,13 @@ void check_outputs(const Program_options& o)
   if (o.write_mesh && format_of(o.output) == Format::unknown)
     throw Output_error(o.output + ": cannot be written: its name does not end in .off, .obj, .ply, "
                                   ".stl or .vtp");
-  for (const std::string& file : {o.cells_file, o.samples_file})
+  for (const std::string& file : {o.cells_file, o.samples_file, o.provenance_file})
     if (!file.empty() && format_of(file) != Format::ply && format_of(file) != Format::vtp)
       throw Output_error(file + ": cannot be written: its name does not end in .ply or .vtp");
   if (!o.fields_file.empty() && format_of(o.fields_file) != Format::vtp)
     throw Output_error(o.fields_file + ": cannot be written: its name does not end in .vtp");
   for (const std::string& file : {o.write_mesh ? o.output : "", o.cells_file, o.samples_file,
-                                  o.fields_file, o.report_file, o.html_file})
+                                  o.fields_file, o.provenance_file, o.report_file, o.html_file})
     if (!file.empty()) check_writable(file);
 }
 
@@ -88,8 +89,9 @@ void check_precision(Surface& surface, const Program_options& options)
   }
 }
 
-/// The polygons of the input. `run` receives the seconds and what is lost.
-Polygon_soup load(Run& run)
+/// The input, with the properties that the output will have. `run` receives the seconds and what is
+/// lost.
+Polygon_mesh load(Run& run)
 {
   Polygon_mesh mesh;
   {
@@ -97,9 +99,12 @@ Polygon_soup load(Run& run)
     const internal::Progress_part part(1);
     mesh = read_mesh(run.options.input);
   }
+  const Format output = format_of(run.options.output);
+  mesh.attributes.merge(not_held_by(output, mesh.properties));
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
+  mesh.properties = run.options.write_mesh ? held_by(output, mesh.properties) : Mesh_properties();
   stop_if_interrupted();
-  return std::move(mesh.soup);
+  return mesh;
 }
 
 /// The surface of the input. `run` receives the number of samples, the repairs and the seconds.
@@ -191,9 +196,26 @@ Extracted_mesh make_mesh(Remesher& remesher, Run& run)
   return mesh;
 }
 
+/// Whether it matters to the output where its vertices come from.
+bool has_sources(const Polygon_mesh& input, const Program_options& options)
+{
+  return !input.properties.empty() || !options.provenance_file.empty();
+}
+
+/// Where the vertices of `mesh`, in the unit box, come from.
+Sources find_sources(const Polygon_mesh& input, const Normalization& normalization,
+                     const Extracted_mesh& mesh, Run& run)
+{
+  if (!has_sources(input, run.options)) return {};
+  const Stage stage("transfer", run.report.seconds.transfer);
+  return find_sources(input.soup, normalization, run.report.repairs.reoriented_facets == 0,
+                      mesh.points, mesh.triangles, Concurrency());
+}
+
 /// Writes all files but the report.
 template <class Remesher>
-void write_results(Remesher& remesher, Extracted_mesh& mesh, const Run& run, Outputs& outputs)
+void write_results(Remesher& remesher, Extracted_mesh& mesh, const Sources& sources,
+                   const Mesh_properties& properties, const Run& run, Outputs& outputs)
 {
   const Program_options& options = run.options;
   const Normalization& normalization = remesher.surface().normalization;
@@ -205,8 +227,13 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Run& run, Out
   for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
   if (options.write_mesh)
     outputs.add(options.output, [&](std::ostream& out) {
-      write_mesh(out, format_of(options.output), options.encoding, mesh.points, mesh.triangles);
+      write_mesh(out, format_of(options.output), options.encoding, mesh.points, mesh.triangles,
+                 transferred(properties, sources));
     });
+  outputs.add(options.provenance_file, [&](std::ostream& out) {
+    write_sources(out, format_of(options.provenance_file), options.encoding, mesh.points,
+                  mesh.triangles, sources);
+  });
   outputs.add(options.cells_file, [&](std::ostream& out) {
     write_cells(out, format_of(options.cells_file), options.encoding, remesher.cells(),
                 normalization);
@@ -223,7 +250,7 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Run& run, Out
 /// Goes from the surface to the files, which are not yet in their places; the report is not
 /// written.
 template <class Traits>
-void make_results(Run& run, Surface surface, Outputs& outputs)
+void make_results(Run& run, const Polygon_mesh& input, Surface surface, Outputs& outputs)
 {
   using Remesher = CGAL::PowerRTF_remesher<Traits>;
   const Program_options& options = run.options;
@@ -232,9 +259,10 @@ void make_results(Run& run, Surface surface, Outputs& outputs)
       options, [&] { return Remesher(std::move(surface), options.remeshing, run.report); });
   Extracted_mesh mesh = make_mesh(remesher, run);
   run.report = remesher.report();
+  const Sources sources = find_sources(input, remesher.surface().normalization, mesh, run);
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
   const Stage stage("write", run.report.seconds.write);
-  write_results(remesher, mesh, run, outputs);
+  write_results(remesher, mesh, sources, input.properties, run, outputs);
 }
 
 /// Sets the number of samples to what a sphere would need for the distance asked for.
@@ -269,17 +297,18 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
   check_outputs(options);
   Progress progress(options.quiet);
   const internal::Cancellation cancellation(progress);
-  Polygon_soup soup = load(run);
+  Polygon_mesh input = load(run);
   const bool is_search = is_distance_asked_for(options.remeshing);
-  Surface surface = prepare(is_search ? Polygon_soup(soup) : std::move(soup), run);
+  const bool keeps_input = is_search || has_sources(input, options);
+  Surface surface = prepare(keeps_input ? Polygon_soup(input.soup) : std::move(input.soup), run);
   if (is_search) guess_samples(surface, run);
   with_traits(options.traits, run.options.remeshing, [&](auto traits, const std::string& why) {
     using Traits = typename decltype(traits)::type;
     run.gpu_not_used = why;
-    if (is_search) surface = surface_within_distance<Traits>(soup, run, progress);
+    if (is_search) surface = surface_within_distance<Traits>(input.soup, run, progress);
     outputs.emplace(); // without those of a GPU that has failed
     const bool may_fail = options.traits == "auto" && Traits::name() == std::string("cuda");
-    make_results<Traits>(run, may_fail ? surface : std::move(surface), *outputs);
+    make_results<Traits>(run, input, may_fail ? surface : std::move(surface), *outputs);
   });
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <iterator>
+#include <utility>
 
 namespace tools {
 namespace {
@@ -34,6 +35,37 @@ struct Obj_attribute {
 constexpr Obj_attribute obj_attributes[] = {
     {"vt", "texture coordinates"}, {"vn", "normals"}, {"usemtl", "materials"}, {"g", "groups", 1},
     {"o", "objects", 1},           {"l", "lines"},    {"p", "points"},
+};
+
+constexpr const char* color_channels[] = {"red", "green", "blue"};
+
+/// The colors of vertices in OBJ: three numbers from 0 to 1 after the coordinates.
+class Obj_colors {
+public:
+  /// Reads what follows the coordinates of the next vertex, a color or a weight.
+  void read(Tokenizer& tokens)
+  {
+    ++m_vertices;
+    std::vector<double> numbers;
+    while (tokens.next_in_line()) numbers.push_back(tokens.number());
+    if (numbers.size() != m_channels.size()) return;
+    for (std::size_t k = 0; k < numbers.size(); ++k) m_channels[k].push_back(255 * numbers[k]);
+  }
+  /// As the channels of one byte that other formats have.
+  void add_to(Polygon_mesh& mesh)
+  {
+    const std::size_t colored = m_channels[0].size();
+    if (colored == m_vertices)
+      for (std::size_t k = 0; k < m_channels.size(); ++k)
+        mesh.properties.vertices.push_back(
+            {color_channels[k], Number_type::uint8, std::move(m_channels[k])});
+    else if (colored > 0)
+      mesh.attributes.insert("colors of some vertices");
+  }
+
+private:
+  std::size_t m_vertices = 0;
+  std::array<std::vector<double>, std::size(color_channels)> m_channels;
 };
 
 struct Off_header {
@@ -124,6 +156,7 @@ Polygon_mesh parse_obj(std::string_view text)
   Tokenizer at_largest = tokens;
   std::size_t facet_of_largest = 0;
   std::array<std::size_t, std::size(obj_attributes)> counts{};
+  Obj_colors colors;
   while (tokens.next()) {
     if (tokens.token() == "v") {
       Vec3d p{0, 0, 0};
@@ -133,9 +166,7 @@ Polygon_mesh parse_obj(std::string_view text)
         *x = tokens.number();
       }
       soup.points.push_back(p);
-      int more = 0; // a weight, or a color of three numbers
-      while (tokens.next_in_line()) ++more;
-      if (more >= 3) mesh.attributes.insert("colors");
+      colors.read(tokens);
     } else if (tokens.token() == "f") {
       const std::size_t facet = soup.first.size() - 1, begin = soup.corners.size();
       const long long n = static_cast<long long>(soup.points.size());
@@ -161,6 +192,7 @@ Polygon_mesh parse_obj(std::string_view text)
     tokens.skip_line();
   }
   if (soup.points.empty()) reject("it is not an OBJ file: it has no vertices");
+  colors.add_to(mesh);
   if (largest > static_cast<long long>(soup.points.size()))
     reject(out_of_range(at_largest, facet_of_largest, largest, soup.points.size()));
   for (std::size_t k = 0; k < counts.size(); ++k)
@@ -181,10 +213,18 @@ void write_off(std::ostream& out, const std::vector<Vec3d>& points,
 }
 
 void write_obj(std::ostream& out, const std::vector<Vec3d>& points,
-               const std::vector<Triangle>& triangles)
+               const std::vector<Triangle>& triangles, const std::vector<Mesh_property>& properties)
 {
-  write_rows(out, points.size(),
-             [&](Text& text, std::size_t i) { text << "v " << points[i] << "\n"; });
+  std::vector<const Mesh_property*> colors;
+  for (const char* const channel : color_channels)
+    if (const Mesh_property* const p = find_property(properties, channel)) colors.push_back(p);
+  if (colors.size() != std::size(color_channels)) colors.clear();
+  write_rows(out, points.size(), [&](Text& text, std::size_t i) {
+    text << "v " << points[i];
+    for (const Mesh_property* const p : colors)
+      text << " " << static_cast<float>(p->values[i] / (is_real(p->type) ? 1 : 255));
+    text << "\n";
+  });
   write_rows(out, triangles.size(), [&](Text& text, std::size_t i) {
     const Triangle& t = triangles[i];
     text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";

@@ -38,7 +38,7 @@ inline bool equal(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b)
 
 inline std::vector<std::vector<std::size_t>> polygons_of(const tools::Polygon_mesh& mesh)
 {
-  const auto& [soup, attributes] = mesh;
+  const CGAL::PowerRTF::Polygon_soup& soup = mesh.soup;
   std::vector<std::vector<std::size_t>> result;
   for (std::size_t k = 0; k + 1 < soup.first.size(); ++k)
     result.emplace_back(soup.corners.begin() + soup.first[k],

@@ -191,13 +191,13 @@ TEST_CASE("attributes beside points and facets are told")
   CHECK(of(Format::obj, v + "g a\ng b\no c\no d\ns 1\nl 1 2\np 1\nf 1 2 3\n") ==
         Names{"groups", "lines", "objects", "points", "smoothing groups"});
   CHECK(of(Format::obj, "v 0 0 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").empty()); // a weight
-  CHECK(of(Format::obj, "v 0 0 0 1 .5 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") == Names{"colors"});
+  CHECK(of(Format::obj, "v 0 0 0 1 .5 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") ==
+        Names{"colors of some vertices"});
 
   for (const char* const body : bodies) {
     CHECK(of(Format::ply, ply(body, float32, uchar, int32, false)).empty());
     CHECK(of(Format::ply, ply(body, float32, uchar, int32, true)) ==
-          Names{"colors", "elements edge", "facet property quality", "normals",
-                "texture coordinates", "vertex property weights"});
+          Names{"elements edge", "texture coordinates", "vertex property weights"}); // lists
   }
 
   const std::vector<Vec3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
@@ -313,8 +313,14 @@ TEST_CASE("PLY with values: binary and text hold the same")
       REQUIRE(polygons_of(mesh).size() == 2);
       CHECK(polygons_of(mesh)[0] == std::vector<std::size_t>(corners, 2));
       CHECK(polygons_of(mesh)[1] == std::vector<std::size_t>{0, 1, 2});
-      CHECK(mesh.attributes == std::set<std::string>{"facet property mass", "facet property sample",
-                                                     "normals", "vertex property weight"});
+      CHECK(mesh.attributes.empty());
+      const auto& [vertices, faces] = mesh.properties;
+      REQUIRE(vertices.size() == 4); // the normals first
+      CHECK(vertices[0].values == std::vector<double>{0, 0, 1});
+      CHECK(vertices[3].values == data.point_fields[0].values);
+      REQUIRE(faces.size() == 2);
+      CHECK(faces[0].values == std::vector<double>{-5, 70000});
+      CHECK(faces[1].values == data.cell_fields[1].values);
     }
   }
 }

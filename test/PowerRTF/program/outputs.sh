@@ -239,6 +239,51 @@ run 0 -- textured.obj out.off "${fast[@]}" --quiet --report r.json
 expect '--quiet does not say it' [ ! -s stderr ]
 expect 'the report lists it nevertheless' grep -q '^    "texture coordinates"$' r.json
 
+# --- what the output has of the input: a torus whose colors and heights are linear functions of z
+off_to_ply <torus.off | awk '
+  /^property double z/ { print; print "property uchar red\nproperty uchar green\nproperty uchar blue"
+                         print "property float height"; next }
+  /^property list/ { print; print "property int side"; next }
+  /^end_header/ { on = 1; print; next }
+  on && NF == 3 { z[n++] = $3; r = int(127.5 * (1 + $3) + .5); print $0, r, 255 - r, 7, 2 * $3 + 5; next }
+  on && NF == 4 { print $0, (z[$2] + z[$3] + z[$4] > 0) ? 3 : 8; next } 1' >colored.ply
+run 0 -- colored.ply out.ply "${fast[@]}" --improvement no --ascii --quiet --report r.json
+has not_carried_over '[]'
+expect 'values of vertices on the surface are linear, up to rounding' awk '/end_header/ { on = 1; next }
+  on && NF == 7 { ++n; r = 127.5 * (1 + $3)
+    if (($4 - r) ^ 2 > 1.1 || ($4 + $5 - 255) ^ 2 > 1 || $6 != 7 || ($7 - 2 * $3 - 5) ^ 2 > 1e-10) bad = 1 } # six digits in
+  END { exit bad || n != 200 }' out.ply
+expect 'faces have the label of their side' awk '/end_header/ { on = 1; next }
+  on && NF == 7 { z[n++] = $3 }
+  on && NF == 5 { s = z[$2] + z[$3] + z[$4]; if (s * s > 1e-2 && $5 != (s > 0 ? 3 : 8)) bad = 1; ++f }
+  END { exit bad || f != 400 }' out.ply
+run 0 -- colored.ply plain.ply "${fast[@]}" --improvement no --ascii --quiet --threads 1
+expect 'the values are the same by one thread' cmp plain.ply out.ply
+run 0 -- colored.ply out.vtp "${fast[@]}" --quiet
+expect 'VTP has the labels' grep -q '<DataArray type="Int32" Name="side"' out.vtp
+run 0 'not carried over to the output: facet property side, vertex property height' -- \
+  colored.ply out.obj "${fast[@]}"
+expect 'OBJ has the colors' awk '$1 == "v" { ++n; if (NF != 7 || ($5 + $6 - 1) ^ 2 > 1e-4) bad = 1 }
+  END { exit bad || n != 200 }' out.obj
+run 0 'not carried over to the output: colors, facet property side, vertex property height' -- \
+  colored.ply out.off "${fast[@]}"
+expect 'what the input has beside does not change the mesh' cmp out.off first.off
+
+run 0 -- torus.off out.off "${fast[@]}" --provenance p.ply --ascii --quiet
+expect 'the provenance does not change the mesh' cmp out.off first.off
+expect 'vertices are near the places that they come from' awk '
+  FNR == NR { if (NF == 3 && FNR > 2) for (k = 1; k <= 3; ++k) p[i + 0, k] = $k
+              if (NF == 3 && FNR > 2) ++i
+              if (NF == 4) { for (k = 2; k <= 4; ++k) face[f + 0] = face[f + 0] " " $k " "; ++f } next }
+  /end_header/ { on = 1; next }
+  on && NF == 10 { ++n
+    for (k = 5; k <= 7; ++k) if (index(face[$4], " " $k " ") == 0) bad = 1
+    for (k = 1; k <= 3; ++k) {
+      x = $8 * p[$5, k] + $9 * p[$6, k] + $10 * p[$7, k]; if ((x - $k) ^ 2 > 1e-2) bad = 1 } }
+  END { exit bad || n != 200 }' torus.off p.ply
+run 2 '--provenance' -- torus.off --no-mesh --provenance p.ply
+run 5 'p.obj' -- torus.off out.off --provenance p.obj
+
 # --- places to write to
 cp torus.off same.off
 run 0 -- same.off same.off "${fast[@]}" --quiet

@@ -1,0 +1,74 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Mesh_property.h"
+
+#include "Tokenizer.h"
+
+#include <map>
+
+namespace tools {
+namespace {
+
+bool is_held(Format format, const Mesh_property& property, bool of_vertices)
+{
+  if (format == Format::ply || format == Format::vtp) return true;
+  return format == Format::obj && of_vertices && is_color(property.name) &&
+         property.name != "alpha";
+}
+
+} // namespace
+
+const Mesh_property* find_property(const std::vector<Mesh_property>& properties,
+                                   const std::string& name)
+{
+  const auto found =
+      std::find_if(properties.begin(), properties.end(),
+                   [&](const Mesh_property& property) { return property.name == name; });
+  return found == properties.end() ? nullptr : &*found;
+}
+
+bool is_color(const std::string& name)
+{
+  return name == "red" || name == "green" || name == "blue" || name == "alpha";
+}
+
+std::string in_words(const std::string& name, bool of_vertices)
+{
+  static const std::map<std::string, const char*> meanings = {{"nx", "normals"},
+                                                              {"ny", "normals"},
+                                                              {"nz", "normals"},
+                                                              {"s", "texture coordinates"},
+                                                              {"t", "texture coordinates"},
+                                                              {"u", "texture coordinates"},
+                                                              {"v", "texture coordinates"},
+                                                              {"texture_u", "texture coordinates"},
+                                                              {"texture_v", "texture coordinates"},
+                                                              {"texcoord", "texture coordinates"},
+                                                              {"texnumber", "texture coordinates"}};
+  if (is_color(name)) return "colors";
+  const auto known = meanings.find(name);
+  if (known != meanings.end()) return known->second;
+  return (of_vertices ? "vertex property " : "facet property ") + printable(name);
+}
+
+Mesh_properties held_by(Format format, const Mesh_properties& properties)
+{
+  Mesh_properties held;
+  for (const Mesh_property& p : properties.vertices)
+    if (is_held(format, p, true)) held.vertices.push_back(p);
+  for (const Mesh_property& p : properties.faces)
+    if (is_held(format, p, false)) held.faces.push_back(p);
+  return held;
+}
+
+std::set<std::string> not_held_by(Format format, const Mesh_properties& properties)
+{
+  std::set<std::string> words;
+  for (const Mesh_property& p : properties.vertices)
+    if (!is_held(format, p, true)) words.insert(in_words(p.name, true));
+  for (const Mesh_property& p : properties.faces)
+    if (!is_held(format, p, false)) words.insert(in_words(p.name, false));
+  return words;
+}
+
+} // namespace tools

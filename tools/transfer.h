@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a result has of the input: where its vertices and faces come from, and their values.
+#ifndef POWER_RTF_TOOLS_TRANSFER_H
+#define POWER_RTF_TOOLS_TRANSFER_H
+
+#include "Mesh_property.h"
+
+#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/transfer/find_sources.h>
+
+#include <iosfwd>
+#include <vector>
+
+namespace tools {
+
+/// The properties of a result, from those of the input. Of vertices, real numbers and colors are
+/// interpolated linearly, normals get the length 1 again, and other integers, which may be labels,
+/// are those of the nearest corner; faces get what the face at their center has.
+Mesh_properties transferred(const Mesh_properties& input, const CGAL::PowerRTF::Sources& sources);
+
+/// Writes a mesh with its sources, as PLY or VTP: each vertex with `source_face`, the corners of a
+/// triangle of that face, `source_vertex_0` to `source_vertex_2`, and its barycentric coordinates
+/// in it, `weight_0` to `weight_2`; each face with the `source_face` of its center. They are the
+/// numbers that faces and vertices have in the input's file, from 0.
+void write_sources(std::ostream& out, Format format, Encoding encoding,
+                   const std::vector<CGAL::PowerRTF::Vec3d>& points,
+                   const std::vector<CGAL::PowerRTF::Triangle>& triangles,
+                   const CGAL::PowerRTF::Sources& sources);
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_TRANSFER_H
