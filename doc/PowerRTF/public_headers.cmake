@@ -30,4 +30,5 @@ set(public_headers
     PowerRTF/features/sample_features.h
     PowerRTF/input/import_surface.h
     PowerRTF/prepare_surface.h
-    PowerRTF/sampling/Lattice_fields.h)
+    PowerRTF/sampling/Lattice_fields.h
+    PowerRTF/transfer/Mesh_source.h)

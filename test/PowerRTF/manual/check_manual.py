@@ -29,7 +29,9 @@ PUBLIC = {
     "Concepts": "PowerRTFTraits_3 PowerRTFEngine PowerRTFDensityMap PowerRTFVisitor "
                 "TangentCellTraits_3",
     "Parameters": "density_map remeshing_options repair vertex_point_map edge_is_constrained_map "
-                  "geom_traits visitor random_seed number_of_iterations combine",
+                  "geom_traits visitor random_seed number_of_iterations combine "
+                  "vertex_source_map face_source_map",
+    "Transfer": "Mesh_source interpolated transfer_vertex_values transfer_face_values",
     "Options": "Remeshing_options Resolution Preset Density Sampling Attributes Projection Position_method "
                "Weight_method Weight_operator Extraction_method Improvement Repair Option "
                "for_each_option validate",
