@@ -139,3 +139,22 @@ TEST_CASE("the Hilbert curve visits every cube once and has no leaps")
   for (const double x : {-0.5, -0.25, 0., 0.25, 0.5})
     CHECK(hilbert_code(Vec3d{x - 1e-15, x, x}) == hilbert_code(Vec3d{x + 1e-15, x, x}));
 }
+
+TEST_CASE("the Hilbert curve is the same from the table")
+{
+  const auto& table = CGAL::PowerRTF::internal::Hilbert_table::get();
+  std::uint64_t bits = 1;
+  const auto coordinate = [&bits] {
+    bits = bits * 6364136223846793005u + 1442695040888963407u;
+    return std::uint32_t(bits >> 43);
+  };
+  const std::uint32_t last = 0x1fffff;
+  for (const std::uint32_t x : {0u, 1u, last})
+    for (const std::uint32_t y : {0u, 2u, last})
+      for (const std::uint32_t z : {0u, 4u, last})
+        CHECK(table.index({x, y, z}) == hilbert_index(x, y, z));
+  for (int i = 0; i < 20000; ++i) {
+    const std::uint32_t x = coordinate(), y = coordinate(), z = coordinate();
+    REQUIRE(table.index({x, y, z}) == hilbert_index(x, y, z));
+  }
+}

@@ -5,8 +5,8 @@
 #ifndef CGAL_POWER_RTF_GEOMETRY_SPATIAL_ORDER_H
 #define CGAL_POWER_RTF_GEOMETRY_SPATIAL_ORDER_H
 
+#include <CGAL/PowerRTF/geometry/Hilbert_table.h>
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
-#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -30,10 +30,12 @@ std::vector<int> spatial_order(const Points& points, Concurrency concurrency = S
       [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
   const Vec3d middle = 0.5 * box.lo + 0.5 * box.hi, half = 0.5 * box.hi - 0.5 * box.lo;
   const double reach = std::max({half.x, half.y, half.z});
+  const Hilbert_table& curve = Hilbert_table::get();
   Unset_vector<std::pair<std::uint64_t, int>> codes(n);
   for_each_index(concurrency, n, [&](int i) {
     const Vec3d p = points[i] - middle;
-    codes[i] = {reach > 0 ? hilbert_code(Vec3d{p.x / reach, p.y / reach, p.z / reach}) : 0, i};
+    const Vec3d inside{p.x / reach, p.y / reach, p.z / reach};
+    codes[i] = {reach > 0 ? curve.index(hilbert_cube(inside)) : 0, i};
   });
   sort(concurrency, codes.begin(), codes.end());
   std::vector<int> order(n);

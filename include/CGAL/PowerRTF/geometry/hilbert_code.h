@@ -42,16 +42,29 @@ CGAL_POWER_RTF_HD inline std::uint64_t hilbert_index(std::uint32_t i, std::uint3
   return spread_bits(x[0] ^ t) << 2 | spread_bits(x[1] ^ t) << 1 | spread_bits(x[2] ^ t);
 }
 
-/// Position along the curve of the cube with a point of [-1, 1)^3. Planes of symmetry, like x = 0,
-/// are not sides of cubes: rounding would decide there.
+/// One of the cubes, by its coordinates.
+struct Hilbert_cube {
+  std::uint32_t i, j, k;
+};
+
+/// The cube with a point of [-1, 1)^3. Planes of symmetry, like x = 0, are not sides of cubes:
+/// rounding would decide there.
 template <class Real>
-CGAL_POWER_RTF_HD inline std::uint64_t hilbert_code(const Vec3<Real>& p)
+CGAL_POWER_RTF_HD inline Hilbert_cube hilbert_cube(const Vec3<Real>& p)
 {
   const auto cell = [](Real x) {
     const double at = (0.9510565 * double(x) + 1.0190983) * 0x1p20;
     return at > 0 ? at < 0x1p21 ? std::uint32_t(at) : 0x1fffffu : 0u;
   };
-  return hilbert_index(cell(p.x), cell(p.y), cell(p.z));
+  return {cell(p.x), cell(p.y), cell(p.z)};
+}
+
+/// Position along the curve of the cube with a point.
+template <class Real>
+CGAL_POWER_RTF_HD inline std::uint64_t hilbert_code(const Vec3<Real>& p)
+{
+  const Hilbert_cube cube = hilbert_cube(p);
+  return hilbert_index(cube.i, cube.j, cube.k);
 }
 
 } // namespace CGAL::PowerRTF
