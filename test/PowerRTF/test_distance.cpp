@@ -8,7 +8,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace CGAL::PowerRTF;
 using doctest::Approx;
@@ -62,6 +64,37 @@ TEST_CASE("distance: a vertex counts for the maximum, however small its facets")
   const Distance_statistics s = distance(shapes::plane_patch(10, 10), spike);
   CHECK(s.max == Approx(100 * 0.2 / std::sqrt(2.)));
   CHECK(s.mean < 1e-3);
+}
+
+TEST_CASE("distance: in groups as one by one, to the last bit")
+{
+  using internal::Group_distances;
+  const Soup sphere = shapes::scaled(shapes::icosphere(4), 0.7);
+  const Facet_tree tree(sphere.points, sphere.triangles);
+  const auto check = [&](const std::vector<Vec3d>& points, double enough) {
+    Group_distances distances(tree);
+    double found[Group_distances::most_points];
+    for (int first = 0; first < int(points.size()); first += Group_distances::most_points) {
+      const int n = std::min(Group_distances::most_points, int(points.size()) - first);
+      distances.find(&points[first], n, found, enough);
+      for (int k = 0; k < n; ++k) {
+        const double expected = tree.nearest_anywhere(points[first + k]).squared_distance;
+        if (expected > enough)
+          CHECK(found[k] == expected);
+        else
+          CHECK((found[k] >= expected && found[k] <= enough));
+      }
+    }
+  };
+  std::vector<Vec3d> along, anywhere; // a spiral near the sphere with a leap; points far apart
+  for (int i = 0; i < 1500; ++i) {
+    const double z = -1 + (i + 0.5) / 750, r = std::sqrt(1 - z * z);
+    const double out = i == 700 ? 0.2 : 0.69 + 0.03 * std::sin(0.1 * i);
+    along.push_back(out * Vec3d{r * std::cos(0.3 * i), r * std::sin(0.3 * i), z});
+    anywhere.push_back(0.9 * Vec3d{std::sin(1.7 * i), std::sin(2.3 * i), std::sin(3.1 * i)});
+  }
+  for (const auto& points : {along, anywhere, sphere.points})
+    for (const double enough : {-1., 0., 1e-4, 1.}) check(points, enough);
 }
 
 TEST_CASE("distance: spheres, and invariance")

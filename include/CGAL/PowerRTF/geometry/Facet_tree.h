@@ -72,6 +72,14 @@ public:
     return view;
   }
 
+  /// The same as one patch.
+  Surface_view<double> all_patches() const
+  {
+    Surface_view<double> all = view();
+    all.patches = nullptr;
+    return all;
+  }
+
   /// The nodes of the tree.
   const internal::Unset_vector<Child_boxes>& nodes() const { return m_nodes; }
   /// The facets in the order of the tree.
@@ -98,10 +106,8 @@ public:
   /// The same on all facets of all patches.
   Surface_point<double> nearest_anywhere(const Vec3d& p, int hint = -1) const
   {
-    Surface_view<double> all = view();
-    all.patches = nullptr;
     Surface_point<double> result = project_to_nearest_facet(
-        all, p, Vec3d{0, 0, 0}, -2.0, hint >= 0 ? m_places[hint] : -1, Single_lane());
+        all_patches(), p, Vec3d{0, 0, 0}, -2.0, hint >= 0 ? m_places[hint] : -1, Single_lane());
     result.facet = m_order[result.facet];
     return result;
   }

@@ -111,6 +111,15 @@ struct Child_boxes {
     }
   }
 
+  /// The box of a child of another node.
+  CGAL_POWER_RTF_HD void copy(int child, const Child_boxes& other, int other_child)
+  {
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis][child] = other.center[axis][other_child];
+      half[axis][child] = other.half[axis][other_child];
+    }
+  }
+
   /// Lower bounds of the squared distances to a point.
   CGAL_POWER_RTF_HD void squared_distances(const Point_query& p, float (&d)[size]) const
   {

@@ -10,6 +10,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/Group_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/bounding_box.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
@@ -55,17 +56,21 @@ public:
   /// The used vertices.
   const Unset_vector<Vec3d>& vertices() const { return m_vertices; }
 
-  /// The i-th of `n` points that are spread evenly by area: every facet gets its share of them
-  /// rounded up or down, and they fill the facets as the R2 sequence fills a square.
-  Vec3d sample(int i, int n) const
+  /// Writes the `size` points from the i-th on, of `n` that are spread evenly by area: every facet
+  /// gets its share of them rounded up or down, and they fill the facets as the R2 sequence fills a
+  /// square.
+  void samples(int begin, int size, int n, Vec3d* points) const
   {
-    const double at = (i + 0.5) / n * m_areas.back();
-    const auto after = std::upper_bound(m_areas.begin(), m_areas.end() - 1, at);
-    const auto& f = m_facets[after - m_areas.begin() - 1];
-    const auto fraction = [](double x) { return x - std::floor(x); };
-    double s = fraction(0.5 + i * 0.7548776662466927), t = fraction(0.5 + i * 0.5698402909980532);
-    if (s + t > 1) s = 1 - s, t = 1 - t;
-    return f.a + s * (f.b - f.a) + t * (f.c - f.a);
+    const auto area_before = [&](int i) { return (i + 0.5) / n * m_areas.back(); };
+    auto after = std::upper_bound(m_areas.begin(), m_areas.end() - 1, area_before(begin));
+    for (int i = begin; i < begin + size; ++i) {
+      while (after != m_areas.end() - 1 && !(area_before(i) < *after)) ++after;
+      const auto& f = m_facets[after - m_areas.begin() - 1];
+      const auto fraction = [](double x) { return x - std::floor(x); };
+      double s = fraction(0.5 + i * 0.7548776662466927), t = fraction(0.5 + i * 0.5698402909980532);
+      if (s + t > 1) s = 1 - s, t = 1 - t;
+      points[i - begin] = f.a + s * (f.b - f.a) + t * (f.c - f.a);
+    }
   }
 
 private:
@@ -77,38 +82,67 @@ private:
 struct Squared_distances {
   double sum = 0, sum_of_squares = 0, max_squared = 0;
   Vec3d farthest{0, 0, 0};
-  int hint = -1; ///< nearest facet of the query before
 };
+
+/// Those of `n` points, of which `write(begin, size, points)` writes some, from `to`. The sums are
+/// of no use where `enough` is given, a squared distance up to which the largest one does not
+/// count.
+template <class Write>
+Squared_distances squared_distances(const Facet_tree& to, int n, Concurrency concurrency,
+                                    const Write& write, double enough = -1)
+{
+  constexpr int chunk = 1024;
+  const int group = Group_distances::group_size(n, to.view().facet_tree.items);
+  std::vector<Squared_distances> parts((n + chunk - 1) / chunk);
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    Group_distances distances(to);
+    Squared_distances part;
+    Vec3d points[Group_distances::most_points];
+    double squared[Group_distances::most_points];
+    for (int first = begin; first < end; first += group) {
+      const int size = std::min(group, end - first);
+      write(first, size, points);
+      distances.find(points, size, squared, enough);
+      for (int k = 0; k < size; ++k) {
+        part.sum += std::sqrt(squared[k]);
+        part.sum_of_squares += squared[k];
+        if (!(squared[k] > part.max_squared)) continue;
+        part.max_squared = squared[k];
+        part.farthest = points[k];
+      }
+    }
+    parts[begin / chunk] = part;
+  });
+  Squared_distances total;
+  for (const Squared_distances& part : parts) {
+    total.sum += part.sum;
+    total.sum_of_squares += part.sum_of_squares;
+    if (!(part.max_squared > total.max_squared)) continue;
+    total.max_squared = part.max_squared;
+    total.farthest = part.farthest;
+  }
+  return total;
+}
 
 /// Distances from `from` to `to`: sums over `n` samples; the maximum over them and the vertices.
 inline Squared_distances one_sided_distance(const Surface_samples& from, const Facet_tree& to,
                                             int n, Concurrency concurrency)
 {
-  const int vertices = static_cast<int>(from.vertices().size());
-  return reduce(
-      concurrency, vertices + n, Squared_distances(),
-      [&](Squared_distances& s, int i) {
-        const bool is_sample = i >= vertices;
-        const Vec3d p = is_sample ? from.sample(i - vertices, n) : from.vertices()[i];
-        const auto nearest = to.nearest_anywhere(p, s.hint);
-        const double d2 = nearest.squared_distance;
-        s.hint = nearest.facet;
-        if (d2 > s.max_squared) {
-          s.max_squared = d2;
-          s.farthest = p;
-        }
-        if (!is_sample) return;
-        s.sum += std::sqrt(d2);
-        s.sum_of_squares += d2;
-      },
-      [](Squared_distances& s, const Squared_distances& t) {
-        s.sum += t.sum;
-        s.sum_of_squares += t.sum_of_squares;
-        if (t.max_squared > s.max_squared) {
-          s.max_squared = t.max_squared;
-          s.farthest = t.farthest;
-        }
+  Squared_distances result =
+      squared_distances(to, n, concurrency, [&](int begin, int size, Vec3d* points) {
+        from.samples(begin, size, n, points);
       });
+  const Squared_distances of_vertices = squared_distances(
+      to, static_cast<int>(from.vertices().size()), concurrency,
+      [&](int begin, int size, Vec3d* points) {
+        std::copy_n(from.vertices().begin() + begin, size, points);
+      },
+      result.max_squared);
+  if (of_vertices.max_squared > result.max_squared) {
+    result.max_squared = of_vertices.max_squared;
+    result.farthest = of_vertices.farthest;
+  }
+  return result;
 }
 
 } // namespace internal
