@@ -213,8 +213,9 @@ private:
       for (const int i : some)
         if (m_points[i].distance == disagreement)
           m_points[i].distance = least_distance(m_points[i]);
+    const std::optional<Reaches> reaches = find_reaches(some);
     const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
-      return some.size() > few || is_in_reach(Face(f), some);
+      return !reaches || is_in_reach(Face(f), some, *reaches);
     });
     std::vector<Vec3d> points(3 * faces.size());
     std::vector<Triangle> triangles(faces.size());
@@ -248,17 +249,41 @@ private:
         [](double& least, double part) { least = std::min(least, part); });
   }
 
+  // Cubes around points, up to where their nearest faces are.
+  struct Reaches {
+    Packed_tree_layout tree;
+    std::vector<Child_boxes> nodes;
+  };
+
+  // Of few points; of many, or where nothing is known, none: all faces count.
+  std::optional<Reaches> find_reaches(const std::vector<int>& some) const
+  {
+    const auto is_known = [this](int i) { return m_points[i].distance < disagreement; };
+    if (some.size() > few || !std::all_of(some.begin(), some.end(), is_known)) return {};
+    constexpr double rounding = 1e-6; // to single precision
+    const Packed_tree_layout tree(static_cast<int>(some.size()));
+    return Reaches{tree, child_boxes(tree, [&](int k) {
+                     const double r = (1 + rounding) * m_points[some[k]].distance + rounding;
+                     const Vec3d p = point(some[k]), reach{r, r, r};
+                     return Box3<double>{p - reach, p + reach};
+                   })};
+  }
+
   // Whether the face may be nearer to one of the points than what was found.
-  bool is_in_reach(Face f, const std::vector<int>& some) const
+  bool is_in_reach(Face f, const std::vector<int>& some, const Reaches& reaches) const
   {
     const auto [a, b, c] = m_mesh->points(topology().halfedge(f));
     Box3<double> box{a, a};
     box.add(b);
     box.add(c);
-    return std::any_of(some.begin(), some.end(), [&](int i) {
-      const double reach = m_points[i].distance;
-      return clearly_less * squared_distance(box, point(i)) <= reach * reach;
-    });
+    bool is_near = false;
+    visit_near(
+        reaches.tree, reaches.nodes.data(), Box_query(box), [&] { return is_near ? -1.f : 0.f; },
+        [&](int k) {
+          const double reach = m_points[some[k]].distance;
+          is_near = clearly_less * squared_distance(box, point(some[k])) <= reach * reach;
+        });
+    return is_near;
   }
 
   void assign()

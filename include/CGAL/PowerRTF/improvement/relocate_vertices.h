@@ -274,9 +274,11 @@ private:
     for (const Halfedge h : halfedges_around_target(v, mesh)) {
       const Vertex u = mesh.source(h);
       double worst = 0;
-      for (const Star::Corner& c : star.corners)
-        if (c.vertex_a != u && c.vertex_b != u)
-          worst = std::max(worst, triangle_badness(m.point(u), c.a, c.b).badness);
+      for (const Star::Corner& c : star.corners) {
+        if (c.vertex_a == u || c.vertex_b == u) continue;
+        worst = std::max(worst, triangle_badness(m.point(u), c.a, c.b).badness);
+        if (!(worst < best.first)) break;
+      }
       if (worst < best.first && Euler::does_satisfy_link_condition(mesh.edge(h), mesh))
         best = {worst, mesh.opposite(h)};
     }

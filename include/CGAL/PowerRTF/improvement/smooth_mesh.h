@@ -87,6 +87,7 @@ public:
 
 private:
   using Parameters = Improvement_parameters::Smoothing;
+  static constexpr double least_energy = 3.4641; // a little less than 2 sqrt(3)
 
   void step(Vertex v)
   {
@@ -143,9 +144,9 @@ private:
     if (m.working().mesh.is_removed(e) || !m.is_free(e)) return false;
     const auto [a, b, c, d] = m.corners(e);
     const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
-    const double now = energy(pa, pb, pc) + energy(pb, pa, pd),
-                 then = energy(pd, pc, pa) + energy(pc, pd, pb);
-    if (!(then < clearly_less * now)) return false; // equal diagonals stay
+    const double enough = clearly_less * (energy(pa, pb, pc) + energy(pb, pa, pd)),
+                 first = energy(pd, pc, pa); // equal diagonals stay
+    if (!(first + least_energy < enough) || !(first + energy(pc, pd, pb) < enough)) return false;
     const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
     if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) <
         std::min(Parameters::min_agreement, agreement))
