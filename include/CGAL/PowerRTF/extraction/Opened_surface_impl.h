@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -36,6 +37,7 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   std::map<Edge, std::vector<Edge>> edge_copies;
   for (std::size_t f = 0; f < surface.triangles.size(); ++f)
     for (int i = 0; i < 3; ++i) {
+      internal::Cancellation::poll_now_and_then();
       const int a = m_surface.triangles[f][i], b = m_surface.triangles[f][(i + 1) % 3];
       const Edge original = sorted_edge(surface.triangles[f][i], surface.triangles[f][(i + 1) % 3]);
       const Edge copy = cut.originals[a] == original[0] ? Edge{a, b} : Edge{b, a};

@@ -8,6 +8,8 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/geometry/Spatial_order.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/compat.h>
 
 #include <CGAL/AABB_tree.h>
@@ -33,11 +35,15 @@ public:
       m_facets.emplace_back(to_point(surface.points[t[0]]), to_point(surface.points[t[1]]),
                             to_point(surface.points[t[2]]));
     m_tree.rebuild(m_facets.begin(), m_facets.end());
-    std::vector<std::pair<Point, int>> points;
-    points.reserve(samples.size());
-    for (std::size_t s = 0; s < samples.size(); ++s)
-      points.emplace_back(to_point(samples.points[s]), int(s));
-    m_delaunay.insert(points.begin(), points.end());
+    Delaunay::Vertex_handle last; // each is near the one before
+    for (const int s : spatial_order(samples.points)) {
+      Cancellation::poll();
+      const auto v = last == Delaunay::Vertex_handle()
+                         ? m_delaunay.insert(to_point(samples.points[s]))
+                         : m_delaunay.insert(to_point(samples.points[s]), last->cell());
+      v->info() = s;
+      last = v;
+    }
   }
 
   Extracted_mesh run() const
@@ -45,8 +51,10 @@ public:
     Extracted_mesh result;
     result.points = m_samples.points;
     if (m_delaunay.dimension() < 2) return result;
-    for (auto f = m_delaunay.finite_facets_begin(); f != m_delaunay.finite_facets_end(); ++f)
+    for (auto f = m_delaunay.finite_facets_begin(); f != m_delaunay.finite_facets_end(); ++f) {
+      Cancellation::poll();
       if (dual_meets_surface(*f)) result.triangles.push_back(oriented(corners(*f)));
+    }
     return result;
   }
 

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/connected_components.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -130,6 +131,7 @@ void for_each_fan(std::size_t halfedges, const Opposite& opposite, const At_fan&
   std::vector<char> visited(halfedges, 0);
   std::vector<int> fan;
   for (int start = 0; start < static_cast<int>(halfedges); ++start) {
+    internal::Cancellation::poll_now_and_then();
     if (visited[start]) continue;
     fan.clear();
     const auto visit = [&](int h) {
@@ -200,6 +202,7 @@ bool orient_facets(std::vector<Triangle>& triangles, const Partners& partners,
     side[seed] = 0;
     std::size_t ones = 0;
     for (std::size_t k = 0; k < component.size(); ++k) {
+      internal::Cancellation::poll_now_and_then();
       const int f = component[k];
       ones += side[f];
       for (int h = 3 * f; h < 3 * f + 3; ++h)

@@ -19,6 +19,7 @@
 #include <CGAL/PowerRTF/input/polygon_triangulation.h>
 #include <CGAL/PowerRTF/input/split_sheets.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 
@@ -94,6 +95,7 @@ inline std::vector<Triangle> triangulated(const Polygon_soup& soup,
   triangles.reserve(soup.first.size() - 1);
   std::vector<int> polygon;
   for (std::size_t k = 0; k + 1 < soup.first.size(); ++k) {
+    Cancellation::poll_now_and_then();
     polygon.clear();
     for (int i = soup.first[k]; i < soup.first[k + 1]; ++i) {
       const int v = vertex[soup.corners[i]];
@@ -154,6 +156,7 @@ inline void drop_repeated(std::vector<Triangle>& triangles, bool keep_reversed,
 {
   std::set<Triangle> seen;
   const auto is_repeated = [&](Triangle t) {
+    Cancellation::poll_now_and_then();
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     if (!keep_reversed && t[1] > t[2]) std::swap(t[1], t[2]);
     return !seen.insert(t).second;

@@ -49,6 +49,7 @@ inline std::vector<Crowd> crowds(const Triangle_soup& soup)
   const Facet_adjacency& adjacency = soup.adjacency;
   std::map<Edge, Crowd> by_edge;
   for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
+    Cancellation::poll_now_and_then();
     if (adjacency.opposite[h] != Facet_adjacency::none) continue;
     by_edge[sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h))].push_back(h);
   }
@@ -185,6 +186,7 @@ inline void halve_crowded_edges(Triangle_soup& soup, const std::vector<Crowd>& l
   }
   for (std::size_t f = 0; f < soup.triangles.size(); ++f) // also of those that are added
     for (int i = 0; i < 3; ++i) {
+      Cancellation::poll_now_and_then();
       Triangle& t = soup.triangles[f];
       const auto m = middles.find(sorted_edge(t[i], t[(i + 1) % 3]));
       if (m == middles.end()) continue;
