@@ -249,7 +249,7 @@ private:
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
       PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
-                             typename Traits::Concurrency_tag());
+                             typename Traits::Concurrency_tag(), m_options.dislocations);
     }
     return mesh;
   }

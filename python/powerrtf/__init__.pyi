@@ -95,6 +95,7 @@ def remesh(
     weight_operator: str = "ceiling",
     extraction: str = "cells",
     improvement: bool = True,
+    dislocations: str = "annihilate",
     device: int = 0,
 ) -> Mesh: ...
 def remesh_file(

@@ -33,6 +33,8 @@ enum class Weight_operator { ceiling, floor };
 enum class Extraction_method { cells, insertion, restricted_delaunay };
 /// Of the triangles after the extraction (not in the paper).
 enum class Improvement { no, yes };
+/// Pairs of vertices of five and seven edges, where a row of triangles ends, in the improvement.
+enum class Dislocations { keep, annihilate };
 /// Of an input that is no oriented 2-manifold and can be made one without a change of its shape;
 /// `no`: it is refused.
 enum class Repair { no, yes };
@@ -116,17 +118,19 @@ struct Remeshing_options {
   // Extraction
   Extraction_method extraction = Extraction_method::cells; ///< of the triangles
   Improvement improvement = Improvement::yes; ///< of the triangles; `no`: they stay on the samples
+  Dislocations dislocations = Dislocations::annihilate; ///< in the improvement
   /// What will hold the result's points: its guarantees are those of the rounded points.
   Coordinates coordinates = Coordinates::double_precision;
 
-  /// The guarantees of the preset `quality` sooner: position steps end earlier, and capacities,
-  /// which the triangles do not depend on, are not made equal.
+  /// The guarantees of the preset `quality` sooner: position steps end earlier, dislocations stay,
+  /// and capacities, which the triangles do not depend on, are not made equal.
   static Remeshing_options fast_preset()
   {
     Remeshing_options o;
     o.preset = Preset::fast;
-    o.centroid_tolerance = 0.008;
+    o.centroid_tolerance = 0.05;
     o.weight_method = Weight_method::none;
+    o.dislocations = Dislocations::keep;
     return o;
   }
 

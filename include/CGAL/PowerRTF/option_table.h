@@ -41,6 +41,7 @@ inline Value_names value_names(Extraction_method)
   return {"cells", "insertion", "restricted-delaunay"};
 }
 inline Value_names value_names(Improvement) { return {"no", "yes"}; }
+inline Value_names value_names(Dislocations) { return {"keep", "annihilate"}; }
 inline Value_names value_names(Repair) { return {"no", "yes"}; }
 inline Value_names value_names(Coordinates) { return {"double", "single"}; }
 
@@ -184,6 +185,9 @@ void for_each_option(Visitor&& visit)
   add("extraction", &O::extraction, "", "how the triangles are made", no_number);
   add("improvement", &O::improvement, "",
       "rounder triangles, nearer to the surface; no: triangles on the samples", no_number);
+  add("dislocations", &O::dislocations, "",
+      "where a row of triangles ends; annihilate: the improvement looks for pairs that cancel out",
+      no_number);
   add("coordinates", &O::coordinates, "", "precision of what will hold the result's points",
       no_number);
 

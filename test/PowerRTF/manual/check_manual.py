@@ -33,7 +33,7 @@ PUBLIC = {
                   "vertex_source_map face_source_map",
     "Transfer": "Mesh_source interpolated transfer_vertex_values transfer_face_values",
     "Options": "Remeshing_options Resolution Preset Density Sampling Attributes Projection Position_method "
-               "Weight_method Weight_operator Extraction_method Improvement Repair Option "
+               "Weight_method Weight_operator Extraction_method Improvement Dislocations Repair Option "
                "for_each_option validate",
     "Report": "Remeshing_report Iteration_report Quality_statistics Repair_counts",
     "Surface": "Surface Samples Cell_polygon Extracted_mesh prepare_surface import_surface "

@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_IMPROVE_MESH_H
 #define CGAL_POWER_RTF_IMPROVEMENT_IMPROVE_MESH_H
 
+#include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
@@ -23,10 +24,12 @@ class Facet_tree;
 ///
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
+/// `dislocations`: those that are kept cost roundness, not time.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
-                  internal::Concurrency concurrency = Sequential_tag());
+                  internal::Concurrency concurrency = Sequential_tag(),
+                  Dislocations dislocations = Dislocations::annihilate);
 
 /// The same with a tree of its own.
 bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,

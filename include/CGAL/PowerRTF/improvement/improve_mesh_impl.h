@@ -7,9 +7,10 @@
 //
 //   repeat, at most 8 times:
 //     start from the extracted mesh, with some vertices locked (at first none)
-//     3 times (the second attempt: 2): flip edges, smooth vertices          smooth_mesh.h
-//     annihilate dislocations of the lattice                   annihilate_dislocations.h
-//     4 times: flip edges, smooth vertices
+//     unless dislocations are to be kept:
+//       3 times (the second attempt: 2): flip edges, smooth vertices        smooth_mesh.h
+//       annihilate dislocations of the lattice                 annihilate_dislocations.h
+//     4 times (the second attempt, if they are kept: 3): flip edges, smooth vertices
 //     optimize
 //     if there are creases or borders, twice:
 //       slide vertices along them; optimize                                slide_features.h
@@ -57,10 +58,11 @@ class Mesh_improver {
 public:
   /// \throw Invalid_input_error if `mesh` is not an oriented 2-manifold
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
-                Concurrency concurrency)
+                Concurrency concurrency, Dislocations dislocations)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_concurrency(concurrency),
-        m_locked(mesh.points.size(), false), m_stars(std::in_place, mesh, m_projector, concurrency),
-        m_tracker(*m_stars), m_flat(surface, Flat_patches::level_sine, concurrency),
+        m_dislocations(dislocations), m_locked(mesh.points.size(), false),
+        m_stars(std::in_place, mesh, m_projector, concurrency), m_tracker(*m_stars),
+        m_flat(surface, Flat_patches::level_sine, concurrency),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
@@ -74,7 +76,7 @@ public:
       if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_concurrency);
       Star_mesh& stars = *m_stars;
       stars.lock(m_locked);
-      improve(stars, Schedule::smoothing_passes - (attempt == 1 ? 1 : 0));
+      improve(stars, attempt == 1 ? 1 : 0);
       if (attempt == 0) part.next(0.97);
       const std::vector<Face> broken = find_broken(stars);
       if (broken.empty()) {
@@ -97,15 +99,17 @@ private:
   using Schedule = Improvement_parameters::Schedule;
 
   // One attempt; see the head of this file.
-  void improve(Star_mesh& stars, int smoothing_passes)
+  void improve(Star_mesh& stars, int passes_less)
   {
     Progress_part part(0.1);
     Mesh_smoother smoother(stars);
-    smoother.run(smoothing_passes);
-    part.next(0.2);
-    Dislocation_annihilator(stars).run();
+    if (m_dislocations == Dislocations::annihilate) {
+      smoother.run(Schedule::smoothing_passes - std::exchange(passes_less, 0));
+      part.next(0.2);
+      Dislocation_annihilator(stars).run();
+    }
     part.next(0.4);
-    smoother.run(Schedule::last_smoothing_passes);
+    smoother.run(Schedule::last_smoothing_passes - passes_less);
     Bad_triangle_optimizer optimizer(stars);
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
     const auto slide = [&] {
@@ -230,6 +234,7 @@ private:
   Surface_projector m_projector;
   Extracted_mesh& m_mesh; // as it was extracted, until it is improved
   Concurrency m_concurrency;
+  Dislocations m_dislocations;
   std::vector<char> m_locked;
   std::optional<Star_mesh> m_stars; // of the attempt
   Distance_tracker m_tracker;
@@ -240,12 +245,13 @@ private:
 } // namespace internal
 
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
-                                        Extracted_mesh& mesh, internal::Concurrency concurrency)
+                                        Extracted_mesh& mesh, internal::Concurrency concurrency,
+                                        Dislocations dislocations)
 {
   if (mesh.triangles.empty()) return true;
   try {
     internal::Progress_part part(0.12);
-    internal::Mesh_improver improver(surface, tree, mesh, concurrency);
+    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations);
     part.next(0.98);
     improver.run();
     mesh.sort_triangles(concurrency);
