@@ -48,6 +48,8 @@ public:
         m_engine(m_patches.surface(), m_options), m_report(report)
   {
     m_report.samples_asked = m_options.number_of_samples;
+    m_report.min_angle = m_options.min_angle;
+    m_report.max_angle = m_options.max_angle;
     m_report.feature_samples = m_patches.features().size();
   }
 

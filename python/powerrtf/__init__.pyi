@@ -64,6 +64,8 @@ def remesh(
     relative_edge_length: float = 0.0,
     max_distance: float = 0.0,
     relative_max_distance: float = 0.0,
+    min_angle: float = 0.0,
+    max_angle: float = 180.0,
     seed: int = 0,
     feature_angle: float = 40.0,
     repair: bool = True,

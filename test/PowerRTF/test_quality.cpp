@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,24 @@ TEST_CASE("triangle quality: known angles")
   CHECK(q.below_30 == Approx(1. / 3));
   CHECK(q.above_90 == Approx(1. / 3));
   CHECK(q.q_min < 0.4);
+}
+
+TEST_CASE("angles that are asked for are guarantees: met up to the bound, missed beyond it")
+{
+  Remeshing_report report;
+  report.quality.theta_min = 40;
+  report.quality.theta_max = 85;
+  const auto missed = [&](double min_angle, double max_angle) {
+    report.min_angle = min_angle;
+    report.max_angle = max_angle;
+    return report.missed_guarantees();
+  };
+  using Words = std::vector<std::string>;
+  CHECK(missed(0, 180).empty());
+  CHECK(missed(40, 85).empty());
+  CHECK(missed(40.5, 85) == Words{"smallest angle: 40 instead of 40.5"});
+  CHECK(missed(40, 84.5) == Words{"largest angle: 85 instead of 84.5"});
+  CHECK(missed(45, 80).size() == 2);
 }
 
 TEST_CASE("triangle quality: no triangle, no area")

@@ -55,8 +55,11 @@ struct Remeshing_options {
   /// guarantee, and a resolution for functions that look for one.
   double max_distance = 0;
   double relative_max_distance = 0; ///< the same over the diagonal of the bounding box
-  unsigned random_seed = 0;         ///< of all random choices
-  Repair repair = Repair::yes;      ///< of the input
+  // Guarantees that are asked for, about the angles of the triangles, in degrees:
+  double min_angle = 0;        ///< none is smaller; 0: not asked for
+  double max_angle = 180;      ///< none is larger; 180: not asked for
+  unsigned random_seed = 0;    ///< of all random choices
+  Repair repair = Repair::yes; ///< of the input
 
   /// Degrees: edges whose facets' normals differ by at least this are kept as creases where such
   /// edges make clean curves; 180: none. Creases named by the user go first.

@@ -106,6 +106,8 @@ struct Iteration_report {
 struct Remeshing_report {
   std::size_t samples_asked = 0; ///< \f$n\f$
   double max_distance = 0;       ///< asked for, in the input's unit of length; 0: none was
+  double min_angle = 0;          ///< asked for, in degrees; 0: none was
+  double max_angle = 180;        ///< asked for, in degrees; 180: none was
   bool cancelled = false;        ///< the visitor stopped the run
   std::size_t constructions = 0; ///< of all cells, in all (Algorithm 1)
   std::size_t outer_iterations = 0;
@@ -164,10 +166,16 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
                   ? " (the input has " + std::to_string(input_self_intersections) + ")"
                   : std::string()));
   same(lost_feature_edges, std::size_t(0), "lost edges of creases and borders");
-  std::ostringstream distances;
-  distances << "largest distance: up to " << absolute(distance.bound) << " instead of "
-            << max_distance;
-  expect(max_distance == 0 || absolute(distance.bound) <= max_distance, distances.str());
+  const auto bounded = [&expect](bool met, const char* what, double is, double asked) {
+    std::ostringstream text;
+    text << what << is << " instead of " << asked;
+    expect(met, text.str());
+  };
+  const double bound = absolute(distance.bound);
+  bounded(max_distance == 0 || bound <= max_distance, "largest distance: up to ", bound,
+          max_distance);
+  bounded(quality.theta_min >= min_angle, "smallest angle: ", quality.theta_min, min_angle);
+  bounded(quality.theta_max <= max_angle, "largest angle: ", quality.theta_max, max_angle);
   return missed;
 }
 

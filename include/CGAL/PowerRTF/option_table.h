@@ -107,6 +107,10 @@ void for_each_option(Visitor&& visit)
       {0, 1e300});
   add("relative_max_distance", &O::relative_max_distance, "",
       "that distance over the diagonal of the bounding box", {0, 1});
+  add("min_angle", &O::min_angle, "",
+      "degrees: a guarantee, no angle of a triangle is smaller; 0: not asked for", {0, 60});
+  add("max_angle", &O::max_angle, "",
+      "degrees: a guarantee, no angle of a triangle is larger; 180: not asked for", {60, 180});
   add("density", &O::density, "rho", "even samples, or more of them where the surface is curved",
       no_number);
   add("random_seed", &O::random_seed, "", "seed of all random choices",

@@ -58,6 +58,8 @@ bounds() {
   refuse "$1" "$5" "$range"
 }
 bounds seed 0 4294967295 -1 4294967296
+bounds min-angle 0 60 -1 60.1
+bounds max-angle 60 180 59.9 181
 bounds density-power 0 100 -1e-9 100.001
 bounds gradation 0 1000 -1e-300 1001
 bounds oversampling 1 32 0.999 32.001

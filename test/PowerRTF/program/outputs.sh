@@ -216,6 +216,13 @@ run 3 'out.off' 'guarantee' -- crossing.off out.off -n 60 --report r.json
 expect 'a mesh that misses a guarantee is written' grep -q OFF out.off
 expect 'the report names the guarantee' [ "$(field missed_guarantees)" != '[]' ]
 
+# --- angles that are asked for
+run 0 -- torus.off out.off "${fast[@]}" --min-angle 10 --max-angle 150
+run 3 'out.off' 'smallest angle: ' 'instead of 59.5' -- torus.off out.off "${fast[@]}" \
+  --min-angle 59.5 --report r.json
+expect 'the report names the angle' [ "$(field missed_guarantees)" != '[]' ]
+run 3 'largest angle: ' 'instead of 61' -- torus.off out.off "${fast[@]}" --max-angle 61
+
 # --- input that is repaired
 sed '$ a 3 0 0 1' torus.off | sed '2s/800 1600 0/800 1601 0/' >degenerate.off
 run 0 -- degenerate.off out.off "${fast[@]}" --report r.json
