@@ -9,14 +9,11 @@
 
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
-#include <CGAL/PowerRTF/geometry/surface_geometry.h>
+#include <CGAL/PowerRTF/geometry/halve_edges.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -36,29 +33,12 @@ public:
   /// \returns whether there were any
   bool run(std::vector<int>& parents)
   {
-    if (!halve_edges()) return false;
-    const int facets = int(m.triangles.size());
-    std::vector<int> first(facets + 1, 0); // of a facet's pieces
-    for_each_index(m_concurrency, facets, [&](int f) {
-      const auto middles = middles_of(f);
-      first[f] = int(4 - std::count(middles.begin(), middles.end(), -1));
-    });
-    exclusive_scan(m_concurrency, facets + 1, first.data());
-    std::vector<Triangle> triangles(first.back());
-    std::vector<int> of_triangles(first.back());
-    std::vector<int> patches(m.facet_patches.empty() ? 0 : first.back());
-    for_each_index(m_concurrency, facets, [&](int f) {
-      split(m.triangles[f], middles_of(f), &triangles[first[f]]);
-      for (int k = first[f]; k < first[f + 1]; ++k) {
-        of_triangles[k] = parents.empty() ? f : parents[f];
-        if (!patches.empty()) patches[k] = m.facet_patches[f];
-      }
-    });
-    m.triangles.swap(triangles);
-    m.facet_patches.swap(patches);
-    m.adjacency = facet_adjacency(m.triangles, m.points.size(), m_concurrency);
-    compute_geometry(m, m_concurrency);
-    parents.swap(of_triangles);
+    const std::vector<int> edges = long_edges();
+    if (edges.empty()) return false;
+    std::vector<int> of_pieces = halve_edges(m, edges, m_concurrency).parents;
+    if (!parents.empty())
+      for (int& f : of_pieces) f = parents[f];
+    parents.swap(of_pieces);
     return true;
   }
 
@@ -92,70 +72,9 @@ private:
     });
   }
 
-  /// \returns whether there was one
-  bool halve_edges()
-  {
-    const std::vector<int>& opposite = m.adjacency.opposite;
-    const std::vector<int> edges = long_edges();
-    const std::size_t old = m.points.size();
-    if (edges.empty()) return false;
-    m_middles.assign(opposite.size(), -1);
-    m.points.resize(old + edges.size());
-    m.vertex_density.resize(m.points.size());
-    m.input_vertices.resize(m.points.size());
-    for_each_index(m_concurrency, int(edges.size()), [&](int k) {
-      const int h = edges[k], o = opposite[h], middle = int(old) + k;
-      const int a = halfedge_source(m.triangles, h), b = halfedge_target(m.triangles, h);
-      m_middles[h] = middle;
-      if (o != Facet_adjacency::none) m_middles[o] = middle;
-      m.points[middle] = (m.points[a] + m.points[b]) * 0.5;
-      m.vertex_density[middle] = (m.vertex_density[a] + m.vertex_density[b]) / 2;
-      m.input_vertices[middle] = m.input_vertices[a];
-    });
-    return true;
-  }
-
-  std::array<int, 3> middles_of(int f) const
-  {
-    return {m_middles[3 * f], m_middles[3 * f + 1], m_middles[3 * f + 2]};
-  }
-
-  /// Cuts `t` at the middles of its edges (-1: not halved), into one piece more than there are
-  /// middles.
-  void split(Triangle t, std::array<int, 3> middles, Triangle* pieces) const
-  {
-    const auto count = 3 - std::count(middles.begin(), middles.end(), -1);
-    const auto turn = [&] {
-      std::rotate(t.begin(), t.begin() + 1, t.end());
-      std::rotate(middles.begin(), middles.begin() + 1, middles.end());
-    };
-    const auto put = [&pieces](std::initializer_list<Triangle> all) {
-      pieces = std::copy(all.begin(), all.end(), pieces);
-    };
-    if (count == 0) {
-      put({t});
-    } else if (count == 1) {
-      while (middles[0] < 0) turn();
-      put({{t[0], middles[0], t[2]}, {middles[0], t[1], t[2]}});
-    } else if (count == 2) { // the quadrangle t0, t1, m1, m2 by its shorter diagonal
-      while (middles[0] >= 0) turn();
-      const auto [m0, m1, m2] = middles;
-      put({{m1, t[2], m2}});
-      if (squared_length(m.points[t[0]] - m.points[m1]) <
-          squared_length(m.points[t[1]] - m.points[m2]))
-        put({{t[0], t[1], m1}, {t[0], m1, m2}});
-      else
-        put({{t[0], t[1], m2}, {t[1], m1, m2}});
-    } else {
-      const auto [m0, m1, m2] = middles;
-      put({{t[0], m0, m2}, {m0, t[1], m1}, {m2, m1, t[2]}, {m0, m1, m2}});
-    }
-  }
-
   Surface& m;
   double m_spacing;
   Concurrency m_concurrency;
-  std::vector<int> m_middles; // by halfedge: the vertex that halves it, or -1
 };
 
 } // namespace internal
