@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options.h"
 
+#include "input_fields.h"
 #include "option_names.h"
 #include "output_file.h"
 
@@ -96,6 +97,15 @@ public:
       add(group(option.group), name == "samples" ? "samples,n" : name, argument, help);
       if (other_name != name) add(m_hidden, other_name, argument, "");
     });
+    group("Fields and regions of the input")
+        .add_options()("size-field", text("NAME"),
+                       "the edge lengths that are wanted: a property of the input's vertices, or a "
+                       "file with a number a line; without a number of samples it gives that, too")(
+            "density-field", text("NAME"),
+            "the same for the density, instead of --density; only its ratios matter")(
+            "refine", po::value<std::vector<std::string>>()->composing()->value_name("REGION"),
+            "sphere:x,y,z,r,h or box:x0,y0,z0,x1,y1,z1,h: edges are no longer than about h inside; "
+            "may be given several times");
     group("Files").add_options()("report", text("FILE.json"),
                                  "write what was done and what the result is worth")(
         "html", text("FILE.html"),
@@ -210,16 +220,18 @@ double* share_of_input(const Option& option, Remeshing_options& o)
                                      : nullptr;
 }
 
-/// \throws Usage_error
-void require_one_resolution(const po::variables_map& values)
+/// The option that says how fine, or an empty text. \throws Usage_error there is more than one
+std::string resolution_option(const po::variables_map& values)
 {
   std::string other;
-  for (const std::string name : {"samples", "number-of-samples", "vertex-share", "edge-length",
-                                 "relative-edge-length", "max-distance", "relative-max-distance"}) {
+  for (const std::string name :
+       {"samples", "number-of-samples", "vertex-share", "edge-length", "relative-edge-length",
+        "size-factor", "max-distance", "relative-max-distance"}) {
     if (!values.count(name)) continue;
     if (!other.empty()) throw Usage_error("--" + other + " and --" + name + " exclude each other");
     other = name;
   }
+  return other;
 }
 
 /// The parameters of the preset, changed by the options for single parameters.
@@ -249,8 +261,30 @@ Remeshing_options remeshing_options(const po::variables_map& values)
         o.*member = parse_value<T>(given, text, option.range);
     }
   });
-  require_one_resolution(values);
+  resolution_option(values);
   return o;
+}
+
+/// \throws Usage_error
+void set_fields(const po::variables_map& values, Program_options& o)
+{
+  for (const auto& [option, name] :
+       {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field}}) {
+    if (!values.count(option)) continue;
+    *name = values[option].as<std::string>();
+    if (name->empty()) throw Usage_error("--" + std::string(option) + ": the name is empty");
+  }
+  if (!o.size_field.empty() && !o.density_field.empty())
+    throw Usage_error("--size-field and --density-field exclude each other");
+  if (o.remeshing.size_factor > 0 && o.size_field.empty())
+    throw Usage_error("--size-factor: there is no --size-field");
+  if (!o.size_field.empty() && resolution_option(values).empty()) o.remeshing.size_factor = 1;
+  if (!values.count("refine")) return;
+  for (const std::string& region : values["refine"].as<std::vector<std::string>>()) try {
+      o.refinements.push_back(parse_refinement(region));
+    } catch (const Invalid_input_error& e) {
+      throw Usage_error(std::string("--refine: ") + e.what());
+    }
 }
 
 /// \throws Usage_error
@@ -339,6 +373,7 @@ Program_options parse_command_line(int argc, const char* const* argv, std::strin
   const std::string threads = values.count("threads") ? values["threads"].as<std::string>() : "0";
   o.threads = parse_value<int>("threads", threads, {0, 4096});
   o.quiet = values.count("quiet") > 0;
+  set_fields(values, o);
   set_batch(values, o);
   set_files(values, o);
   return o;

@@ -7,10 +7,12 @@
 
 #include "Format.h"
 
+#include <CGAL/PowerRTF/Refinement.h>
 #include <CGAL/PowerRTF/Remeshing_options.h>
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace tools {
 
@@ -25,6 +27,8 @@ struct Program_options {
   std::string report_file, html_file, cells_file, samples_file, fields_file,
       provenance_file; ///< empty: not asked for
   CGAL::PowerRTF::Remeshing_options remeshing;
+  std::string size_field, density_field; ///< names of properties or files; empty: none
+  std::vector<CGAL::PowerRTF::Refinement> refinements;
   std::string traits;  ///< "cpu", "exact", "cuda", or "auto": the faster of "cpu" and "cuda"
   bool check = false;  ///< compare the cells with the exact ones at the end
   int check_every = 0; ///< and every so many iterations; 0: only at the end

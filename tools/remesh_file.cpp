@@ -6,6 +6,7 @@
 #include "cells_io.h"
 #include "fields_io.h"
 #include "html_page.h"
+#include "input_fields.h"
 #include "mesh_io.h"
 #include "output_file.h"
 #include "traits.h"
@@ -89,31 +90,37 @@ void check_precision(Surface& surface, const Program_options& options)
   }
 }
 
-/// The input, with the properties that the output will have. `run` receives the seconds and what is
-/// lost.
-Polygon_mesh load(Run& run)
+struct Input {
+  Polygon_mesh mesh; ///< with the properties that the output will have
+  Surface_fields fields;
+};
+
+/// `run` receives the seconds and what is lost.
+Input load(Run& run)
 {
-  Polygon_mesh mesh;
+  Input input;
+  Polygon_mesh& mesh = input.mesh;
   {
     const Stage stage("load", run.report.seconds.load);
     const internal::Progress_part part(1);
     mesh = read_mesh(run.options.input);
+    input.fields = about_input(run.options, [&] { return fields_of(run.options, mesh); });
   }
   const Format output = format_of(run.options.output);
   mesh.attributes.merge(not_held_by(output, mesh.properties));
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   mesh.properties = run.options.write_mesh ? held_by(output, mesh.properties) : Mesh_properties();
   stop_if_interrupted();
-  return mesh;
+  return input;
 }
 
 /// The surface of the input. `run` receives the number of samples, the repairs and the seconds.
-Surface prepare(Polygon_soup&& soup, Run& run)
+Surface prepare(Polygon_soup&& soup, const Surface_fields& fields, Run& run)
 {
   Program_options& options = run.options;
   const Stage stage("surface");
   Surface surface = about_input(options, [&] {
-    return prepare_surface(std::move(soup), {}, {}, options.remeshing, run.report, Concurrency());
+    return prepare_surface(std::move(soup), fields, options.remeshing, run.report, Concurrency());
   });
   options.remeshing.number_of_samples = run.report.samples_asked;
   check_number_of_samples(options);
@@ -274,12 +281,12 @@ void guess_samples(const Surface& surface, Run& run)
 
 /// The surface with the number of samples that keep the distance asked for.
 template <class Traits>
-Surface surface_within_distance(const Polygon_soup& soup, Run& run, Progress& progress)
+Surface surface_within_distance(const Input& input, Run& run, Progress& progress)
 {
   const auto prepare_for = [&](const Remeshing_options& options, Remeshing_report& report) {
     Run trial = run;
     trial.options.remeshing = options;
-    Surface surface = prepare(Polygon_soup(soup), trial);
+    Surface surface = prepare(Polygon_soup(input.mesh.soup), input.fields, trial);
     report = trial.report;
     return surface;
   };
@@ -297,18 +304,19 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
   check_outputs(options);
   Progress progress(options.quiet);
   const internal::Cancellation cancellation(progress);
-  Polygon_mesh input = load(run);
+  Input input = load(run);
+  Polygon_soup& soup = input.mesh.soup;
   const bool is_search = is_distance_asked_for(options.remeshing);
-  const bool keeps_input = is_search || has_sources(input, options);
-  Surface surface = prepare(keeps_input ? Polygon_soup(input.soup) : std::move(input.soup), run);
+  const bool keeps_input = is_search || has_sources(input.mesh, options);
+  Surface surface = prepare(keeps_input ? Polygon_soup(soup) : std::move(soup), input.fields, run);
   if (is_search) guess_samples(surface, run);
   with_traits(options.traits, run.options.remeshing, [&](auto traits, const std::string& why) {
     using Traits = typename decltype(traits)::type;
     run.gpu_not_used = why;
-    if (is_search) surface = surface_within_distance<Traits>(input.soup, run, progress);
+    if (is_search) surface = surface_within_distance<Traits>(input, run, progress);
     outputs.emplace(); // without those of a GPU that has failed
     const bool may_fail = options.traits == "auto" && Traits::name() == std::string("cuda");
-    make_results<Traits>(run, input, may_fail ? surface : std::move(surface), *outputs);
+    make_results<Traits>(run, input.mesh, may_fail ? surface : std::move(surface), *outputs);
   });
 }
 

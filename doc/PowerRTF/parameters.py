@@ -20,7 +20,7 @@ BEGIN, END = "<!-- generated: parameters -->", "<!-- end of generated -->"
 GREEK = "alpha gamma kappa rho tau Delta Theta".split()
 FORMULAS = ["rho = kappa^p", "f, f^2, f^3", "Delta s = tau gamma D_i / 4", "rho"]
 # of the program's options, those that are no parameters of the method
-OTHERS = {"Files", "Comparison with exact arithmetic", "Program"}
+OTHERS = {"Fields and regions of the input", "Files", "Comparison with exact arithmetic", "Program"}
 
 
 def options(text):

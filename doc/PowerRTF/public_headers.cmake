@@ -7,9 +7,11 @@ set(public_headers
     PowerRTF/PowerRTF_exact_traits_3.h
     PowerRTF/PowerRTF_cuda_traits_3.h
     PowerRTF/Remeshing_options.h
+    PowerRTF/Refinement.h
     PowerRTF/Resolution.h
     PowerRTF/Remeshing_report.h
     PowerRTF/Remeshing_visitor.h
+    PowerRTF/Surface_fields.h
     PowerRTF/named_parameters.h
     PowerRTF/option_table.h
     PowerRTF/cells/construct_cell.h

@@ -120,6 +120,28 @@ struct Run_types {
  *     \cgalParamExtra{Its growth is limited by `PowerRTF::Remeshing_options::gradation`.}
  *   \cgalParamNEnd
  *
+ *   \cgalParamNBegin{PowerRTF::parameters::sizing_map}
+ *     \cgalParamDescription{a sizing field, instead of a density: a property map associating to the
+ *                           vertices of `input` the lengths that edges shall have there. With
+ *                           `PowerRTF::Resolution::size_factor()` they give the number of vertices,
+ *                           too; with another resolution only their ratios matter.}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with
+ *                    `boost::graph_traits<InputMesh>::%vertex_descriptor` as key type and a
+ *                    positive number as value type}
+ *     \cgalParamDefault{none: densities say where edges are shorter}
+ *     \cgalParamExtra{The growth of the lengths is limited by
+ *                     `PowerRTF::Remeshing_options::gradation`. They are linear on the facets of
+ *                     `input`.}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{PowerRTF::parameters::refinements}
+ *     \cgalParamDescription{regions where edges are to be no longer than a given length. If
+ *                           `resolution` is an edge length, it is that of the rest; if it is a
+ *                           number, that is kept, and the rest is coarser.}
+ *     \cgalParamType{`std::vector<PowerRTF::Refinement>`}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
+ *
  *   \cgalParamNBegin{PowerRTF::parameters::remeshing_options}
  *     \cgalParamDescription{all parameters of the method;
  *                           `PowerRTF::Remeshing_options::of()` gives those of a preset}
@@ -217,9 +239,10 @@ struct Run_types {
  *          stopped the run, `cancelled` is `true` and `output` is as it was.
  *
  * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not
- *         finite or is no 2-manifold; a density is not a positive, finite number; the
- *         samples are too few for the surface; `resolution` or an option has a value that is
- *         not allowed (the message says what is). `output` is as it was.
+ *         finite or is no 2-manifold; a density or a wanted edge length is not a
+ *         positive, finite number; the samples are too few for the surface, or for the lengths;
+ * `resolution` or an option has a value that is not allowed (the message says what is). `output` is
+ * as it was.
  */
 template <class ConcurrencyTag = Parallel_if_available_tag, class InputMesh, class OutputMesh,
           class NamedParametersIn = parameters::Default_named_parameters,
@@ -234,7 +257,8 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
                 "vertex_source_map and face_source_map belong into the second chain of named "
                 "parameters");
   static_assert(!PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
-                "density_map, remeshing_options and repair belong into the first chain of named "
+                "density_map, sizing_map, refinements, remeshing_options and repair belong into "
+                "the first chain of named "
                 "parameters; one that began in CGAL::parameters takes them by "
                 "PowerRTF::parameters::combine(chain, density_map(map))");
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, InputMesh, NamedParametersIn>;

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from os import PathLike
 from typing import Any
 
@@ -54,6 +54,8 @@ def remesh(
     n: int | None = None,
     *,
     density: Any = "curvature",
+    sizing: Any = None,
+    refine: Iterable[str] = (),
     constrained_edges: Any = None,
     traits: str = "auto",
     threads: int = 0,
@@ -62,6 +64,7 @@ def remesh(
     vertex_share: float = 0.0,
     edge_length: float = 0.0,
     relative_edge_length: float = 0.0,
+    size_factor: float = 0.0,
     max_distance: float = 0.0,
     relative_max_distance: float = 0.0,
     min_angle: float = 0.0,
@@ -72,6 +75,8 @@ def remesh(
     density_power: float = 1.0,
     gradation: float = 0.1,
     density_smoothing: float = 3.0,
+    min_edge_length: float = 0.0,
+    max_edge_length: float = 0.0,
     sampling: str = "lattice",
     oversampling: float = 4.0,
     relaxation_iterations: int = 0,
@@ -107,6 +112,7 @@ def remesh_file(
     *,
     ascii: bool = False,
     density: str = "curvature",
+    refine: Iterable[str] = (),
     traits: str = "auto",
     threads: int = 0,
     progress: Callable[[float, str], Any] | bool | None = None,

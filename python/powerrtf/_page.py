@@ -9,7 +9,7 @@ import os
 from . import _core
 
 RESOLUTIONS = ("edge_length", "relative_edge_length", "max_distance", "relative_max_distance",
-               "vertex_share")
+               "vertex_share", "size_factor")
 
 
 def html_page(mesh):

@@ -30,7 +30,17 @@ def _bar():
     return show, bar.close
 
 
-def _run(vertices, faces, n, density, constrained_edges, traits, threads, progress, options):
+def _vertex_values(values, name, count):
+    values = real_array(values, name)
+    if len(values) != count:
+        raise InvalidInputError(f"{name} has {len(values)} entries, but there are {count} vertices")
+    return values
+
+
+def _run(vertices, faces, n, density, sizing, refine, constrained_edges, traits, threads, progress,
+         options):
+    if sizing is not None and n is None and not any(map(options.get, RESOLUTIONS)):
+        options = {**options, "size_factor": 1.0}
     resolutions = [name for name in RESOLUTIONS if options.get(name)]
     if (n is not None) + len(resolutions) != 1:
         raise InvalidInputError(f"one of n, {', '.join(RESOLUTIONS)} must be given, not "
@@ -44,18 +54,17 @@ def _run(vertices, faces, n, density, constrained_edges, traits, threads, progre
         raise TypeError(f"remesh() got an unexpected keyword argument {name!r}")
     if n is not None:
         options["number_of_samples"] = n
-    densities = None
+    fields = {"density": None, "sizing": None, "constrained_edges": None, "refine": list(refine)}
     if isinstance(density, str):
         options["density"] = density
     else:
-        densities = real_array(density, "density")
-        if len(densities) != len(vertices):
-            raise InvalidInputError(f"density has {len(densities)} entries, but there are "
-                                    f"{len(vertices)} vertices")
+        fields["density"] = _vertex_values(density, "density", len(vertices))
+    if sizing is not None:
+        fields["sizing"] = _vertex_values(sizing, "sizing", len(vertices))
     if constrained_edges is not None:
-        constrained_edges = index_array(constrained_edges, "constrained_edges", (2,))
+        fields["constrained_edges"] = index_array(constrained_edges, "constrained_edges", (2,))
     corners, sizes = faces
-    given = (vertices, corners, sizes, densities, constrained_edges, options)
+    given = (vertices, corners, sizes, fields, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
         points, triangles, report, sites = _core.remesh(*given, traits, threads, show)
@@ -70,23 +79,23 @@ def _warn(mesh):
     return mesh
 
 
-def remesh(vertices, faces=None, n=None, *, density="curvature", constrained_edges=None,
-           traits="auto", threads=0, progress=None, **options):
+def remesh(vertices, faces=None, n=None, *, density="curvature", sizing=None, refine=(),
+           constrained_edges=None, traits="auto", threads=0, progress=None, **options):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
     corners, sizes = face_arrays(faces)
     if points.dtype == np.float32:
         options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, constrained_edges, traits, threads, progress,
-                options)
+    mesh = _run(points, (corners, sizes), n, density, sizing, refine, constrained_edges, traits,
+                threads, progress, options)
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
     return _warn(mesh)
 
 
-def remesh_file(input, output, n=None, *, ascii=False, density="curvature", traits="auto", threads=0,
-                progress=None, **options):
+def remesh_file(input, output, n=None, *, ascii=False, density="curvature", refine=(), traits="auto",
+                threads=0, progress=None, **options):
     """Remeshes from file to file.
 
     :param input: OFF, OBJ, PLY or STL
@@ -100,7 +109,8 @@ def remesh_file(input, output, n=None, *, ascii=False, density="curvature", trai
     points, corners, sizes = _core.read_mesh(input)
     if _core.holds_floats(output, ascii):
         options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, None, traits, threads, progress, options)
+    mesh = _run(points, (corners, sizes), n, density, None, refine, None, traits, threads, progress,
+                options)
     _core.write_mesh(output, mesh.vertices, mesh.faces, ascii)
     return _warn(mesh)
 
@@ -122,6 +132,10 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
 :param n: the number of vertices asked for; or instead ``edge_length``, ``max_distance``, one of them
     relative to the diagonal, or ``vertex_share``
 :param density: "curvature", "uniform", or a positive number for each vertex; only ratios matter
+:param sizing: a positive number for each vertex: the edge length that is wanted there. Without `n` or
+    what else gives it, the number of vertices comes from it
+:param refine: regions where edges are to be short: "sphere:x,y,z,r,h" or
+    "box:x0,y0,z0,x1,y1,z1,h", with the length h
 :param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
 :param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm
 :param threads: 0: all. The result is the same for any number

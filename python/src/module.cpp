@@ -9,6 +9,7 @@
 #include "options.h"
 
 #include "html_page.h"
+#include "input_fields.h"
 #include "mesh_io.h"
 #include "option_names.h"
 #include "output_file.h"
@@ -40,18 +41,35 @@ using nb::literals::operator""_a;
 
 struct Input {
   Polygon_soup soup;
-  std::optional<std::vector<Edge>> creases;
-  std::optional<std::vector<double>> densities;
+  Surface_fields fields;
+};
+
+/// What a dictionary of fields has: arrays or None, and regions as the program has them.
+struct Given_fields {
+  std::optional<Real_array> density, sizing;
+  std::optional<Index_array> constrained_edges;
+  std::vector<std::string> refine;
+
+  explicit Given_fields(const nb::dict& fields)
+      : density(nb::cast<std::optional<Real_array>>(fields["density"])),
+        sizing(nb::cast<std::optional<Real_array>>(fields["sizing"])),
+        constrained_edges(nb::cast<std::optional<Index_array>>(fields["constrained_edges"])),
+        refine(nb::cast<std::vector<std::string>>(fields["refine"]))
+  {}
 };
 
 Input input_of(const Real_array& points, const Index_array& faces,
-               const std::optional<Index_array>& sizes, const std::optional<Real_array>& density,
-               const std::optional<Index_array>& constrained_edges)
+               const std::optional<Index_array>& sizes, const Given_fields& given)
 {
   Input input;
   input.soup = soup_of_arrays(points, faces, sizes);
-  if (constrained_edges) input.creases = edges_of_array(*constrained_edges, input.soup);
-  if (density) input.densities = numbers_of_array(*density);
+  Surface_fields& fields = input.fields;
+  if (given.constrained_edges)
+    fields.creases = edges_of_array(*given.constrained_edges, input.soup);
+  if (given.density) fields.densities = numbers_of_array(*given.density);
+  if (given.sizing) fields.sizes = numbers_of_array(*given.sizing);
+  for (const std::string& region : given.refine)
+    fields.refinements.push_back(tools::parse_refinement(region));
   return input;
 }
 
@@ -95,7 +113,7 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
     const auto prepare = [&](const Remeshing_options& o, Remeshing_report& report) {
       const internal::Stage stage("surface");
       return prepare_surface(is_search ? Polygon_soup(input.soup) : std::move(input.soup),
-                             input.creases, input.densities, o, report, tools::Concurrency());
+                             input.fields, o, report, tools::Concurrency());
     };
     Surface surface = prepare(options, run.report);
     options.number_of_samples =
@@ -128,9 +146,9 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
 }
 
 nb::tuple remesh(const Real_array& points, const Index_array& faces,
-                 const std::optional<Index_array>& sizes, const std::optional<Real_array>& density,
-                 const std::optional<Index_array>& constrained_edges, const nb::dict& options,
-                 const std::string& traits, int threads, const nb::object& progress)
+                 const std::optional<Index_array>& sizes, const nb::dict& fields,
+                 const nb::dict& options, const std::string& traits, int threads,
+                 const nb::object& progress)
 {
 #ifndef CGAL_POWER_RTF_WITH_CUDA
   if (traits == "cuda") throw Invalid_input_error("traits is 'cuda', which is not built in here");
@@ -141,10 +159,11 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   run.options.threads = threads;
   const bool is_single = run.options.remeshing.coordinates == Coordinates::single_precision;
   Python_visitor visitor(progress);
+  const Given_fields given(fields);
   Result result;
   {
     const nb::gil_scoped_release release;
-    Input input = input_of(points, faces, sizes, density, constrained_edges);
+    Input input = input_of(points, faces, sizes, given);
     result = remesh_with_traits(run, input, visitor);
   }
   visitor.rethrow();
@@ -158,20 +177,19 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
 
 /// The page of a run, of what went in and what came out.
 nb::bytes html_page(const Real_array& points, const Index_array& faces,
-                    const std::optional<Index_array>& sizes,
-                    const std::optional<Real_array>& density,
-                    const std::optional<Index_array>& constrained_edges, const nb::dict& options,
-                    const Real_array& vertices, const Index_array& triangles,
-                    const std::string& report)
+                    const std::optional<Index_array>& sizes, const nb::dict& fields,
+                    const nb::dict& options, const Real_array& vertices,
+                    const Index_array& triangles, const std::string& report)
 {
   const Remeshing_options remeshing = options_of(options);
+  const Given_fields given(fields);
   std::ostringstream page;
   {
     const nb::gil_scoped_release release;
-    Input input = input_of(points, faces, sizes, density, constrained_edges);
+    Input input = input_of(points, faces, sizes, given);
     Remeshing_report repairs;
-    const Surface surface = prepare_surface(std::move(input.soup), input.creases, input.densities,
-                                            remeshing, repairs, tools::Concurrency());
+    const Surface surface = prepare_surface(std::move(input.soup), input.fields, remeshing, repairs,
+                                            tools::Concurrency());
     Extracted_mesh mesh;
     mesh.points = points_of_array(vertices);
     for (Vec3d& p : mesh.points) p = surface.normalization.to_inside(p);
@@ -238,11 +256,11 @@ NB_MODULE(_core, m)
   nb::exception<Invalid_input_error>(m, "InvalidInputError", PyExc_ValueError);
   nb::exception<tools::Output_error>(m, "OutputError", PyExc_OSError);
   m.def("options", &option_rows);
-  m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "density"_a.none(),
-        "constrained_edges"_a.none(), "options"_a, "traits"_a, "threads"_a, "progress"_a.none());
+  m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
+        "traits"_a, "threads"_a, "progress"_a.none());
   m.def("cells", &cells<tools::Concurrency>, "sites"_a);
-  m.def("html_page", &html_page, "points"_a, "faces"_a, "sizes"_a.none(), "density"_a.none(),
-        "constrained_edges"_a.none(), "options"_a, "vertices"_a, "triangles"_a, "report"_a);
+  m.def("html_page", &html_page, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
+        "vertices"_a, "triangles"_a, "report"_a);
   m.def("read_mesh", &read_mesh, "file"_a);
   m.def("check_output", &check_output, "file"_a);
   m.def("holds_floats", [](const std::string& file, bool ascii) {

@@ -54,6 +54,21 @@ def test_an_edge_length_or_a_share_of_the_vertices_gives_n():
         powerrtf.remesh(POINTS, FACES, 100, edge_length=0.2)
 
 
+def test_edge_lengths_may_be_wanted_somewhere():
+    points, faces = sphere(24)
+    even = powerrtf.remesh(points, faces, sizing=np.full(len(points), 0.2))
+    assert abs(even.report.edge_length_median / 0.2 - 1) < 0.02
+    coarse = powerrtf.remesh(points, faces, sizing=np.full(len(points), 0.2), size_factor=1.5)
+    assert len(coarse.vertices) < 0.5 * len(even.vertices)
+    refined = powerrtf.remesh(points, faces, edge_length=0.2, refine=["sphere:0,0,1,0.3,0.05"],
+                              density="uniform")
+    assert refined.report.edge_length_min < 0.05 and not refined.missed_guarantees
+    with pytest.raises(ValueError, match="sizing has 3 entries"):
+        powerrtf.remesh(points, faces, sizing=[1., 2, 3])
+    with pytest.raises(ValueError, match="is neither sphere:x,y,z,r,h nor"):
+        powerrtf.remesh(points, faces, 100, refine=["cone:1"])
+
+
 def test_polygons_may_have_different_sizes():
     cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -180,8 +180,10 @@ TEST_CASE("a marked seam is one crease")
   for (const Triangle& t : strip.triangles)
     for (int i = 0; i < 3; ++i) all.push_back({t[i], t[(i + 1) % 3]});
   Remeshing_report report;
+  Surface_fields fields;
+  fields.creases = all;
   const Surface s =
-      prepare_surface(internal::soup_of_ranges(strip.points, strip.triangles), all, {}, {}, report);
+      prepare_surface(internal::soup_of_ranges(strip.points, strip.triangles), fields, {}, report);
   REQUIRE(!s.seams.empty());
   CHECK(std::includes(s.creases.begin(), s.creases.end(), s.seams.begin(), s.seams.end()));
   CHECK(std::adjacent_find(s.creases.begin(), s.creases.end()) == s.creases.end());

@@ -220,7 +220,7 @@ TEST_CASE("the other side of a thin plate is no source, nor is it where facets h
   for (std::size_t f = 0; f < soup.triangles.size(); f += 3)
     std::swap(turned.corners[3 * f], turned.corners[3 * f + 1]);
   Remeshing_report report;
-  const Surface surface = prepare_surface(Polygon_soup(turned), {}, {}, {}, report);
+  const Surface surface = prepare_surface(Polygon_soup(turned), Surface_fields(), {}, report);
   CHECK(report.repairs.reoriented_facets > 0);
   const Sources sources =
       find_sources(turned, surface.normalization, false, surface.points, surface.triangles);

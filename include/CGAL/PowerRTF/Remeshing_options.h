@@ -51,6 +51,7 @@ struct Remeshing_options {
   double vertex_share = 0;         ///< \f$n\f$ over the vertices of the input; 0: not asked for
   double edge_length = 0;          ///< median of the edges, in the input's unit; 0: not asked for
   double relative_edge_length = 0; ///< the same over the diagonal of the bounding box
+  double size_factor = 0; ///< edge lengths over those of the sizing field; 0: not asked for
   /// Largest distance of input and output, both ways, in the input's unit; 0: not asked for. A
   /// guarantee, and a resolution for functions that look for one.
   double max_distance = 0;
@@ -73,6 +74,10 @@ struct Remeshing_options {
   /// The density from the curvature is smoothed over this many times the local spacing (standard
   /// deviation), which leaves a lattice fewer places where its rows must end; 0: not at all.
   double density_smoothing = 3;
+
+  // Bounds for the wanted edge lengths, in the input's unit; 0: none.
+  double min_edge_length = 0;
+  double max_edge_length = 0;
 
   // Initial sampling
   Sampling sampling = Sampling::lattice; ///< how the first samples are chosen
@@ -178,7 +183,8 @@ struct Remeshing_options {
 /// Whether the number of samples is found from the input.
 inline bool is_number_of_samples_open(const Remeshing_options& options)
 {
-  return options.vertex_share > 0 || options.edge_length > 0 || options.relative_edge_length > 0;
+  return options.vertex_share > 0 || options.edge_length > 0 || options.relative_edge_length > 0 ||
+         options.size_factor > 0;
 }
 
 /// Whether the number of samples is to be looked for.

@@ -26,6 +26,11 @@ public:
   {
     return Resolution(&Remeshing_options::relative_edge_length, ratio);
   }
+  /// With edges of so many times the lengths of `PowerRTF::parameters::sizing_map`.
+  static Resolution size_factor(double factor = 1)
+  {
+    return Resolution(&Remeshing_options::size_factor, factor);
+  }
   /// With so many vertices for each one of the input.
   static Resolution vertex_share(double share)
   {
@@ -48,6 +53,7 @@ public:
   void set(Remeshing_options& options) const
   {
     options.vertex_share = options.edge_length = options.relative_edge_length = 0;
+    options.size_factor = 0;
     options.max_distance = options.relative_max_distance = 0;
     if (m_option)
       options.*m_option = m_value;

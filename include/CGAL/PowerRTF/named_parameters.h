@@ -7,17 +7,21 @@
 #ifndef CGAL_POWER_RTF_NAMED_PARAMETERS_H
 #define CGAL_POWER_RTF_NAMED_PARAMETERS_H
 
+#include <CGAL/PowerRTF/Refinement.h>
 #include <CGAL/PowerRTF/Remeshing_options.h>
 
 #include <CGAL/Named_function_parameters.h>
 
 #include <type_traits>
+#include <vector>
 
 namespace CGAL::PowerRTF {
 
 namespace internal {
 
 enum density_map_t { density_map };
+enum sizing_map_t { sizing_map };
+enum refinements_t { refinements };
 enum remeshing_options_t { remeshing_options };
 enum repair_t { repair };
 enum vertex_source_map_t { vertex_source_map };
@@ -39,6 +43,15 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
   auto density_map(const Map& map) const
   {
     return with<density_map_t>(map);
+  }
+  template <class Map>
+  auto sizing_map(const Map& map) const
+  {
+    return with<sizing_map_t>(map);
+  }
+  auto refinements(const std::vector<Refinement>& regions) const
+  {
+    return with<refinements_t>(regions);
   }
   auto remeshing_options(const Remeshing_options& options) const
   {
@@ -101,6 +114,8 @@ template <class NamedParameters>
 constexpr bool has_input_parameter()
 {
   return has_parameter<NamedParameters, density_map_t>() ||
+         has_parameter<NamedParameters, sizing_map_t>() ||
+         has_parameter<NamedParameters, refinements_t>() ||
          has_parameter<NamedParameters, remeshing_options_t>() ||
          has_parameter<NamedParameters, repair_t>();
 }
@@ -129,6 +144,20 @@ template <class DensityMap>
 auto density_map(const DensityMap& map)
 {
   return internal::named_parameter<internal::density_map_t>(map);
+}
+
+/// A sizing field: a readable property map from the input's vertices to the lengths > 0 that edges
+/// shall have there, in the input's unit.
+template <class SizingMap>
+auto sizing_map(const SizingMap& map)
+{
+  return internal::named_parameter<internal::sizing_map_t>(map);
+}
+
+/// Regions where edges shall be shorter.
+inline auto refinements(const std::vector<Refinement>& regions)
+{
+  return internal::named_parameter<internal::refinements_t>(regions);
 }
 
 /// All parameters of the method, see `Remeshing_options`.

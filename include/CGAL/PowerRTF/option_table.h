@@ -101,6 +101,10 @@ void for_each_option(Visitor&& visit)
       {0, 1e300});
   add("relative_edge_length", &O::relative_edge_length, "",
       "the same over the diagonal of the bounding box", {0, 1});
+  add("size_factor", &O::size_factor, "",
+      "instead of samples: edges of so many times the lengths of the sizing field; 0: not asked "
+      "for",
+      {0, 1e300});
   add("max_distance", &O::max_distance, "",
       "instead of samples: so many that no point of input or output is farther from the other than "
       "this, in the input's unit; 0: not asked for",
@@ -128,6 +132,10 @@ void for_each_option(Visitor&& visit)
   add("density_smoothing", &O::density_smoothing, "",
       "curvature's density is smoothed over this many times the local spacing; 0: not at all",
       {0, 100});
+  add("min_edge_length", &O::min_edge_length, "",
+      "no edges shorter than about this are wanted, in the input's unit; 0: any", {0, 1e300});
+  add("max_edge_length", &O::max_edge_length, "",
+      "no edges longer than about this are wanted, in the input's unit; 0: any", {0, 1e300});
 
   group = "Initial sampling (Section 4.3)";
   add("sampling", &O::sampling, "",
@@ -270,12 +278,16 @@ inline const Remeshing_options& validate(const Remeshing_options& options)
                                 allowed_values<std::decay_t<decltype(value)>>(option.range));
   });
   const int resolutions = (options.vertex_share > 0) + (options.edge_length > 0) +
-                          (options.relative_edge_length > 0) + (options.max_distance > 0) +
-                          (options.relative_max_distance > 0);
+                          (options.relative_edge_length > 0) + (options.size_factor > 0) +
+                          (options.max_distance > 0) + (options.relative_max_distance > 0);
   if (resolutions > 1)
     throw Invalid_input_error(
-        "of vertex_share, edge_length, relative_edge_length, max_distance and "
+        "of vertex_share, edge_length, relative_edge_length, size_factor, max_distance and "
         "relative_max_distance only one may be above 0");
+  if (options.max_edge_length > 0 && options.min_edge_length > options.max_edge_length)
+    throw Invalid_input_error("min_edge_length is " + to_text(options.min_edge_length) +
+                              ", but must be at most max_edge_length, " +
+                              to_text(options.max_edge_length));
   const bool has_candidates =
       options.sampling == Sampling::elimination || options.sampling == Sampling::random;
   constexpr double max_candidates = 1e9; // they are numbered by int

@@ -9,6 +9,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/Surface_fields.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/input/read_mesh.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
@@ -44,35 +45,45 @@ std::optional<std::vector<Edge>> constrained_edges(const FaceGraph& mesh, const 
   }
 }
 
-/// The values of the named parameter `density_map`, in the order of `vertices(mesh)`; none if `np`
-/// has no such map.
-template <class FaceGraph, class NamedParameters>
-std::optional<std::vector<double>> vertex_densities(const FaceGraph& mesh,
-                                                    const NamedParameters& np)
+/// The values of the named parameter `Tag`, in the order of `vertices(mesh)`; none if `np` has no
+/// such map.
+template <class Tag, class FaceGraph, class NamedParameters>
+std::optional<std::vector<double>> vertex_values(const FaceGraph& mesh, const NamedParameters& np)
 {
-  const auto map = CGAL::parameters::get_parameter(np, density_map_t());
+  const auto map = CGAL::parameters::get_parameter(np, Tag());
   if constexpr (std::is_same<std::decay_t<decltype(map)>, internal_np::Param_not_found>::value) {
     return std::nullopt;
   } else {
-    std::vector<double> densities;
-    densities.reserve(num_vertices(mesh));
-    for (const auto v : vertices(mesh)) densities.push_back(CGAL::to_double(get(map, v)));
-    return densities;
+    std::vector<double> values;
+    values.reserve(num_vertices(mesh));
+    for (const auto v : vertices(mesh)) values.push_back(CGAL::to_double(get(map, v)));
+    return values;
   }
+}
+
+/// What the named parameters say about places of the mesh.
+template <class FaceGraph, class NamedParameters>
+Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
+{
+  Surface_fields fields;
+  fields.creases = constrained_edges(mesh, np);
+  fields.densities = vertex_values<density_map_t>(mesh, np);
+  fields.sizes = vertex_values<sizing_map_t>(mesh, np);
+  fields.refinements = CGAL::parameters::choose_parameter(
+      CGAL::parameters::get_parameter(np, refinements_t()), std::vector<Refinement>());
+  return fields;
 }
 
 } // namespace internal
 
 /// The surface of a soup, repaired, with creases and density.
 ///
-/// \param creases pairs of points of the soup (see `set_creases()`); none: those that `options`
-///   asks for
-/// \param densities one per point of the soup; none: those that `options` asks for
-/// \param report gets the repairs, the seconds, and the number of samples that `options` asks for
+/// \param report gets the repairs, the seconds, and the number of samples that `options` asks for;
+///   and the topology, where facets are split as `set_wanted_lengths()` does
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
-/// \throws Invalid_input_error as `import_surface()`, `set_density()` and `number_of_samples()`
-Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edge>>& creases,
-                        const std::optional<std::vector<double>>& densities,
+/// \throws Invalid_input_error as `import_surface()`, `set_density()`, `number_of_samples()` and
+///   `set_wanted_lengths()`
+Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
                         const Remeshing_options& options, Remeshing_report& report,
                         internal::Concurrency concurrency = Sequential_tag());
 
@@ -81,25 +92,25 @@ Surface prepare_surface(Polygon_soup&& soup, const std::optional<std::vector<Edg
 /// `import_surface()`, with the creases and the density that `options` or `np` asks for.
 ///
 /// \param np may contain `vertex_point_map` (default: the mesh's own), `edge_is_constrained_map`
-///   (default: what `set_creases()` finds) and `density_map` (default: what `set_density()` sets)
+///   (default: what `set_creases()` finds), `density_map` (default: what `set_density()` sets) or
+///   `sizing_map`, and `refinements`
 /// \param report gets the repairs, the seconds, and the number of samples that `options` asks for
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
-/// \throws Invalid_input_error as `import_surface()`, `set_density()` and `number_of_samples()`
+/// \throws Invalid_input_error as `import_surface()`, `set_density()`, `number_of_samples()` and
+///   `set_wanted_lengths()`
 template <class FaceGraph, class NamedParameters>
 Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
                         const NamedParameters& np, Remeshing_report& report,
                         internal::Concurrency concurrency = Sequential_tag())
 {
   Polygon_soup soup;
-  std::optional<std::vector<Edge>> creases;
-  std::optional<std::vector<double>> densities;
+  Surface_fields fields;
   {
     const internal::Stopwatch watch(report.seconds.surface);
     soup = internal::soup_of_mesh(mesh, np);
-    creases = internal::constrained_edges(mesh, np);
-    densities = internal::vertex_densities(mesh, np);
+    fields = internal::surface_fields(mesh, np);
   }
-  return prepare_surface(std::move(soup), creases, densities, options, report, concurrency);
+  return prepare_surface(std::move(soup), fields, options, report, concurrency);
 }
 
 /// \ingroup PkgPowerRTFSurface
@@ -118,7 +129,7 @@ Surface prepare_surface(const PointRange& points, const PolygonRange& polygons,
     const internal::Stopwatch watch(report.seconds.surface);
     soup = internal::soup_of_ranges(points, polygons);
   }
-  return prepare_surface(std::move(soup), {}, {}, options, report, concurrency);
+  return prepare_surface(std::move(soup), Surface_fields(), options, report, concurrency);
 }
 
 } // namespace CGAL::PowerRTF

@@ -8,40 +8,66 @@
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/fields/resolution.h>
+#include <CGAL/PowerRTF/fields/sizing.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/quality/topology.h>
 
-#include <optional>
-#include <vector>
+#include <cstddef>
 
 namespace CGAL::PowerRTF {
 
-CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup,
-                                              const std::optional<std::vector<Edge>>& creases,
-                                              const std::optional<std::vector<double>>& densities,
+namespace internal {
+
+/// \throws Invalid_input_error `options` and `fields` do not go together
+inline void check_fields(const Remeshing_options& options, const Surface_fields& fields)
+{
+  if (fields.sizes && fields.densities)
+    throw Invalid_input_error("densities and edge lengths at the vertices exclude each other");
+  if (options.size_factor > 0 && !fields.sizes)
+    throw Invalid_input_error("size_factor needs a sizing field, but there is none");
+  if (is_distance_asked_for(options) && has_wanted_lengths(options, fields))
+    throw Invalid_input_error("a largest distance and wanted edge lengths exclude each other");
+}
+
+} // namespace internal
+
+CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
                                               const Remeshing_options& options,
                                               Remeshing_report& report,
                                               internal::Concurrency concurrency)
 {
   const internal::Stopwatch watch(report.seconds.surface);
+  internal::check_fields(options, fields);
   internal::Progress_part part(0.1);
   Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
   soup = {}; // its memory
   part.next(0.2);
   Remeshing_options with_number = options;
+  const auto set_density_by_fields = [&] {
+    fields.sizes       ? set_density_by_sizes(surface, *fields.sizes)
+    : fields.densities ? set_density(surface, with_number, *fields.densities, concurrency)
+                       : set_density(surface, with_number, concurrency);
+  };
   const auto set_fields = [&] {
     with_number.number_of_samples = number_of_samples(surface, options, concurrency);
-    creases ? set_creases(surface, *creases, concurrency)
-            : set_creases(surface, with_number, concurrency);
-    densities ? set_density(surface, with_number, *densities, concurrency)
-              : set_density(surface, with_number, concurrency);
+    fields.creases ? set_creases(surface, *fields.creases, concurrency)
+                   : set_creases(surface, with_number, concurrency);
+    set_density_by_fields();
   };
   part.next(0.75);
-  set_fields(); // the density is still uniform
+  if (fields.sizes) set_density_by_fields(); // which gives the number
+  set_fields();                              // the density is still uniform, unless by sizes
   if (is_number_of_samples_open(options) && !has_uniform_density(surface)) set_fields();
   report.max_distance = max_distance(surface, options, concurrency);
   report.samples_asked = number_of_samples(surface, options, concurrency);
+  if (has_wanted_lengths(options, fields)) {
+    report.input_topology =
+        internal::manifold_topology(surface, concurrency); // before facets are split
+    report.samples_asked =
+        set_wanted_lengths(surface, options, fields, report.samples_asked, concurrency);
+  }
   return surface;
 }
 

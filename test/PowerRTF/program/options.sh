@@ -24,6 +24,15 @@ run 2 'exclude each other' -- torus.off out.off --edge-length 1 --vertex-share 1
 run 2 "'x'" 'not a number' -- torus.off out.off --edge-length x%
 run 2 "'0'" 'above 0' -- torus.off out.off -n 0%
 run 1 'torus.off' 'edge_length asks for' -- torus.off out.off --edge-length 1e-9
+run 2 'exclude each other' -- torus.off out.off --size-field a --density-field b
+run 2 'no --size-field' -- torus.off out.off --size-factor 2
+run 2 'name is empty' -- torus.off out.off --size-field ''
+for region in '' sphere sphere: sphere:1,2,3,4 sphere:1,2,3,4,5,6 sphere:1,2,3,4,5, sphere:1,2,3,4,x box:1,2,3,4,5 \
+  cone:1,2,3,4,5; do
+  run 2 "--refine: '$region' is neither sphere" -- torus.off out.off --refine "$region"
+done
+run 2 '--refine' 'radius not above 0' -- torus.off out.off --refine sphere:1,2,3,0,5
+run 2 '--refine' 'not finite' -- torus.off out.off --refine sphere:nan,2,3,1,5
 run 2 'nothing to write' -- torus.off --no-mesh
 run 2 'same file' -- torus.off out.off --report out.off
 run 2 'same file' -- torus.off out.off --report ./a.ply --cells a.ply
@@ -58,6 +67,9 @@ bounds() {
   refuse "$1" "$5" "$range"
 }
 bounds seed 0 4294967295 -1 4294967296
+refuse size-factor -1 'a number from 0 to 1e+300'
+bounds min-edge-length 0 1e+300 -1 1e301
+bounds max-edge-length 0 1e+300 -1 1e301
 bounds min-angle 0 60 -1 60.1
 bounds max-angle 60 180 59.9 181
 bounds density-power 0 100 -1e-9 100.001

@@ -223,6 +223,40 @@ run 3 'out.off' 'smallest angle: ' 'instead of 59.5' -- torus.off out.off "${fas
 expect 'the report names the angle' [ "$(field missed_guarantees)" != '[]' ]
 run 3 'largest angle: ' 'instead of 61' -- torus.off out.off "${fast[@]}" --max-angle 61
 
+# --- edge lengths that are wanted: by a property, by a file
+awk 'NR > 2 && NF == 3 { printf "%.17g\n", .3 + .05 * $1 }' torus.off >lengths.txt
+{
+  printf '%s\n' ply 'format ascii 1.0' 'element vertex 800' 'property double x' 'property double y' \
+    'property double z' 'property double h' 'element face 1600' \
+    'property list uchar int vertex_indices' end_header
+  awk 'NR > 2 && NF == 3' torus.off | paste -d ' ' - lengths.txt
+  awk 'NR > 2 && NF == 4' torus.off
+} >lengths.ply
+run 0 -- lengths.ply by_property.off --size-field h --report r.json
+expect 'the lengths give the number' [ "$(field samples)" -gt 500 ]
+run 0 -- torus.off by_file.off --size-field lengths.txt
+expect 'a file gives the same' cmp by_property.off by_file.off
+run 0 -- torus.off out.off "${fast[@]}" --size-field lengths.txt --report r.json
+has vertices 200
+run 0 -- torus.off out.off "${fast[@]}" --density-field lengths.txt
+run 0 -- torus.off out.off --edge-length .5 --refine sphere:4,0,0,.5,.1 --report r.json
+more=$(field samples)
+run 0 -- torus.off out.off --edge-length .5 --refine sphere:4,0,0,.5,.1 --refine box:-5,-1,-1,-3,1,1,.2 \
+  --report r.json
+expect 'each region adds samples' [ "$(field samples)" -gt "$more" ]
+run 0 -- torus.off out.off -n 800 --min-edge-length .2 --max-edge-length 1
+run 1 'torus.off' 'need at least' -- torus.off out.off -n 800 --max-edge-length .01
+run 1 'lengths.ply' 'no property k' 'they have h' -- lengths.ply out.off --size-field k
+run 1 'torus.off' 'no property k' 'they have none' -- torus.off out.off --size-field k
+head -n 7 lengths.txt >few.txt
+run 1 'few.txt has 7 numbers' '800 vertices' -- torus.off out.off --size-field few.txt
+sed 3s/.*/x/ lengths.txt >letters.txt
+run 1 "letters.txt: line 3: 'x' is not a number" -- torus.off out.off --size-field letters.txt
+sed 3s/.*/0/ lengths.txt >zero.txt
+run 1 'zero.txt: the value of vertex 2' 'positive' -- torus.off out.off --size-field zero.txt
+awk '{ print $1, 1 }' lengths.txt >pairs.txt
+run 1 "pairs.txt: line 1: '1' is more than" -- torus.off out.off --size-field pairs.txt
+
 # --- input that is repaired
 sed '$ a 3 0 0 1' torus.off | sed '2s/800 1600 0/800 1601 0/' >degenerate.off
 run 0 -- degenerate.off out.off "${fast[@]}" --report r.json

@@ -35,6 +35,27 @@ inline void normalize_density(std::vector<double>& density)
   for (double& rho : density) rho = (std::max)(smallest, rho / largest);
 }
 
+/// The values at the vertices of a surface.
+/// \param values one per vertex of the *input* (see `Surface::input_vertices`); those of vertices
+///   that the surface does not use are ignored
+/// \param what they are, for messages
+/// \throws Invalid_input_error a value is missing, not positive or not finite
+inline std::vector<double> surface_values(const Surface& surface, const std::vector<double>& values,
+                                          const std::string& what)
+{
+  std::vector<double> result(surface.points.size());
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    const std::size_t input = surface.input_vertices[v];
+    if (input >= values.size())
+      throw Invalid_input_error("vertex " + std::to_string(input) + " has no " + what);
+    result[v] = values[input];
+    if (!(result[v] > 0) || !std::isfinite(result[v]))
+      throw Invalid_input_error("the " + what + " of vertex " + std::to_string(input) +
+                                " is not a positive, finite number");
+  }
+  return result;
+}
+
 /// Clusters of vertices much nearer to each other than samples ever are; none, if there are few
 /// such vertices.
 inline std::optional<Vertex_clusters> near_vertices(const Surface& surface,
@@ -132,17 +153,7 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
                         internal::Concurrency concurrency = Sequential_tag())
 {
   validate(options);
-  surface.vertex_density.resize(surface.points.size());
-  for (std::size_t v = 0; v < surface.points.size(); ++v) {
-    const std::size_t input = surface.input_vertices[v];
-    if (input >= densities.size())
-      throw Invalid_input_error("vertex " + std::to_string(input) + " has no density");
-    const double rho = densities[input];
-    if (!(rho > 0) || !std::isfinite(rho))
-      throw Invalid_input_error("the density of vertex " + std::to_string(input) +
-                                " is not a positive, finite number");
-    surface.vertex_density[v] = rho;
-  }
+  surface.vertex_density = internal::surface_values(surface, densities, "density");
   internal::normalize_density(surface.vertex_density);
   if (options.gradation > 0) {
     const Surface_edges edges = surface_edges(surface, concurrency);

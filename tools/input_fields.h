@@ -1,0 +1,33 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the command line says about places of the input: fields and regions.
+#ifndef POWER_RTF_TOOLS_INPUT_FIELDS_H
+#define POWER_RTF_TOOLS_INPUT_FIELDS_H
+
+#include "Polygon_mesh.h"
+#include "options.h"
+
+#include <CGAL/PowerRTF/Surface_fields.h>
+
+#include <string>
+#include <vector>
+
+namespace tools {
+
+/// A number for each vertex of `mesh`: its property `name`, or else the lines of the file `name`.
+/// \throws Invalid_input_error there is neither; the file has other lines than a number for each
+///   vertex; a facet's corner has a value that is not positive and finite
+std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name);
+
+/// The fields and regions that the options name, of `mesh`.
+/// \throws Invalid_input_error as `vertex_values()`
+CGAL::PowerRTF::Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh);
+
+/// From `sphere:x,y,z,r,h` or `box:x0,y0,z0,x1,y1,z1,h`.
+/// \throws Invalid_input_error it is neither
+CGAL::PowerRTF::Refinement parse_refinement(const std::string& text);
+
+} // namespace tools
+
+#endif // POWER_RTF_TOOLS_INPUT_FIELDS_H
