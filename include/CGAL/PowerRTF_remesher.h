@@ -14,6 +14,7 @@
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_from_cells.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
+#include <CGAL/PowerRTF/extraction/mesh_patches.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -101,6 +102,12 @@ public:
   {
     return PowerRTF::lattice_fields<typename Traits::Concurrency_tag>(
         m_patches.surface(), m_options, m_patches.features(), m_engine.facet_tree());
+  }
+  /// The patch of each triangle of `mesh`, a result of `extract()`: numbers from 0, in the order of
+  /// the surface's facets.
+  std::vector<int> patches(const PowerRTF::Extracted_mesh& mesh) const
+  {
+    return PowerRTF::mesh_patches(mesh, m_patches.surface(), typename Traits::Concurrency_tag());
   }
   /// The precision of the cells' numbers: the machine epsilon of double, or of float.
   double epsilon() const { return m_engine.epsilon(); }

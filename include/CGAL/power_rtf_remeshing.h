@@ -169,6 +169,15 @@ struct Run_types {
  *     \cgalParamExtra{Borders are always kept.}
  *   \cgalParamNEnd
  *
+ *   \cgalParamNBegin{face_patch_map}
+ *     \cgalParamDescription{labels of the faces, of any kind: between different ones the result
+ *                           keeps creases, beside those that are found or constrained}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with
+ *                    `boost::graph_traits<InputMesh>::%face_descriptor` as key type and a value
+ *                    type with `operator<`}
+ *     \cgalParamDefault{none: all faces are alike}
+ *   \cgalParamNEnd
+ *
  *   \cgalParamNBegin{random_seed}
  *     \cgalParamDescription{the seed of the initial sampling. The same seed gives the same result.}
  *     \cgalParamType{`unsigned int`}
@@ -230,6 +239,16 @@ struct Run_types {
  *                    `PowerRTF::Mesh_source<InputMesh>` as value type}
  *     \cgalParamDefault{none: nothing is looked for}
  *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{face_patch_map}
+ *     \cgalParamDescription{a property map that gets the labels of the faces of `output`: those of
+ *                           `input`, if the parameter of the same name is in `np_in`; else the
+ *                           number of the patch, between creases and borders, that a face is on}
+ *     \cgalParamType{a class model of `WritablePropertyMap` with
+ *                    `boost::graph_traits<OutputMesh>::%face_descriptor` as key type and such
+ *                    labels, or `int`, as value type}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
  * \returns what was done and what the result is worth. `missed_guarantees()` is empty when the
@@ -287,8 +306,9 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
     if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
     report = remesher.report();
     if (report.cancelled) return;
-    PowerRTF::internal::export_with_sources(input, np_in, mesh, remesher.surface().normalization,
-                                            output, np_out, report, ConcurrencyTag());
+    PowerRTF::internal::export_with_sources(
+        input, np_in, mesh, remesher.surface().normalization,
+        [&] { return remesher.patches(mesh); }, output, np_out, report, ConcurrencyTag());
   };
   if (!PowerRTF::internal::run_unless_cancelled(visitor, run)) report.cancelled = true;
   return report;

@@ -19,6 +19,10 @@ struct Surface_fields {
   /// The wanted edge length at each point, in the input's unit, instead of densities.
   std::optional<std::vector<double>> sizes;
   std::vector<Refinement> refinements; ///< where edges shall be shorter
+  std::vector<Edge> lines;             ///< pairs of points: creases beside those above
+  /// For each polygon what it belongs to; between different labels there are creases, too. Empty:
+  /// all are the same.
+  std::vector<int> labels;
 };
 
 } // namespace CGAL::PowerRTF

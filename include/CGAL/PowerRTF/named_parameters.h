@@ -79,6 +79,11 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
   {
     return with<internal_np::edge_is_constrained_t>(map);
   }
+  template <class Map>
+  auto face_patch_map(const Map& map) const
+  {
+    return with<internal_np::face_patch_t>(map);
+  }
   template <class Traits>
   auto geom_traits(const Traits& traits) const
   {
@@ -200,6 +205,14 @@ template <class EdgeIsConstrainedMap>
 auto edge_is_constrained_map(const EdgeIsConstrainedMap& map)
 {
   return internal::named_parameter<internal_np::edge_is_constrained_t>(map);
+}
+
+/// Labels of faces, as in `CGAL::parameters`: those of the input, between which creases are kept;
+/// of the output, those, or else the numbers of its patches between creases.
+template <class FacePatchMap>
+auto face_patch_map(const FacePatchMap& map)
+{
+  return internal::named_parameter<internal_np::face_patch_t>(map);
 }
 
 /// The traits, which name the engine; as in `CGAL::parameters`.

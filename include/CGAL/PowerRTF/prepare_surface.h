@@ -19,6 +19,7 @@
 
 #include <CGAL/number_utils.h>
 
+#include <map>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -61,6 +62,23 @@ std::optional<std::vector<double>> vertex_values(const FaceGraph& mesh, const Na
   }
 }
 
+/// The values of the named parameter `face_patch_map`, numbered, in the order of `faces(mesh)`;
+/// none if `np` has no such map.
+template <class FaceGraph, class NamedParameters>
+std::vector<int> face_labels(const FaceGraph& mesh, const NamedParameters& np)
+{
+  std::vector<int> labels;
+  if constexpr (has_parameter<NamedParameters, internal_np::face_patch_t>()) {
+    const auto map = CGAL::parameters::get_parameter(np, internal_np::face_patch);
+    using Value = typename boost::property_traits<std::decay_t<decltype(map)>>::value_type;
+    std::map<Value, int> numbers;
+    for (const auto f : faces(mesh))
+      labels.push_back(
+          numbers.emplace(get(map, f), static_cast<int>(numbers.size())).first->second);
+  }
+  return labels;
+}
+
 /// What the named parameters say about places of the mesh.
 template <class FaceGraph, class NamedParameters>
 Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
@@ -71,6 +89,7 @@ Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
   fields.sizes = vertex_values<sizing_map_t>(mesh, np);
   fields.refinements = CGAL::parameters::choose_parameter(
       CGAL::parameters::get_parameter(np, refinements_t()), std::vector<Refinement>());
+  fields.labels = face_labels(mesh, np);
   return fields;
 }
 
@@ -93,7 +112,8 @@ Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
 ///
 /// \param np may contain `vertex_point_map` (default: the mesh's own), `edge_is_constrained_map`
 ///   (default: what `set_creases()` finds), `density_map` (default: what `set_density()` sets) or
-///   `sizing_map`, and `refinements`
+///   `sizing_map`, `refinements` and
+///   `face_patch_map`, whose values are labels
 /// \param report gets the repairs, the seconds, and the number of samples that `options` asks for
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
 /// \throws Invalid_input_error as `import_surface()`, `set_density()`, `number_of_samples()` and

@@ -10,11 +10,15 @@
 #include <CGAL/PowerRTF/fields/resolution.h>
 #include <CGAL/PowerRTF/fields/sizing.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
+#include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/quality/topology.h>
+#include <CGAL/PowerRTF/transfer/find_sources.h>
 
-#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -31,6 +35,34 @@ inline void check_fields(const Remeshing_options& options, const Surface_fields&
     throw Invalid_input_error("a largest distance and wanted edge lengths exclude each other");
 }
 
+/// The creases beside those that are found or given: lines, and the boundaries of labels.
+/// \param soup what the surface has become of
+/// \throws Invalid_input_error there are not as many labels as polygons
+inline std::vector<Edge> more_creases(const Surface& surface, const Polygon_soup& soup,
+                                      const Surface_fields& fields, bool is_oriented,
+                                      Concurrency concurrency)
+{
+  std::vector<Edge> lines = fields.lines;
+  if (soup.merges_vertices && !lines.empty()) {
+    const std::vector<int> first = first_of_equal_points(soup.points, concurrency);
+    for (const Edge& e : fields.lines) lines.push_back({first[e[0]], first[e[1]]});
+  }
+  std::vector<Edge> creases;
+  if (!lines.empty()) creases = marked_edges(surface, std::move(lines), concurrency);
+  if (fields.labels.empty()) return creases;
+  if (fields.labels.size() + 1 != soup.first.size())
+    throw Invalid_input_error("there are " + std::to_string(fields.labels.size()) + " labels for " +
+                              std::to_string(soup.first.size() - 1) + " facets");
+  const Sources sources = find_sources(soup, surface.normalization, is_oriented, surface.points,
+                                       surface.triangles, concurrency);
+  std::vector<int> labels;
+  labels.reserve(sources.faces.size());
+  for (const Source& s : sources.faces) labels.push_back(fields.labels[s.face]);
+  const std::vector<Edge> boundaries = label_boundaries(surface, labels, concurrency);
+  creases.insert(creases.end(), boundaries.begin(), boundaries.end());
+  return creases;
+}
+
 } // namespace internal
 
 CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
@@ -42,6 +74,8 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   internal::check_fields(options, fields);
   internal::Progress_part part(0.1);
   Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
+  const std::vector<Edge> more_creases = internal::more_creases(
+      surface, soup, fields, report.repairs.reoriented_facets == 0, concurrency);
   soup = {}; // its memory
   part.next(0.2);
   Remeshing_options with_number = options;
@@ -54,6 +88,7 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
     with_number.number_of_samples = number_of_samples(surface, options, concurrency);
     fields.creases ? set_creases(surface, *fields.creases, concurrency)
                    : set_creases(surface, with_number, concurrency);
+    add_creases(surface, more_creases);
     set_density_by_fields();
   };
   part.next(0.75);

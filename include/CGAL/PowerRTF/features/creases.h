@@ -143,28 +143,64 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
   return creases;
 }
 
-/// Makes creases of the seams and of the edges, other than those of the border, whose ends are
-/// copies of the pairs of input vertices in `marked`.
-inline void set_creases(Surface& surface, std::vector<Edge> marked,
-                        internal::Concurrency concurrency = Sequential_tag())
+namespace internal {
+
+/// The edges, other than those of the border, of which `is_wanted` holds for the smaller halfedge.
+template <class Predicate>
+std::vector<Edge> select_edges(const Surface& surface, const Predicate& is_wanted,
+                               Concurrency concurrency)
+{
+  std::vector<Edge> edges;
+  for (const int h :
+       select(concurrency, static_cast<int>(3 * surface.triangles.size()), [&](int h) {
+         return surface.adjacency.opposite[h] > h && is_wanted(h); // once, no border
+       }))
+    edges.push_back(
+        sorted_edge(halfedge_source(surface.triangles, h), halfedge_target(surface.triangles, h)));
+  return edges;
+}
+
+} // namespace internal
+
+/// The edges, other than those of the border, whose ends are copies of the pairs of input vertices
+/// in `marked`.
+inline std::vector<Edge> marked_edges(const Surface& surface, std::vector<Edge> marked,
+                                      internal::Concurrency concurrency = Sequential_tag())
 {
   for (Edge& e : marked) e = sorted_edge(e[0], e[1]);
   std::sort(marked.begin(), marked.end());
-  surface.creases = surface.seams;
-  const auto ends = [&](int h) {
-    return sorted_edge(halfedge_source(surface.triangles, h),
-                       halfedge_target(surface.triangles, h));
-  };
   const auto is_marked = [&](int h) {
-    if (surface.adjacency.opposite[h] < h) return false; // border, or once
-    const auto [a, b] = ends(h);
-    return std::binary_search(marked.begin(), marked.end(),
-                              sorted_edge(surface.input_vertices[a], surface.input_vertices[b]));
+    const int a = surface.input_vertices[halfedge_source(surface.triangles, h)],
+              b = surface.input_vertices[halfedge_target(surface.triangles, h)];
+    return std::binary_search(marked.begin(), marked.end(), sorted_edge(a, b));
   };
-  for (const int h :
-       internal::select(concurrency, static_cast<int>(3 * surface.triangles.size()), is_marked))
-    surface.creases.push_back(ends(h));
+  return internal::select_edges(surface, is_marked, concurrency);
+}
+
+/// The edges between facets with different `labels`.
+inline std::vector<Edge> label_boundaries(const Surface& surface, const std::vector<int>& labels,
+                                          internal::Concurrency concurrency = Sequential_tag())
+{
+  const auto is_boundary = [&](int h) {
+    return labels[h / 3] != labels[surface.adjacency.opposite[h] / 3];
+  };
+  return internal::select_edges(surface, is_boundary, concurrency);
+}
+
+/// Adds creases to those of `surface`.
+inline void add_creases(Surface& surface, const std::vector<Edge>& more)
+{
+  if (more.empty()) return;
+  surface.creases.insert(surface.creases.end(), more.begin(), more.end());
   sort_uniquely(surface.creases);
+}
+
+/// Makes creases of the seams and of the edges that are `marked_edges()`.
+inline void set_creases(Surface& surface, std::vector<Edge> marked,
+                        internal::Concurrency concurrency = Sequential_tag())
+{
+  surface.creases = surface.seams;
+  add_creases(surface, marked_edges(surface, std::move(marked), concurrency));
 }
 
 } // namespace CGAL::PowerRTF

@@ -14,6 +14,7 @@
 #include <CGAL/PowerRTF/transfer/find_sources.h>
 
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -56,28 +57,59 @@ void put_sources(const Sources& sources, const Source_elements<FaceGraph>& input
   }
 }
 
-/// Exports `mesh`, the result of remeshing `input`, as `export_mesh()`, and sets the source maps
-/// that `np_out` has. `report`: of the run; gets the seconds.
-template <class InputMesh, class NamedParametersIn, class OutputMesh, class NamedParametersOut>
+/// The labels of the input's faces, the values of the named parameter `face_patch_map`.
+template <class FaceGraph, class NamedParameters>
+auto label_values(const FaceGraph& input, const NamedParameters& np)
+{
+  const auto map = CGAL::parameters::get_parameter(np, internal_np::face_patch);
+  std::vector<typename boost::property_traits<std::decay_t<decltype(map)>>::value_type> labels;
+  for (const auto f : faces(input)) labels.push_back(get(map, f));
+  return labels;
+}
+
+/// Sets `face_patch_map` of `np` to `label(f)` of the f-th face.
+template <class OutputMesh, class NamedParameters, class Label>
+void put_labels(const Exported_mesh<OutputMesh>& exported, const NamedParameters& np,
+                const Label& label)
+{
+  const auto map = CGAL::parameters::get_parameter(np, internal_np::face_patch);
+  for (std::size_t f = 0; f < exported.faces.size(); ++f) put(map, exported.faces[f], label(f));
+}
+
+/// Exports `mesh`, the result of remeshing `input`, as `export_mesh()`, and sets the maps of
+/// sources and labels that `np_out` has. \param patches `patches()` returns the patch of each
+/// triangle \param report of the run; gets the seconds
+template <class InputMesh, class NamedParametersIn, class Patches, class OutputMesh,
+          class NamedParametersOut>
 void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
                          const Extracted_mesh& mesh, const Normalization& normalization,
-                         OutputMesh& output, const NamedParametersOut& np_out,
-                         Remeshing_report& report, Concurrency concurrency)
+                         const Patches& patches, OutputMesh& output,
+                         const NamedParametersOut& np_out, Remeshing_report& report,
+                         Concurrency concurrency)
 {
-  if constexpr (has_output_parameter<NamedParametersOut>()) {
-    const Source_elements<InputMesh> elements(input); // which may be `output`
-    Sources sources;
-    {
-      const Stage stage("transfer", report.seconds.transfer);
-      sources = find_sources(soup_of_mesh(input, np_in), normalization,
-                             report.repairs.reoriented_facets == 0, mesh.points, mesh.triangles,
-                             concurrency);
-    }
-    const Stage stage("write", report.seconds.write);
-    put_sources(sources, elements, export_mesh(mesh, normalization, output, np_out), np_out);
+  constexpr bool puts_labels = has_parameter<NamedParametersOut, internal_np::face_patch_t>(),
+                 has_labels = has_parameter<NamedParametersIn, internal_np::face_patch_t>();
+  constexpr bool puts_sources = has_output_parameter<NamedParametersOut>();
+  std::optional<Source_elements<InputMesh>> elements; // of `input`, which may be `output`
+  Sources sources;
+  if constexpr (puts_sources || (puts_labels && has_labels)) {
+    const Stage stage("transfer", report.seconds.transfer);
+    elements.emplace(input);
+    sources = find_sources(soup_of_mesh(input, np_in), normalization,
+                           report.repairs.reoriented_facets == 0, mesh.points, mesh.triangles,
+                           concurrency);
+  }
+  const Stage stage("write", report.seconds.write);
+  if constexpr (puts_labels && has_labels) {
+    const auto labels = label_values(input, np_in);
+    const auto exported = export_mesh(mesh, normalization, output, np_out);
+    put_sources(sources, *elements, exported, np_out);
+    put_labels(exported, np_out, [&](std::size_t f) { return labels[sources.faces[f].face]; });
   } else {
-    const Stage stage("write", report.seconds.write);
-    export_mesh(mesh, normalization, output, np_out);
+    const auto exported = export_mesh(mesh, normalization, output, np_out);
+    if constexpr (puts_sources) put_sources(sources, *elements, exported, np_out);
+    if constexpr (puts_labels)
+      put_labels(exported, np_out, [numbers = patches()](std::size_t f) { return numbers[f]; });
   }
 }
 

@@ -1,0 +1,59 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// To which patch of the surface, between creases and borders, the triangles of a result belong.
+#ifndef CGAL_POWER_RTF_EXTRACTION_MESH_PATCHES_H
+#define CGAL_POWER_RTF_EXTRACTION_MESH_PATCHES_H
+
+#include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+/// The patch of each triangle of `mesh`. Triangles that no piece of a crease parts are of the same
+/// patch: that at the center of the largest of them.
+///
+/// \param patches the surface cut along its creases, with `facet_patches`
+inline std::vector<int> mesh_patches(const Extracted_mesh& mesh, const Surface& patches,
+                                     internal::Concurrency concurrency = Sequential_tag())
+{
+  std::vector<int> result(mesh.triangles.size(), 0);
+  if (patches.facet_patches.empty()) return result;
+  Facet_adjacency adjacency = facet_adjacency(mesh.triangles, mesh.points.size(), concurrency);
+  internal::for_each_index(concurrency, static_cast<int>(adjacency.opposite.size()), [&](int h) {
+    const Edge edge =
+        sorted_edge(halfedge_source(mesh.triangles, h), halfedge_target(mesh.triangles, h));
+    if (std::binary_search(mesh.feature_edges.begin(), mesh.feature_edges.end(), edge))
+      adjacency.opposite[h] = Facet_adjacency::none;
+  });
+  const auto [parts, count] = facet_components(adjacency, concurrency);
+  const auto area_vector = [&](int f) { // twice as long as the area
+    const Triangle& t = mesh.triangles[f];
+    return cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+  };
+  std::vector<int> largest(count, -1);
+  for (int f = 0; f < static_cast<int>(parts.size()); ++f) {
+    int& g = largest[parts[f]];
+    if (g < 0 || squared_length(area_vector(f)) > squared_length(area_vector(g))) g = f;
+  }
+  const Facet_tree tree(patches.points, patches.triangles, {}, concurrency);
+  std::vector<int> numbers(count);
+  for (int part = 0; part < count; ++part) {
+    const Triangle& t = mesh.triangles[largest[part]];
+    const Vec3d center = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) * (1. / 3);
+    Surface_point<double> nearest = tree.nearest(center, area_vector(largest[part]), 0, -1);
+    if (nearest.facet < 0) nearest = tree.nearest_anywhere(center);
+    numbers[part] = patches.facet_patches[nearest.facet];
+  }
+  for (std::size_t f = 0; f < result.size(); ++f) result[f] = numbers[parts[f]];
+  return result;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_EXTRACTION_MESH_PATCHES_H
