@@ -21,6 +21,8 @@ Format format_of(const std::string& file)
   return Format::unknown;
 }
 
+bool holds_numbers(Format format) { return format == Format::ply || format == Format::vtp; }
+
 bool holds_floats(Format format, Encoding encoding)
 {
   return format == Format::stl && encoding == Encoding::binary;

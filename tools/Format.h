@@ -15,6 +15,9 @@ enum class Encoding { binary, text };
 /// The format that the extension of the file's name stands for, in upper or lower case.
 Format format_of(const std::string& file);
 
+/// Whether a format holds any numbers of vertices and faces: PLY and VTP do.
+bool holds_numbers(Format format);
+
 /// Whether a mesh is written with coordinates of single precision: as binary STL.
 bool holds_floats(Format format, Encoding encoding);
 

@@ -11,9 +11,10 @@ namespace {
 
 bool is_held(Format format, const Mesh_property& property, bool of_vertices)
 {
-  if (format == Format::ply || format == Format::vtp) return true;
-  return format == Format::obj && of_vertices && is_color(property.name) &&
-         property.name != "alpha";
+  if (holds_numbers(format)) return true;
+  if (format != Format::obj) return false;
+  return of_vertices ? is_color(property.name) && property.name != "alpha"
+                     : !property.names.empty();
 }
 
 } // namespace

@@ -64,6 +64,7 @@ struct Mesh_property {
   std::string name;
   Number_type type = Number_type::float64; ///< in files; the values need not be rounded to it
   std::vector<double> values;
+  std::vector<std::string> names{}; ///< what the values 0, 1, ... stand for; empty: numbers
 };
 
 struct Mesh_properties {
@@ -82,7 +83,8 @@ bool is_color(const std::string& name);
 /// What a property means, in words: "normals".
 std::string in_words(const std::string& name, bool of_vertices);
 
-/// Those that files of a format hold: PLY and VTP all, OBJ the colors of vertices.
+/// Those that files of a format hold: PLY and VTP all, OBJ the colors of vertices
+/// and the names of faces.
 Mesh_properties held_by(Format format, const Mesh_properties& properties);
 
 /// The others, in words.

@@ -7,17 +7,20 @@
 
 #include "Mesh_property.h"
 
+#include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
 
 #include <limits>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace tools {
 
 struct Polygon_mesh {
   CGAL::PowerRTF::Polygon_soup soup;
   Mesh_properties properties;
+  std::vector<CGAL::PowerRTF::Edge> lines; ///< pairs of points: pieces of the file's lines
   std::set<std::string> attributes; ///< what else the file had, in words: "texture coordinates"
 };
 

@@ -4,16 +4,20 @@
 
 #include "Tokenizer.h"
 
+#include <CGAL/PowerRTF/input/near_borders.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 namespace tools {
 namespace {
 
+using CGAL::PowerRTF::Edge;
 using CGAL::PowerRTF::Invalid_input_error;
 using CGAL::PowerRTF::Refinement;
 using CGAL::PowerRTF::Surface_fields;
@@ -40,6 +44,57 @@ std::vector<double> numbers_of_file(const std::string& file, std::size_t count)
   return values;
 }
 
+std::string names_of(const std::vector<Mesh_property>& properties)
+{
+  std::string names;
+  for (const Mesh_property& p : properties)
+    names += (names.empty() ? "" : ", ") + printable(p.name);
+  return names.empty() ? "they have none" : "they have " + names;
+}
+
+std::vector<int> face_labels(const Polygon_mesh& mesh, const std::string& name)
+{
+  const std::vector<Mesh_property>& properties = mesh.properties.faces;
+  const Mesh_property* const found = find_property(properties, name);
+  if (!found)
+    throw Invalid_input_error("its facets have no property " + printable(name) + "; " +
+                              names_of(properties));
+  std::vector<int> labels;
+  labels.reserve(found->values.size());
+  for (const double x : found->values) {
+    if (x != std::floor(x) || std::abs(x) > std::numeric_limits<int>::max())
+      throw Invalid_input_error("its property " + printable(name) + ": the value of facet " +
+                                std::to_string(labels.size()) +
+                                " (numbered from 0) is no whole number");
+    labels.push_back(static_cast<int>(x));
+  }
+  return labels;
+}
+
+/// The lines, which run along edges of facets.
+const std::vector<Edge>& checked_lines(const Polygon_mesh& mesh)
+{
+  using CGAL::PowerRTF::sorted_edge;
+  const auto& [points, corners, first, merges_vertices] = mesh.soup;
+  const std::vector<int> place = CGAL::PowerRTF::first_of_equal_points(points);
+  std::vector<Edge> edges;
+  for (std::size_t k = 0; k + 1 < first.size(); ++k)
+    for (int c = first[k]; c < first[k + 1]; ++c) {
+      const int next = corners[c + 1 < first[k + 1] ? c + 1 : first[k]];
+      edges.push_back(sorted_edge(place[corners[c]], place[next]));
+    }
+  CGAL::PowerRTF::sort_uniquely(edges);
+  const int count = static_cast<int>(points.size());
+  for (const auto& [a, b] : mesh.lines) {
+    const bool is_known = 0 <= a && a < count && 0 <= b && b < count;
+    if (!is_known ||
+        !std::binary_search(edges.begin(), edges.end(), sorted_edge(place[a], place[b])))
+      throw Invalid_input_error("its line from vertex " + std::to_string(a + 1) + " to " +
+                                std::to_string(b + 1) + " runs along no edge of a facet");
+  }
+  return mesh.lines;
+}
+
 } // namespace
 
 std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name)
@@ -56,12 +111,8 @@ std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& n
     return checked(found->values, "its property " + printable(name));
   if (std::filesystem::is_regular_file(name))
     return checked(numbers_of_file(name, mesh.soup.points.size()), name);
-  std::string known;
-  for (const Mesh_property& p : properties)
-    known += (known.empty() ? "" : ", ") + printable(p.name);
   throw Invalid_input_error("its vertices have no property " + printable(name) +
-                            ", and there is no such file; " +
-                            (known.empty() ? "they have none" : "they have " + known));
+                            ", and there is no such file; " + names_of(properties));
 }
 
 Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh)
@@ -70,7 +121,26 @@ Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mes
   if (!options.size_field.empty()) fields.sizes = vertex_values(mesh, options.size_field);
   if (!options.density_field.empty()) fields.densities = vertex_values(mesh, options.density_field);
   fields.refinements = options.refinements;
+  if (!options.labels.empty()) fields.labels = face_labels(mesh, options.labels);
+  if (options.keeps_lines) fields.lines = checked_lines(mesh);
   return fields;
+}
+
+void choose_names(const Program_options& options, Polygon_mesh& mesh)
+{
+  if (options.keeps_lines) mesh.attributes.erase("lines");
+
+  std::vector<Mesh_property>& faces = mesh.properties.faces;
+  const auto is_unwanted = [&](const Mesh_property& p) {
+    return !p.names.empty() && p.name != options.labels;
+  };
+  faces.erase(std::remove_if(faces.begin(), faces.end(), is_unwanted), faces.end());
+  for (const Mesh_property& p : faces) {
+    if (p.names.empty()) continue;
+    mesh.attributes.erase(p.name + "s");
+    if (format_of(options.output) != Format::obj)
+      mesh.attributes.insert("names of " + p.name + "s");
+  }
 }
 
 Refinement parse_refinement(const std::string& text)

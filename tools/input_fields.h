@@ -20,9 +20,15 @@ namespace tools {
 ///   vertex; a facet's corner has a value that is not positive and finite
 std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name);
 
-/// The fields and regions that the options name, of `mesh`.
-/// \throws Invalid_input_error as `vertex_values()`
+/// The fields, regions and creases that the options name, of `mesh`.
+/// \throws Invalid_input_error as `vertex_values()`; a label is no whole number; a line runs along
+/// no
+///   edge of a facet
 CGAL::PowerRTF::Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh);
+
+/// Leaves of the materials and groups of an OBJ file those that are the labels asked for, and of
+/// what is not carried over names what these options do carry over no longer.
+void choose_names(const Program_options& options, Polygon_mesh& mesh);
 
 /// From `sphere:x,y,z,r,h` or `box:x0,y0,z0,x1,y1,z1,h`.
 /// \throws Invalid_input_error it is neither

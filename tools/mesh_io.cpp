@@ -157,7 +157,7 @@ void write_mesh(std::ostream& out, Format format, Encoding encoding,
     return format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
   }
   if (format == Format::off) return write_off(out, points, triangles);
-  if (format == Format::obj) return write_obj(out, points, triangles, properties.vertices);
+  if (format == Format::obj) return write_obj(out, points, triangles, properties);
   std::vector<Point> copies;
   copies.reserve(points.size());
   for (const Vec3d& p : points) copies.emplace_back(p.x, p.y, p.z);

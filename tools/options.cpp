@@ -105,7 +105,13 @@ public:
             "the same for the density, instead of --density; only its ratios matter")(
             "refine", po::value<std::vector<std::string>>()->composing()->value_name("REGION"),
             "sphere:x,y,z,r,h or box:x0,y0,z0,x1,y1,z1,h: edges are no longer than about h inside; "
-            "may be given several times");
+            "may be given several times")(
+            "labels", text("NAME"),
+            "a property of the input's faces, of whole numbers (PLY), or material or group (OBJ): "
+            "creases are kept between different ones, and the output's faces have them (PLY, VTP; "
+            "names: OBJ)")("lines", "the lines of an OBJ input are creases, too")(
+            "patches", "number the output's faces by the patches between creases: their property "
+                       "\"patch\" (PLY, VTP)");
     group("Files").add_options()("report", text("FILE.json"),
                                  "write what was done and what the result is worth")(
         "html", text("FILE.html"),
@@ -268,8 +274,11 @@ Remeshing_options remeshing_options(const po::variables_map& values)
 /// \throws Usage_error
 void set_fields(const po::variables_map& values, Program_options& o)
 {
+  o.keeps_lines = values.count("lines") > 0;
+  o.writes_patches = values.count("patches") > 0;
   for (const auto& [option, name] :
-       {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field}}) {
+       {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field},
+        std::pair{"labels", &o.labels}}) {
     if (!values.count(option)) continue;
     *name = values[option].as<std::string>();
     if (name->empty()) throw Usage_error("--" + std::string(option) + ": the name is empty");

@@ -38,8 +38,11 @@ void check_outputs(const Program_options& o)
   if (o.write_mesh && format_of(o.output) == Format::unknown)
     throw Output_error(o.output + ": cannot be written: its name does not end in .off, .obj, .ply, "
                                   ".stl or .vtp");
+  if (o.writes_patches && !holds_numbers(format_of(o.output)))
+    throw Output_error(o.output + ": cannot be written: only .ply and .vtp hold the numbers of "
+                                  "patches");
   for (const std::string& file : {o.cells_file, o.samples_file, o.provenance_file})
-    if (!file.empty() && format_of(file) != Format::ply && format_of(file) != Format::vtp)
+    if (!file.empty() && !holds_numbers(format_of(file)))
       throw Output_error(file + ": cannot be written: its name does not end in .ply or .vtp");
   if (!o.fields_file.empty() && format_of(o.fields_file) != Format::vtp)
     throw Output_error(o.fields_file + ": cannot be written: its name does not end in .vtp");
@@ -107,6 +110,7 @@ Input load(Run& run)
     input.fields = about_input(run.options, [&] { return fields_of(run.options, mesh); });
   }
   const Format output = format_of(run.options.output);
+  choose_names(run.options, mesh);
   mesh.attributes.merge(not_held_by(output, mesh.properties));
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   mesh.properties = run.options.write_mesh ? held_by(output, mesh.properties) : Mesh_properties();
@@ -231,11 +235,13 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Sources& sour
     write_json(report, run);
     write_html(out, remesher.surface(), mesh, report.str());
   });
+  Mesh_properties values = transferred(properties, sources);
+  if (options.writes_patches) set_patches(remesher.patches(mesh), values);
   for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
   if (options.write_mesh)
     outputs.add(options.output, [&](std::ostream& out) {
       write_mesh(out, format_of(options.output), options.encoding, mesh.points, mesh.triangles,
-                 transferred(properties, sources));
+                 values);
     });
   outputs.add(options.provenance_file, [&](std::ostream& out) {
     write_sources(out, format_of(options.provenance_file), options.encoding, mesh.points,

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <iterator>
+#include <map>
 #include <utility>
 
 namespace tools {
@@ -35,6 +36,45 @@ struct Obj_attribute {
 constexpr Obj_attribute obj_attributes[] = {
     {"vt", "texture coordinates"}, {"vn", "normals"}, {"usemtl", "materials"}, {"g", "groups", 1},
     {"o", "objects", 1},           {"l", "lines"},    {"p", "points"},
+};
+
+/// Statements of OBJ that name what the facets after them belong to, and the property of the faces
+/// that this becomes.
+struct Obj_name {
+  std::string_view keyword;
+  const char* property;
+};
+constexpr Obj_name obj_names[] = {{"usemtl", "material"}, {"g", "group"}};
+
+/// The names of facets in OBJ.
+class Obj_names {
+public:
+  /// Reads the rest of a statement.
+  void read(Tokenizer& tokens)
+  {
+    std::string name;
+    while (tokens.next_in_line()) name += (name.empty() ? "" : " ") + std::string(tokens.token());
+    m_now = name;
+  }
+  void end_facet()
+  {
+    const auto [found, is_new] = m_numbers.emplace(m_now, static_cast<int>(m_names.size()));
+    if (is_new) m_names.push_back(m_now);
+    m_values.push_back(found->second);
+  }
+  /// The numbers of the names as a property of the faces, if there are several names.
+  void add_to(Polygon_mesh& mesh, const char* property)
+  {
+    if (m_names.size() < 2) return;
+    mesh.properties.faces.push_back(
+        {property, Number_type::int32, std::move(m_values), std::move(m_names)});
+  }
+
+private:
+  std::string m_now = "default";
+  std::map<std::string, int> m_numbers;
+  std::vector<std::string> m_names;
+  std::vector<double> m_values;
 };
 
 constexpr const char* color_channels[] = {"red", "green", "blue"};
@@ -67,6 +107,23 @@ private:
   std::size_t m_vertices = 0;
   std::array<std::vector<double>, std::size(color_channels)> m_channels;
 };
+
+/// The index of a vertex in OBJ, from 0; -1: there is none. \param n how many there are so far
+int obj_corner(long long v, long long n)
+{
+  return corner(v > 0 ? v - 1 : v == 0 || v < -n ? -1 : n + v); // negative: from the last
+}
+
+/// Reads the rest of a line: pairs of its vertices that follow each other.
+void read_obj_line(Tokenizer& tokens, Polygon_mesh& mesh)
+{
+  const long long n = static_cast<long long>(mesh.soup.points.size());
+  for (int last = -2; tokens.next_in_line();) {
+    const int v = obj_corner(tokens.whole_number(true), n);
+    if (last != -2) mesh.lines.push_back({last, v});
+    last = v;
+  }
+}
 
 struct Off_header {
   std::string_view prefixes; // for more values per vertex: ST (texture), C (color), N (normal)
@@ -157,6 +214,7 @@ Polygon_mesh parse_obj(std::string_view text)
   std::size_t facet_of_largest = 0;
   std::array<std::size_t, std::size(obj_attributes)> counts{};
   Obj_colors colors;
+  std::array<Obj_names, std::size(obj_names)> names;
   while (tokens.next()) {
     if (tokens.token() == "v") {
       Vec3d p{0, 0, 0};
@@ -173,7 +231,7 @@ Polygon_mesh parse_obj(std::string_view text)
       while (tokens.next_in_line()) {
         const long long v = tokens.whole_number(true);
         if (v == 0 || v < -n) reject(out_of_range(tokens, facet, v, soup.points.size()));
-        soup.corners.push_back(corner(v > 0 ? v - 1 : n + v)); // negative: from the last
+        soup.corners.push_back(obj_corner(v, n));
         if (v <= largest) continue;
         largest = v;
         at_largest = tokens;
@@ -182,17 +240,23 @@ Polygon_mesh parse_obj(std::string_view text)
       if (soup.corners.size() < begin + 3)
         reject(tokens.at() + "a facet with fewer than three vertices (a truncated file?)");
       soup.end_polygon();
+      for (Obj_names& n : names) n.end_facet();
     } else if (tokens.token() == "s" && tokens.next_in_line()) {
       if (tokens.token() != "off" && tokens.token() != "0")
         mesh.attributes.insert("smoothing groups");
     } else {
+      const std::string_view keyword = tokens.token();
       for (std::size_t k = 0; k < counts.size(); ++k)
-        counts[k] += tokens.token() == obj_attributes[k].keyword;
+        counts[k] += keyword == obj_attributes[k].keyword;
+      for (std::size_t k = 0; k < names.size(); ++k)
+        if (keyword == obj_names[k].keyword) names[k].read(tokens);
+      if (keyword == "l") read_obj_line(tokens, mesh);
     }
     tokens.skip_line();
   }
   if (soup.points.empty()) reject("it is not an OBJ file: it has no vertices");
   colors.add_to(mesh);
+  for (std::size_t k = 0; k < names.size(); ++k) names[k].add_to(mesh, obj_names[k].property);
   if (largest > static_cast<long long>(soup.points.size()))
     reject(out_of_range(at_largest, facet_of_largest, largest, soup.points.size()));
   for (std::size_t k = 0; k < counts.size(); ++k)
@@ -213,11 +277,12 @@ void write_off(std::ostream& out, const std::vector<Vec3d>& points,
 }
 
 void write_obj(std::ostream& out, const std::vector<Vec3d>& points,
-               const std::vector<Triangle>& triangles, const std::vector<Mesh_property>& properties)
+               const std::vector<Triangle>& triangles, const Mesh_properties& properties)
 {
   std::vector<const Mesh_property*> colors;
   for (const char* const channel : color_channels)
-    if (const Mesh_property* const p = find_property(properties, channel)) colors.push_back(p);
+    if (const Mesh_property* const p = find_property(properties.vertices, channel))
+      colors.push_back(p);
   if (colors.size() != std::size(color_channels)) colors.clear();
   write_rows(out, points.size(), [&](Text& text, std::size_t i) {
     text << "v " << points[i];
@@ -225,7 +290,15 @@ void write_obj(std::ostream& out, const std::vector<Vec3d>& points,
       text << " " << static_cast<float>(p->values[i] / (is_real(p->type) ? 1 : 255));
     text << "\n";
   });
+  std::vector<std::pair<std::string, const Mesh_property*>> names;
+  for (const Obj_name& n : obj_names)
+    if (const Mesh_property* const p = find_property(properties.faces, n.property);
+        p && !p->names.empty())
+      names.emplace_back(n.keyword, p);
   write_rows(out, triangles.size(), [&](Text& text, std::size_t i) {
+    for (const auto& [keyword, p] : names)
+      if (i == 0 || p->values[i] != p->values[i - 1])
+        text << keyword.c_str() << " " << p->names[std::size_t(p->values[i])].c_str() << "\n";
     const Triangle& t = triangles[i];
     text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
   });

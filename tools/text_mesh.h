@@ -23,10 +23,11 @@ Polygon_mesh parse_obj(std::string_view text);
 /// The coordinates read back the same.
 void write_off(std::ostream& out, const std::vector<CGAL::PowerRTF::Vec3d>& points,
                const std::vector<CGAL::PowerRTF::Triangle>& triangles);
-/// `properties`: of the points; their colors are written.
+/// `properties`: the colors of the points and the materials and groups of the triangles are
+/// written.
 void write_obj(std::ostream& out, const std::vector<CGAL::PowerRTF::Vec3d>& points,
                const std::vector<CGAL::PowerRTF::Triangle>& triangles,
-               const std::vector<Mesh_property>& properties = {});
+               const Mesh_properties& properties = {});
 
 } // namespace tools
 

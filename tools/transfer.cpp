@@ -33,7 +33,7 @@ Mesh_property of_vertices(const Mesh_property& property, const std::vector<Sourc
 
 Mesh_property of_faces(const Mesh_property& property, const std::vector<Source>& sources)
 {
-  Mesh_property result{property.name, property.type, {}};
+  Mesh_property result{property.name, property.type, {}, property.names};
   result.values.reserve(sources.size());
   for (const Source& s : sources) result.values.push_back(property.values[s.face]);
   return result;
@@ -66,6 +66,17 @@ Mesh_properties transferred(const Mesh_properties& input, const Sources& sources
   for (const Mesh_property& p : input.faces) result.faces.push_back(of_faces(p, sources.faces));
   normalize(result.vertices);
   return result;
+}
+
+void set_patches(const std::vector<int>& patches, Mesh_properties& properties)
+{
+  Mesh_property patch{"patch", Number_type::int32, {patches.begin(), patches.end()}};
+  std::vector<Mesh_property>& faces = properties.faces;
+  const Mesh_property* const old = find_property(faces, patch.name);
+  if (old)
+    faces[old - faces.data()] = std::move(patch);
+  else
+    faces.push_back(std::move(patch));
 }
 
 void write_sources(std::ostream& out, Format format, Encoding encoding,

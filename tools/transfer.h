@@ -20,6 +20,9 @@ namespace tools {
 /// are those of the nearest corner; faces get what the face at their center has.
 Mesh_properties transferred(const Mesh_properties& input, const CGAL::PowerRTF::Sources& sources);
 
+/// Adds the property `patch` of the faces, in place of one of that name.
+void set_patches(const std::vector<int>& patches, Mesh_properties& properties);
+
 /// Writes a mesh with its sources, as PLY or VTP: each vertex with `source_face`, the corners of a
 /// triangle of that face, `source_vertex_0` to `source_vertex_2`, and its barycentric coordinates
 /// in it, `weight_0` to `weight_2`; each face with the `source_face` of its center. They are the

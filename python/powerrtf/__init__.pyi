@@ -37,6 +37,7 @@ class Cells:
 class Mesh:
     vertices: Any
     faces: Any
+    labels: NDArray[np.int32] | None
     report: Report
     def __iter__(self) -> Iterator[Any]: ...
     @property
@@ -57,6 +58,7 @@ def remesh(
     sizing: Any = None,
     refine: Iterable[str] = (),
     constrained_edges: Any = None,
+    labels: Any = None,
     traits: str = "auto",
     threads: int = 0,
     progress: Callable[[float, str], Any] | bool | None = None,

@@ -37,8 +37,17 @@ def _vertex_values(values, name, count):
     return values
 
 
-def _run(vertices, faces, n, density, sizing, refine, constrained_edges, traits, threads, progress,
-         options):
+def _labels(labels, count):
+    labels = index_array(labels, "labels")
+    if len(labels) != count:
+        raise InvalidInputError(f"labels has {len(labels)} entries, but there are {count} faces")
+    if len(labels) and np.abs(labels).max() > np.iinfo(np.int32).max:
+        raise InvalidInputError("labels has an entry that is too large")
+    return labels
+
+
+def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels, traits, threads,
+         progress, options):
     if sizing is not None and n is None and not any(map(options.get, RESOLUTIONS)):
         options = {**options, "size_factor": 1.0}
     resolutions = [name for name in RESOLUTIONS if options.get(name)]
@@ -54,7 +63,8 @@ def _run(vertices, faces, n, density, sizing, refine, constrained_edges, traits,
         raise TypeError(f"remesh() got an unexpected keyword argument {name!r}")
     if n is not None:
         options["number_of_samples"] = n
-    fields = {"density": None, "sizing": None, "constrained_edges": None, "refine": list(refine)}
+    fields = {"density": None, "sizing": None, "constrained_edges": None, "labels": None,
+              "refine": list(refine)}
     if isinstance(density, str):
         options["density"] = density
     else:
@@ -64,13 +74,16 @@ def _run(vertices, faces, n, density, sizing, refine, constrained_edges, traits,
     if constrained_edges is not None:
         fields["constrained_edges"] = index_array(constrained_edges, "constrained_edges", (2,))
     corners, sizes = faces
+    if labels is not None:
+        fields["labels"] = _labels(labels, len(corners) if sizes is None else len(sizes))
     given = (vertices, corners, sizes, fields, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
-        points, triangles, report, sites = _core.remesh(*given, traits, threads, show)
+        points, triangles, report, sites, labels = _core.remesh(*given, traits, threads, show)
     finally:
         close()
-    return Mesh(points, triangles, Report(json.loads(report)), sites, given)
+    labels = None if fields["labels"] is None else labels
+    return Mesh(points, triangles, labels, Report(json.loads(report)), sites, given)
 
 
 def _warn(mesh):
@@ -80,15 +93,15 @@ def _warn(mesh):
 
 
 def remesh(vertices, faces=None, n=None, *, density="curvature", sizing=None, refine=(),
-           constrained_edges=None, traits="auto", threads=0, progress=None, **options):
+           constrained_edges=None, labels=None, traits="auto", threads=0, progress=None, **options):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
     corners, sizes = face_arrays(faces)
     if points.dtype == np.float32:
         options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, sizing, refine, constrained_edges, traits,
-                threads, progress, options)
+    mesh = _run(points, (corners, sizes), n, density, sizing, refine, constrained_edges, labels,
+                traits, threads, progress, options)
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
     return _warn(mesh)
@@ -109,8 +122,8 @@ def remesh_file(input, output, n=None, *, ascii=False, density="curvature", refi
     points, corners, sizes = _core.read_mesh(input)
     if _core.holds_floats(output, ascii):
         options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, None, refine, None, traits, threads, progress,
-                options)
+    mesh = _run(points, (corners, sizes), n, density, None, refine, None, None, traits, threads,
+                progress, options)
     _core.write_mesh(output, mesh.vertices, mesh.faces, ascii)
     return _warn(mesh)
 
@@ -137,6 +150,8 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
 :param refine: regions where edges are to be short: "sphere:x,y,z,r,h" or
     "box:x0,y0,z0,x1,y1,z1,h", with the length h
 :param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
+:param labels: (m,) whole numbers, one for each face: creases are kept between different ones, and
+    the result has them as ``labels``
 :param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm
 :param threads: 0: all. The result is the same for any number
 :param progress: is called with the share of the stage that is done and the stage's name, about

@@ -19,6 +19,7 @@
 
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
+#include <CGAL/PowerRTF/transfer/find_sources.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <nanobind/stl/optional.h>
@@ -47,13 +48,14 @@ struct Input {
 /// What a dictionary of fields has: arrays or None, and regions as the program has them.
 struct Given_fields {
   std::optional<Real_array> density, sizing;
-  std::optional<Index_array> constrained_edges;
+  std::optional<Index_array> constrained_edges, labels;
   std::vector<std::string> refine;
 
   explicit Given_fields(const nb::dict& fields)
       : density(nb::cast<std::optional<Real_array>>(fields["density"])),
         sizing(nb::cast<std::optional<Real_array>>(fields["sizing"])),
         constrained_edges(nb::cast<std::optional<Index_array>>(fields["constrained_edges"])),
+        labels(nb::cast<std::optional<Index_array>>(fields["labels"])),
         refine(nb::cast<std::vector<std::string>>(fields["refine"]))
   {}
 };
@@ -68,6 +70,9 @@ Input input_of(const Real_array& points, const Index_array& faces,
     fields.creases = edges_of_array(*given.constrained_edges, input.soup);
   if (given.density) fields.densities = numbers_of_array(*given.density);
   if (given.sizing) fields.sizes = numbers_of_array(*given.sizing);
+  if (given.labels)
+    for_each_index(*given.labels,
+                   [&](std::size_t, auto label) { fields.labels.push_back(int(label)); });
   for (const std::string& region : given.refine)
     fields.refinements.push_back(tools::parse_refinement(region));
   return input;
@@ -82,13 +87,14 @@ std::vector<Triangle> triangles_of(const Polygon_soup& soup)
 
 struct Result {
   Extracted_mesh mesh;
+  std::vector<int> labels; ///< of its triangles, where the input has some
   Placed_sites sites;
 };
 
 /// From the surface on, as `CGAL::power_rtf_remeshing()`. The result is empty when the visitor has
 /// stopped it.
 template <class Traits>
-Result remesh_with(tools::Run& run, Surface surface, Python_visitor& visitor)
+Result remesh_with(tools::Run& run, const Input& input, Surface surface, Python_visitor& visitor)
 {
   run.options.traits = Traits::name();
   CGAL::PowerRTF_remesher<Traits> remesher(std::move(surface), run.options.remeshing, run.report);
@@ -98,6 +104,12 @@ Result remesh_with(tools::Run& run, Surface surface, Python_visitor& visitor)
     result.sites = sites_of(remesher);
   }
   run.report = remesher.report();
+  if (!input.fields.labels.empty() && !run.report.cancelled) {
+    const Sources sources = find_sources(
+        input.soup, remesher.surface().normalization, run.report.repairs.reoriented_facets == 0,
+        result.mesh.points, result.mesh.triangles, tools::Concurrency());
+    for (const Source& s : sources.faces) result.labels.push_back(input.fields.labels[s.face]);
+  }
   for (Vec3d& p : result.mesh.points) p = remesher.surface().normalization.to_outside(p);
   return result;
 }
@@ -110,9 +122,10 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
     const internal::Stopwatch total(run.report.seconds.total);
     Remeshing_options& options = run.options.remeshing;
     const bool is_search = is_distance_asked_for(options);
+    const bool keeps_input = is_search || !input.fields.labels.empty();
     const auto prepare = [&](const Remeshing_options& o, Remeshing_report& report) {
       const internal::Stage stage("surface");
-      return prepare_surface(is_search ? Polygon_soup(input.soup) : std::move(input.soup),
+      return prepare_surface(keeps_input ? Polygon_soup(input.soup) : std::move(input.soup),
                              input.fields, o, report, tools::Concurrency());
     };
     Surface surface = prepare(options, run.report);
@@ -129,7 +142,7 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
             surface = prepare(options, run.report);
           }
           const bool may_fail = name == "auto" && Traits::name() == std::string("cuda");
-          return remesh_with<Traits>(run, may_fail ? surface : std::move(surface), visitor);
+          return remesh_with<Traits>(run, input, may_fail ? surface : std::move(surface), visitor);
         });
   };
   const auto cancellable = [&] { internal::run_unless_cancelled(visitor, remesh); };
@@ -172,7 +185,8 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   nb::object vertices = is_single ? to_array<float>(std::move(result.mesh.points))
                                   : to_array<double>(std::move(result.mesh.points));
   return nb::make_tuple(vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
-                        to_python(std::move(result.sites)));
+                        to_python(std::move(result.sites)),
+                        to_array<int>(std::move(result.labels)));
 }
 
 /// The page of a run, of what went in and what came out.

@@ -69,6 +69,23 @@ def test_edge_lengths_may_be_wanted_somewhere():
         powerrtf.remesh(points, faces, 100, refine=["cone:1"])
 
 
+def test_labels_come_out_with_their_areas():
+    points, faces = sphere(24)
+    labels = np.where(points[faces].mean(axis=1)[:, 2] > 0, 7, -2)
+    mesh = powerrtf.remesh(points, faces, 800, labels=labels)
+
+    def area(points, faces):
+        a, b, c = np.moveaxis(points[faces], 1, 0)
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+    for label in (7, -2):
+        assert abs(area(mesh.vertices, mesh.faces[mesh.labels == label])
+                   / area(points, faces[labels == label]) - 1) < 0.01
+    assert mesh.report.crease_edges > 0 and set(mesh.labels) == {7, -2}
+    assert powerrtf.remesh(points, faces, 100).labels is None
+    with pytest.raises(ValueError, match="labels has 2 entries"):
+        powerrtf.remesh(points, faces, 100, labels=[1, 2])
+
+
 def test_polygons_may_have_different_sizes():
     cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -114,6 +114,31 @@ TEST_CASE("colors go from PLY to OBJ and back")
   CHECK(written(Format::obj, Encoding::text, {}).find("v 7 0 1\n") != std::string::npos);
 }
 
+TEST_CASE("materials and groups go from OBJ to OBJ by their names, to PLY as numbers")
+{
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+  const Polygon_mesh mesh =
+      parse_mesh(Format::obj, vertices + "usemtl red wine\nf 1 2 3\nusemtl steel\ng a b\nf 2 4 3\n"
+                                         "usemtl red wine\nf 1 2 4\nl 1 2 -1\n");
+  REQUIRE(mesh.properties.faces.size() == 2);
+  const Mesh_property& material = mesh.properties.faces[0];
+  CHECK(material.name == "material");
+  CHECK(material.values == Values{0, 1, 0});
+  CHECK(material.names == std::vector<std::string>{"red wine", "steel"});
+  CHECK(mesh.properties.faces[1].names == std::vector<std::string>{"default", "a b"});
+  CHECK(mesh.lines == std::vector<CGAL::PowerRTF::Edge>{{0, 1}, {1, 3}});
+  CHECK(parse_mesh(Format::obj, vertices + "usemtl a\nf 1 2 3\n").properties.empty());
+
+  std::ostringstream out;
+  const std::vector<Triangle> again = {{{0, 1, 2}}, {{1, 3, 2}}, {{0, 1, 3}}};
+  write_mesh(out, Format::obj, Encoding::text, mesh.soup.points, again, mesh.properties);
+  CHECK(out.str().find("usemtl red wine\ng default\nf 1 2 3\nusemtl steel\ng a b\nf 2 4 3\n"
+                       "usemtl red wine\nf 1 2 4\n") != std::string::npos);
+  check_equal(parse_mesh(Format::obj, out.str()).properties.faces, mesh.properties.faces);
+  CHECK(held_by(Format::obj, mesh.properties).faces.size() == 2);
+  CHECK(held_by(Format::ply, mesh.properties).faces.size() == 2);
+}
+
 TEST_CASE("values are rounded to their types and stay in their ranges")
 {
   const auto as = [](Number_type type, double x) {

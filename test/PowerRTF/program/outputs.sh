@@ -257,6 +257,50 @@ run 1 'zero.txt: the value of vertex 2' 'positive' -- torus.off out.off --size-f
 awk '{ print $1, 1 }' lengths.txt >pairs.txt
 run 1 "pairs.txt: line 1: '1' is more than" -- torus.off out.off --size-field pairs.txt
 
+# --- labels: the halves y < 0 and y > 0; their areas
+awk 'NR > 2 && NF == 3 { y[n++] = $2 } NR > 2 && NF == 4 { print $0, (y[$2] + y[$3] + y[$4] > 0) + 5 }' \
+  torus.off >labeled_facets.txt
+{
+  printf '%s\n' ply 'format ascii 1.0' 'element vertex 800' 'property double x' 'property double y' \
+    'property double z' 'element face 1600' 'property list uchar int vertex_indices' \
+    'property int half' end_header
+  awk 'NR > 2 && NF == 3' torus.off
+  cat labeled_facets.txt
+} >labels.ply
+# faces FILE.ply: how many faces have each of the numbers at the ends of their lines
+faces() { awk '$1 == 3 && NF == 5 { ++n[$5] } END { for (k in n) print k, n[k] }' "$1" | sort; }
+run 0 -- labels.ply out.ply -n 400 --labels half --ascii --report r.json
+has crease_edges 40
+expect 'both labels come out' [ "$(faces out.ply | cut -d ' ' -f 1 | paste -sd ' ')" = '5 6' ]
+run 0 -- labels.ply plain.ply -n 400 --ascii --report r.json
+has crease_edges 0
+run 0 -- labels.ply out.ply -n 400 --labels half --patches --ascii
+expect 'patches are numbered' grep -q '^property int patch' out.ply
+run 5 'out.off' '.ply and .vtp' -- labels.ply out.off -n 400 --patches
+run 1 'no property third' 'they have half' -- labels.ply out.off --labels third
+sed 's/^\(3 .*\) 5$/\1 5.5/; s/int half/double half/' labels.ply >fractions.ply
+run 1 'its property half' 'no whole number' -- fractions.ply out.off --labels half
+{
+  off_to_obj <torus.off | grep '^v'
+  awk '$5 != last { print "usemtl m" $5; last = $5 } { print "f", $2 + 1, $3 + 1, $4 + 1 }' \
+    labeled_facets.txt
+} >labels.obj
+run 0 -- labels.obj out.obj -n 400 --labels material --report r.json
+has crease_edges 40
+expect 'materials come out' [ "$(grep usemtl out.obj | sort -u | paste -sd ' ')" = 'usemtl m5 usemtl m6' ]
+run 0 'labels.obj: not carried over to the output: materials' -- labels.obj out.obj -n 400 --report r.json
+has crease_edges 0
+run 0 'names of materials' -- labels.obj out.ply -n 400 --labels material
+{
+  cat labels.obj
+  echo l 1 2 3 4
+} >lines.obj
+run 0 -- lines.obj out.obj -n 400 --lines --report r.json
+has crease_edges 3
+run 0 'not carried over to the output: lines, materials' -- lines.obj out.obj -n 400
+sed '$ a l 1 12' labels.obj >wrong.obj
+run 1 'its line from vertex 1 to 12 runs along no edge' -- wrong.obj out.obj -n 400 --lines
+
 # --- input that is repaired
 sed '$ a 3 0 0 1' torus.off | sed '2s/800 1600 0/800 1601 0/' >degenerate.off
 run 0 -- degenerate.off out.off "${fast[@]}" --report r.json
