@@ -120,7 +120,8 @@ Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mes
   Surface_fields fields;
   if (!options.size_field.empty()) fields.sizes = vertex_values(mesh, options.size_field);
   if (!options.density_field.empty()) fields.densities = vertex_values(mesh, options.density_field);
-  fields.refinements = options.refinements;
+  for (const std::string& region : options.refine)
+    fields.refinements.push_back(parse_refinement(region));
   if (!options.labels.empty()) fields.labels = face_labels(mesh, options.labels);
   if (options.keeps_lines) fields.lines = checked_lines(mesh);
   return fields;

@@ -289,8 +289,9 @@ void set_fields(const po::variables_map& values, Program_options& o)
     throw Usage_error("--size-factor: there is no --size-field");
   if (!o.size_field.empty() && resolution_option(values).empty()) o.remeshing.size_factor = 1;
   if (!values.count("refine")) return;
-  for (const std::string& region : values["refine"].as<std::vector<std::string>>()) try {
-      o.refinements.push_back(parse_refinement(region));
+  o.refine = values["refine"].as<std::vector<std::string>>();
+  for (const std::string& region : o.refine) try {
+      parse_refinement(region);
     } catch (const Invalid_input_error& e) {
       throw Usage_error(std::string("--refine: ") + e.what());
     }

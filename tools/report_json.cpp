@@ -8,6 +8,7 @@
 
 #include <ostream>
 #include <type_traits>
+#include <utility>
 
 namespace tools {
 namespace {
@@ -150,6 +151,19 @@ void add_mesh(Json& json, const Run& run)
   json["missed_guarantees"] = run.missed;
 }
 
+/// What was asked for at places of the input; only what there is.
+Json fields(const Program_options& o)
+{
+  Json json = Json::object();
+  for (const auto& [name, value] :
+       {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field},
+        std::pair{"labels", &o.labels}})
+    if (!value->empty()) json[name] = *value;
+  if (!o.refine.empty()) json["refine"] = o.refine;
+  if (o.keeps_lines) json["lines"] = true;
+  return json;
+}
+
 Json to_json(const Run& run)
 {
   const Remeshing_report& r = run.report;
@@ -182,6 +196,8 @@ Json to_json(const Run& run)
         {"name", r.device.name}, {"seconds", r.device.seconds}, {"bytes", r.device.bytes}};
   if (run.options.check) json["checks"] = checks(run.checks);
   json["parameters"] = parameters(run.options.remeshing);
+  const Json asked = fields(run.options);
+  if (!asked.empty()) json["fields"] = asked;
   json["iterations"] = iterations(r);
   return json;
 }

@@ -24,8 +24,9 @@ int main()
 
   auto wanted = input.add_property_map<Mesh::Vertex_index, double>("v:length").first;
   for (const Mesh::Vertex_index v : input.vertices()) wanted[v] = 0.1 + 0.05 * input.point(v).x();
+  const Kernel::Point_3 center = input.point(*input.vertices().begin());
   const std::vector<CGAL::PowerRTF::Refinement> regions{
-      CGAL::PowerRTF::Refinement::sphere({0, 0, 1}, 0.2, 0.02)};
+      CGAL::PowerRTF::Refinement::sphere({center.x(), center.y(), center.z()}, 0.2, 0.02)};
 
   const CGAL::PowerRTF::Remeshing_report report =
       CGAL::power_rtf_remeshing(input, CGAL::PowerRTF::Resolution::size_factor(), output,

@@ -243,6 +243,7 @@ run 0 -- torus.off out.off --edge-length .5 --refine sphere:4,0,0,.5,.1 --report
 more=$(field samples)
 run 0 -- torus.off out.off --edge-length .5 --refine sphere:4,0,0,.5,.1 --refine box:-5,-1,-1,-3,1,1,.2 \
   --report r.json
+expect 'the report names the regions' grep -q '^      "box:-5,-1,-1,-3,1,1,.2"' r.json
 expect 'each region adds samples' [ "$(field samples)" -gt "$more" ]
 run 0 -- torus.off out.off -n 800 --min-edge-length .2 --max-edge-length 1
 run 1 'torus.off' 'need at least' -- torus.off out.off -n 800 --max-edge-length .01
@@ -271,6 +272,7 @@ awk 'NR > 2 && NF == 3 { y[n++] = $2 } NR > 2 && NF == 4 { print $0, (y[$2] + y[
 faces() { awk '$1 == 3 && NF == 5 { ++n[$5] } END { for (k in n) print k, n[k] }' "$1" | sort; }
 run 0 -- labels.ply out.ply -n 400 --labels half --ascii --report r.json
 has crease_edges 40
+has labels '"half"'
 expect 'both labels come out' [ "$(faces out.ply | cut -d ' ' -f 1 | paste -sd ' ')" = '5 6' ]
 run 0 -- labels.ply plain.ply -n 400 --ascii --report r.json
 has crease_edges 0

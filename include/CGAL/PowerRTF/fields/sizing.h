@@ -81,7 +81,7 @@ inline void split_for_lengths(Surface& surface, double C, const Length_bounds& b
                               Concurrency concurrency)
 {
   constexpr double similar = 1.3, longest_edge = 2;
-  constexpr std::size_t most = 20000000; // facets
+  constexpr std::size_t most = 4000000; // facets
   const std::vector<int>& opposite = surface.adjacency.opposite;
   while (surface.triangles.size() < most / 4) {
     const std::vector<double> lengths = bounded_lengths(surface, C, bounds, concurrency);
@@ -216,7 +216,7 @@ inline std::size_t set_wanted_lengths(Surface& surface, const Remeshing_options&
   std::vector<double> lengths = scaling.lengths(C);
   if (is_length_asked_for)
     n = internal::possible_number(vertices_by_lengths(surface, lengths, concurrency),
-                                  "the edge lengths wanted");
+                                  "the edge length that is wanted");
   for (double& l : lengths) l = 1 / (l * l);
   surface.vertex_density = std::move(lengths);
   internal::normalize_density(surface.vertex_density);
