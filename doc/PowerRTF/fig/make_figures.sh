@@ -49,3 +49,26 @@ for angle in 60 180; do
     --normal-angle "$angle" --iterations 20 --cells "$work/disc_$angle.vtp" --quiet
   render "$work/disc_$angle.vtp" "$target/disc_$angle.png" --color-by sides --up z --elevation 40
 done
+
+# A region that is refined.
+"$program" "$models/fandisk.off" "$work/plain.off" --edge-length 4% --quiet
+"$program" "$models/fandisk.off" "$work/refined.off" --edge-length 4% \
+  --refine sphere:0.46,0.2,0.2,0.15,0.008 --quiet
+for name in plain refined; do
+  render "$work/$name.off" "$target/fandisk_$name.png" --azimuth 35 --elevation 30 --palette 128
+done
+
+# Bands as labels, of the result only and kept apart.
+awk 'NR == 2 {
+    print "ply\nformat ascii 1.0\nelement vertex " $1
+    print "property double x\nproperty double y\nproperty double z\nelement face " $2
+    print "property list uchar int vertex_indices\nproperty int label\nend_header"
+  }
+  NR > 2 && NF == 3 { height[n++] = $2 + 0.3 * $1; print }
+  NR > 2 && NF == 4 { print $0, int(5 * (height[$2] + height[$3] + height[$4]) / 3 + 20) % 4 }' \
+  "$models/bunny00.off" >"$work/bands.ply"
+"$program" "$work/bands.ply" "$work/carried.vtp" --samples 3000 --quiet
+"$program" "$work/bands.ply" "$work/kept.vtp" --samples 3000 --labels label --quiet
+for name in carried kept; do
+  render "$work/$name.vtp" "$target/labels_$name.png" --color-by label --range -2 3 --palette 128
+done
