@@ -167,21 +167,21 @@ TEST_CASE("a number of samples is kept: the rest is coarser for regions that are
 TEST_CASE("edges are about as long as the bounds allow")
 {
   const shapes::Soup soup = shapes::torus(120, 60, 1, 0.4);
-  const Field field = [](const Vec3d& p) { return 0.07 + 0.045 * p.x; }; // .007 to .133
+  const Field field = [](const Vec3d& p) { return 0.14 + 0.09 * p.x; }; // .014 to .266
   Remeshing_options bounded;
-  bounded.min_edge_length = 0.05;
-  bounded.max_edge_length = 0.09;
+  bounded.min_edge_length = 0.1;
+  bounded.max_edge_length = 0.18;
   const auto range = [&](const Remeshing_options& options) {
     const std::vector<double> all =
         edge_lengths_of(remesh(soup, Resolution::size_factor(), field, {}, options).soup);
     return std::pair{all[all.size() / 100], all[all.size() * 99 / 100]};
   };
   const auto [low, high] = range(bounded);
-  CHECK(low > 0.8 * 0.05);
-  CHECK(high < 1.2 * 0.09);
+  CHECK(low > 0.8 * 0.1);
+  CHECK(high < 1.2 * 0.18);
   const auto [lowest, highest] = range({});
-  CHECK(lowest < 0.6 * 0.05);
-  CHECK(highest > 1.2 * 0.09);
+  CHECK(lowest < 0.6 * 0.1);
+  CHECK(highest > 1.2 * 0.18);
 }
 
 TEST_CASE("the same field in all threads")
