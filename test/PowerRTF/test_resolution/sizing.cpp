@@ -11,9 +11,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
@@ -149,6 +151,30 @@ TEST_CASE("regions are refined, also in the middle of a large facet")
       const Field grown = [&](const Vec3d& p) { return 0.015 + 0.3 * region.distance(p); };
       CHECK(std::abs(median_ratio(result.soup, grown, between) - 1) < 0.1);
     }
+}
+
+TEST_CASE("regions and bounds are in the input's unit")
+{
+  const auto scaled_result = [](double scale) {
+    Remeshing_options options;
+    options.gradation = 0.3;
+    options.min_edge_length = 0.02 * scale;
+    options.max_edge_length = 0.3 * scale;
+    const auto x = [scale](double x0, double x1, double x2) {
+      return std::array<double, 3>{scale * x0, scale * x1, scale * x2};
+    };
+    return remesh(shapes::scaled(shapes::box(2), scale), Resolution::relative_edge_length(0.15), {},
+                  {Refinement::sphere(x(1, 1, 1), 0.2 * scale, 0.03 * scale),
+                   Refinement::box(x(-1.1, -0.1, -0.1), x(-0.9, 0.2, 0.2), 0.01 * scale)},
+                  options)
+        .soup;
+  };
+  const shapes::Soup one = scaled_result(1);
+  for (const double scale : {std::ldexp(1., -30), std::ldexp(1., 30)}) {
+    const shapes::Soup other = scaled_result(scale);
+    CHECK(other.triangles == one.triangles);
+    CHECK(other.points == shapes::scaled(one, scale).points);
+  }
 }
 
 TEST_CASE("a number of samples is kept: the rest is coarser for regions that are finer")
