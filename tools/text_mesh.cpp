@@ -55,6 +55,7 @@ public:
     std::string name;
     while (tokens.next_in_line()) name += (name.empty() ? "" : " ") + std::string(tokens.token());
     m_now = name;
+    m_is_used = true;
   }
   void end_facet()
   {
@@ -62,15 +63,16 @@ public:
     if (is_new) m_names.push_back(m_now);
     m_values.push_back(found->second);
   }
-  /// The numbers of the names as a property of the faces, if there are several names.
+  /// The numbers of the names as a property of the faces, if there is a statement.
   void add_to(Polygon_mesh& mesh, const char* property)
   {
-    if (m_names.size() < 2) return;
+    if (!m_is_used) return;
     mesh.properties.faces.push_back(
         {property, Number_type::int32, std::move(m_values), std::move(m_names)});
   }
 
 private:
+  bool m_is_used = false;
   std::string m_now = "default";
   std::map<std::string, int> m_numbers;
   std::vector<std::string> m_names;

@@ -253,9 +253,9 @@ struct Run_types {
  *
  * \returns what was done and what the result is worth. `missed_guarantees()` is empty when the
  *          result has exactly the vertices asked for, is a 2-manifold with the components, borders
- *          and Euler characteristic of the input, keeps its creases and borders as edges and does
- *          not intersect itself. When the visitor
- *          stopped the run, `cancelled` is `true` and `output` is as it was.
+ *          and Euler characteristic of the input, keeps its creases and borders as edges, does
+ *          not intersect itself, and keeps the bounds of distance and angles that are asked for.
+ *          When the visitor stopped the run, `cancelled` is `true` and `output` is as it was.
  *
  * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not
  *         finite or is no 2-manifold; a density or a wanted edge length is not a

@@ -127,7 +127,10 @@ TEST_CASE("materials and groups go from OBJ to OBJ by their names, to PLY as num
   CHECK(material.names == std::vector<std::string>{"red wine", "steel"});
   CHECK(mesh.properties.faces[1].names == std::vector<std::string>{"default", "a b"});
   CHECK(mesh.lines == std::vector<CGAL::PowerRTF::Edge>{{0, 1}, {1, 3}});
-  CHECK(parse_mesh(Format::obj, vertices + "usemtl a\nf 1 2 3\n").properties.empty());
+  CHECK(parse_mesh(Format::obj, vertices + "f 1 2 3\n").properties.empty());
+  const Polygon_mesh one = parse_mesh(Format::obj, vertices + "usemtl a\nf 1 2 3\n");
+  CHECK(one.properties.faces.size() == 1);
+  CHECK(one.properties.faces[0].names == std::vector<std::string>{"a"});
 
   std::ostringstream out;
   const std::vector<Triangle> again = {{{0, 1, 2}}, {{1, 3, 2}}, {{0, 1, 3}}};
