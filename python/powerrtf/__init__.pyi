@@ -38,6 +38,7 @@ class Mesh:
     vertices: Any
     faces: Any
     labels: NDArray[np.int32] | None
+    patches: NDArray[np.int32] | None
     report: Report
     def __iter__(self) -> Iterator[Any]: ...
     @property
@@ -59,6 +60,7 @@ def remesh(
     refine: Iterable[str] = (),
     constrained_edges: Any = None,
     labels: Any = None,
+    patches: bool = False,
     traits: str = "auto",
     threads: int = 0,
     progress: Callable[[float, str], Any] | bool | None = None,

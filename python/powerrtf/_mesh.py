@@ -52,7 +52,8 @@ class Mesh:
     """The result of a run: triangles. Unpacks as ``vertices, faces = mesh``.
 
     Attributes: ``vertices`` (n, 3) and ``faces`` (m, 3), counter-clockwise seen from outside, arrays of
-    the input's kind; ``labels`` of the faces, where the input has some; and ``report``, the :class:`Report`. Can be
+    the input's kind; ``labels`` of the faces, where the input has some, and ``patches``, where they are wanted, or
+    None; and ``report``, the :class:`Report`. Can be
     pickled.
 
     >>> import powerrtf
@@ -65,10 +66,11 @@ class Mesh:
     (100, 166, 1)
     """
 
-    def __init__(self, vertices, faces, labels, report, sites, given):
+    def __init__(self, vertices, faces, labels, patches, report, sites, given):
         self.vertices = vertices
         self.faces = faces
         self.labels = labels
+        self.patches = patches
         self.report = report
         self._sites = sites
         self._given = given

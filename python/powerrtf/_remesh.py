@@ -46,8 +46,8 @@ def _labels(labels, count):
     return labels
 
 
-def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels, traits, threads,
-         progress, options):
+def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels, patches, traits,
+         threads, progress, options):
     if sizing is not None and n is None and not any(map(options.get, RESOLUTIONS)):
         options = {**options, "size_factor": 1.0}
     resolutions = [name for name in RESOLUTIONS if options.get(name)]
@@ -64,7 +64,7 @@ def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels,
     if n is not None:
         options["number_of_samples"] = n
     fields = {"density": None, "sizing": None, "constrained_edges": None, "labels": None,
-              "refine": list(refine)}
+              "refine": list(refine), "patches": bool(patches)}
     if isinstance(density, str):
         options["density"] = density
     else:
@@ -79,11 +79,11 @@ def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels,
     given = (vertices, corners, sizes, fields, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
-        points, triangles, report, sites, labels = _core.remesh(*given, traits, threads, show)
+        points, triangles, report, sites, *numbers = _core.remesh(*given, traits, threads, show)
     finally:
         close()
-    labels = None if fields["labels"] is None else labels
-    return Mesh(points, triangles, labels, Report(json.loads(report)), sites, given)
+    labels, patches = (n if asked else None for n, asked in zip(numbers, (labels is not None, patches)))
+    return Mesh(points, triangles, labels, patches, Report(json.loads(report)), sites, given)
 
 
 def _warn(mesh):
@@ -93,7 +93,7 @@ def _warn(mesh):
 
 
 def remesh(vertices, faces=None, n=None, *, density="curvature", sizing=None, refine=(),
-           constrained_edges=None, labels=None, traits="auto", threads=0, progress=None, **options):
+           constrained_edges=None, labels=None, patches=False, traits="auto", threads=0, progress=None, **options):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
@@ -101,7 +101,7 @@ def remesh(vertices, faces=None, n=None, *, density="curvature", sizing=None, re
     if points.dtype == np.float32:
         options["coordinates"] = "single"
     mesh = _run(points, (corners, sizes), n, density, sizing, refine, constrained_edges, labels,
-                traits, threads, progress, options)
+                patches, traits, threads, progress, options)
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
     return _warn(mesh)
@@ -122,8 +122,8 @@ def remesh_file(input, output, n=None, *, ascii=False, density="curvature", refi
     points, corners, sizes = _core.read_mesh(input)
     if _core.holds_floats(output, ascii):
         options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, None, refine, None, None, traits, threads,
-                progress, options)
+    mesh = _run(points, (corners, sizes), n, density, None, refine, None, None, False, traits,
+                threads, progress, options)
     _core.write_mesh(output, mesh.vertices, mesh.faces, ascii)
     return _warn(mesh)
 
@@ -152,6 +152,8 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
 :param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
 :param labels: (m,) whole numbers, one for each face: creases are kept between different ones, and
     the result has them as ``labels``
+:param patches: whether the result has ``patches``: for each face the number of its patch between
+    creases and borders
 :param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm
 :param threads: 0: all. The result is the same for any number
 :param progress: is called with the share of the stage that is done and the stage's name, about

@@ -43,6 +43,7 @@ using nb::literals::operator""_a;
 struct Input {
   Polygon_soup soup;
   Surface_fields fields;
+  bool wants_patches = false;
 };
 
 /// What a dictionary of fields has: arrays or None, and regions as the program has them.
@@ -50,13 +51,15 @@ struct Given_fields {
   std::optional<Real_array> density, sizing;
   std::optional<Index_array> constrained_edges, labels;
   std::vector<std::string> refine;
+  bool patches; ///< whether the result's are wanted
 
   explicit Given_fields(const nb::dict& fields)
       : density(nb::cast<std::optional<Real_array>>(fields["density"])),
         sizing(nb::cast<std::optional<Real_array>>(fields["sizing"])),
         constrained_edges(nb::cast<std::optional<Index_array>>(fields["constrained_edges"])),
         labels(nb::cast<std::optional<Index_array>>(fields["labels"])),
-        refine(nb::cast<std::vector<std::string>>(fields["refine"]))
+        refine(nb::cast<std::vector<std::string>>(fields["refine"])),
+        patches(nb::cast<bool>(fields["patches"]))
   {}
 };
 
@@ -65,6 +68,7 @@ Input input_of(const Real_array& points, const Index_array& faces,
 {
   Input input;
   input.soup = soup_of_arrays(points, faces, sizes);
+  input.wants_patches = given.patches;
   Surface_fields& fields = input.fields;
   if (given.constrained_edges)
     fields.creases = edges_of_array(*given.constrained_edges, input.soup);
@@ -87,7 +91,8 @@ std::vector<Triangle> triangles_of(const Polygon_soup& soup)
 
 struct Result {
   Extracted_mesh mesh;
-  std::vector<int> labels; ///< of its triangles, where the input has some
+  std::vector<int> labels;  ///< of its triangles, where the input has some
+  std::vector<int> patches; ///< of its triangles, where they are wanted
   Placed_sites sites;
 };
 
@@ -110,6 +115,7 @@ Result remesh_with(tools::Run& run, const Input& input, Surface surface, Python_
         result.mesh.points, result.mesh.triangles, tools::Concurrency());
     for (const Source& s : sources.faces) result.labels.push_back(input.fields.labels[s.face]);
   }
+  if (input.wants_patches) result.patches = remesher.patches(result.mesh);
   for (Vec3d& p : result.mesh.points) p = remesher.surface().normalization.to_outside(p);
   return result;
 }
@@ -185,8 +191,8 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   nb::object vertices = is_single ? to_array<float>(std::move(result.mesh.points))
                                   : to_array<double>(std::move(result.mesh.points));
   return nb::make_tuple(vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
-                        to_python(std::move(result.sites)),
-                        to_array<int>(std::move(result.labels)));
+                        to_python(std::move(result.sites)), to_array<int>(std::move(result.labels)),
+                        to_array<int>(std::move(result.patches)));
 }
 
 /// The page of a run, of what went in and what came out.

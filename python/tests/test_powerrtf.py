@@ -86,6 +86,17 @@ def test_labels_come_out_with_their_areas():
         powerrtf.remesh(points, faces, 100, labels=[1, 2])
 
 
+def test_patches_lie_between_creases():
+    cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    mesh = powerrtf.remesh(cube, quads, 400, patches=True)
+    centers = np.asarray(mesh.vertices)[mesh.faces].mean(axis=1)
+    for patch in range(6):
+        side = centers[mesh.patches == patch]
+        assert len(side) > 50 and np.ptp(side, axis=0).min() < 1e-12
+    assert powerrtf.remesh(cube, quads, 400).patches is None
+
+
 def test_polygons_may_have_different_sizes():
     cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
