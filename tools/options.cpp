@@ -97,21 +97,7 @@ public:
       add(group(option.group), name == "samples" ? "samples,n" : name, argument, help);
       if (other_name != name) add(m_hidden, other_name, argument, "");
     });
-    group("Fields and regions of the input")
-        .add_options()("size-field", text("NAME"),
-                       "the edge lengths that are wanted: a property of the input's vertices, or a "
-                       "file with a number a line; without a number of samples it gives that, too")(
-            "density-field", text("NAME"),
-            "the same for the density, instead of --density; only its ratios matter")(
-            "refine", po::value<std::vector<std::string>>()->composing()->value_name("REGION"),
-            "sphere:x,y,z,r,h or box:x0,y0,z0,x1,y1,z1,h: edges are no longer than about h inside; "
-            "may be given several times")(
-            "labels", text("NAME"),
-            "a property of the input's faces, of whole numbers (PLY), or material or group (OBJ): "
-            "creases are kept between different ones, and the output's faces have them (PLY, VTP; "
-            "names: OBJ)")("lines", "the lines of an OBJ input are creases, too")(
-            "patches", "number the output's faces by the patches between creases: their property "
-                       "\"patch\" (PLY, VTP)");
+    add_fields();
     group("Files").add_options()("report", text("FILE.json"),
                                  "write what was done and what the result is worth")(
         "html", text("FILE.html"),
@@ -189,6 +175,26 @@ private:
   static std::string of_preset(const std::string& preset, const T& value, const T& usual)
   {
     return value == usual ? "" : "; " + preset + ": " + to_text(value);
+  }
+
+  /// What is said about places of the input.
+  void add_fields()
+  {
+    group("Fields and regions of the input")
+        .add_options()("size-field", text("NAME"),
+                       "the edge lengths that are wanted: a property of the input's vertices, or a "
+                       "file with a number a line; without a number of samples it gives that, too")(
+            "density-field", text("NAME"),
+            "the same for the density, instead of --density; only its ratios matter")(
+            "refine", po::value<std::vector<std::string>>()->composing()->value_name("REGION"),
+            "sphere:x,y,z,r,h or box:x0,y0,z0,x1,y1,z1,h: edges are no longer than about h inside; "
+            "may be given several times")(
+            "labels", text("NAME"),
+            "a property of the input's faces, of whole numbers (PLY), or material or group (OBJ): "
+            "creases are kept between different ones, and the output's faces have them (PLY, VTP; "
+            "names: OBJ)")("lines", "the lines of an OBJ input are creases, too")(
+            "patches", "number the output's faces by the patches between creases: their property "
+                       "\"patch\" (PLY, VTP)");
   }
 
   /// Adds an option; without an `argument` it is a switch.
