@@ -20,14 +20,29 @@
 
 namespace CGAL::PowerRTF::internal {
 
+/// The vertices and the faces of a mesh, in its order.
+template <class FaceGraph>
+auto vertices_of(const FaceGraph& mesh)
+{
+  const auto range = vertices(mesh);
+  return std::vector<typename boost::graph_traits<FaceGraph>::vertex_descriptor>(range.begin(),
+                                                                                 range.end());
+}
+template <class FaceGraph>
+auto faces_of(const FaceGraph& mesh)
+{
+  const auto range = faces(mesh);
+  return std::vector<typename boost::graph_traits<FaceGraph>::face_descriptor>(range.begin(),
+                                                                               range.end());
+}
+
 /// The elements of a mesh, as the sources number them.
 template <class FaceGraph>
 struct Source_elements {
   using Graph_traits = boost::graph_traits<FaceGraph>;
 
   explicit Source_elements(const FaceGraph& mesh)
-      : vertices(CGAL::vertices(mesh).begin(), CGAL::vertices(mesh).end()),
-        faces(CGAL::faces(mesh).begin(), CGAL::faces(mesh).end())
+      : vertices(vertices_of(mesh)), faces(faces_of(mesh))
   {}
 
   Mesh_source<FaceGraph> operator()(const Source& s) const
