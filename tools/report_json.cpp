@@ -47,6 +47,13 @@ Json to_json(const Repair_counts& r)
           {"non_manifold_vertices", r.non_manifold_vertices}};
 }
 
+Json to_json(const Intersection_cure& c)
+{
+  return {{"resolved_pairs", c.resolved_pairs},
+          {"wrap_radius", c.wrap_radius},
+          {"wrap_offset", c.wrap_offset}};
+}
+
 Json parameters(const Remeshing_options& o)
 {
   Json json;
@@ -113,6 +120,13 @@ void add_mesh(Json& json, const Run& run)
   json["non_manifold_edges"] = r.topology.non_manifold_edges;
   json["non_manifold_vertices"] = r.topology.non_manifold_vertices;
   json["oriented"] = r.topology.oriented;
+  if (r.input_topology.non_manifold_edges > 0) {
+    json["sheets"] = r.topology.sheets;
+    json["junctions"] = r.topology.junctions;
+    json["input_non_manifold_edges"] = r.input_topology.non_manifold_edges;
+    json["input_sheets"] = r.input_topology.sheets;
+    json["input_junctions"] = r.input_topology.junctions;
+  }
   json["self_intersections"] = r.self_intersections;
   json["feature_samples"] = r.feature_samples;
   json["off_lattice_samples"] = r.off_lattice_samples;
@@ -190,6 +204,7 @@ Json to_json(const Run& run)
   json["outer_iterations"] = r.outer_iterations;
   json["cells"] = to_json(r.cells);
   json["repairs"] = to_json(r.repairs);
+  json["cure"] = to_json(r.cure);
   json["seconds"] = to_json(r.seconds);
   if (!r.device.name.empty())
     json["device"] = {

@@ -53,6 +53,10 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
   counts(out, "Euler characteristic", a.euler_characteristic, b.euler_characteristic);
   counts(out, "components", a.components, b.components);
   counts(out, "borders", a.border_loops, b.border_loops);
+  if (b.non_manifold_edges > 0) {
+    counts(out, "sheets of the network", a.sheets, b.sheets);
+    counts(out, "curves where they meet", a.junctions, b.junctions);
+  }
   row(out, "self-intersections", std::to_string(r.self_intersections));
   if (r.feature_edges > 0)
     row(out, "creases and borders",
@@ -93,6 +97,16 @@ void print_repairs(std::ostream& out, const Repair_counts& r)
   repair(r.reoriented_facets, "facets turned");
   repair(r.non_manifold_edges, "edges of touching sheets parted");
   repair(r.non_manifold_vertices, "vertices of touching sheets parted");
+}
+
+void print_cure(std::ostream& out, const Intersection_cure& c)
+{
+  if (c.resolved_pairs > 0)
+    row(out, "intersecting pairs of facets cut", std::to_string(c.resolved_pairs));
+  if (c.wrap_radius > 0) {
+    row(out, "wrapped by a ball of radius", figure(c.wrap_radius));
+    row(out, "at this distance from the input", figure(c.wrap_offset));
+  }
 }
 
 std::string error(double x)
@@ -137,6 +151,7 @@ void print_table(std::ostream& out, const Run& run)
   if (r.cells.empty > 0) row(out, "empty cells", std::to_string(r.cells.empty));
   if (r.cells.incomplete > 0) row(out, "incomplete cells", std::to_string(r.cells.incomplete));
   print_repairs(out, r.repairs);
+  print_cure(out, r.cure);
   for (const Check& check : run.checks) print_check(out, check);
   row(out, "constructions of all cells", std::to_string(r.constructions));
   row(out, "seconds", number(r.seconds.total, 2));

@@ -14,6 +14,7 @@ set(public_headers
     PowerRTF/Surface_fields.h
     PowerRTF/named_parameters.h
     PowerRTF/option_table.h
+    PowerRTF/intersections.h
     PowerRTF/cells/construct_cell.h
     PowerRTF/cells/Cell_polygon.h
     PowerRTF/engines/Cuda_engine.h

@@ -38,6 +38,13 @@ enum class Dislocations { keep, annihilate };
 /// Of an input that is no oriented 2-manifold and can be made one without a change of its shape;
 /// `no`: it is refused.
 enum class Repair { no, yes };
+/// Edges of more than two facets. `keep`: the result has them, too, as curves where its sheets
+/// meet; `split`: the sheets are parted, if the facets pair up; `refuse`: the input is refused.
+enum class Non_manifold { keep, split, refuse };
+/// Of the input with itself. `keep`: they stay, and then the result may have some, too. `resolve`:
+/// facets are cut where they meet, and all sheets stay. `wrap`: the input is replaced by a closed
+/// surface around it.
+enum class Intersections { keep, resolve, wrap };
 /// Of the result's points.
 enum class Coordinates { double_precision, single_precision };
 
@@ -59,8 +66,14 @@ struct Remeshing_options {
   // Guarantees that are asked for, about the angles of the triangles, in degrees:
   double min_angle = 0;        ///< none is smaller; 0: not asked for
   double max_angle = 180;      ///< none is larger; 180: not asked for
-  unsigned random_seed = 0;    ///< of all random choices
-  Repair repair = Repair::yes; ///< of the input
+  unsigned random_seed = 0;         ///< of all random choices
+  Repair repair = Repair::yes;      ///< of the input
+  Non_manifold non_manifold = Non_manifold::keep; ///< edges of the input with more than two facets
+  Intersections intersections = Intersections::keep; ///< of the input with itself
+  /// `Intersections::wrap`: holes and gaps that are narrower than twice this are closed; in the
+  /// input's unit. 0: as the spacing, from a hundredth to a twentieth of the diagonal of the
+  /// bounding box.
+  double wrap_radius = 0;
 
   /// Degrees: edges whose facets' normals differ by at least this are kept as creases where such
   /// edges make clean curves; 180: none. Creases named by the user go first.

@@ -43,6 +43,8 @@ inline Value_names value_names(Extraction_method)
 inline Value_names value_names(Improvement) { return {"no", "yes"}; }
 inline Value_names value_names(Dislocations) { return {"keep", "annihilate"}; }
 inline Value_names value_names(Repair) { return {"no", "yes"}; }
+inline Value_names value_names(Non_manifold) { return {"keep", "split", "refuse"}; }
+inline Value_names value_names(Intersections) { return {"keep", "resolve", "wrap"}; }
 inline Value_names value_names(Coordinates) { return {"double", "single"}; }
 
 /// \endcond
@@ -123,6 +125,19 @@ void for_each_option(Visitor&& visit)
       "degrees: sharper edges are kept as creases where they make clean curves; 180: none", angle);
   add("repair", &O::repair, "",
       "input that is no 2-manifold is made one, its shape kept; no: it is refused", no_number);
+  add("non_manifold", &O::non_manifold, "",
+      "edges of more than two facets: sheets meet there in the result, too, or are parted, or the "
+      "input is refused",
+      no_number);
+  add("intersections", &O::intersections, "",
+      "of the input with itself: they stay, facets are cut where they meet, or the input is "
+      "replaced "
+      "by a closed surface around it",
+      no_number);
+  add("wrap_radius", &O::wrap_radius, "",
+      "wrap: closes holes and gaps narrower than twice this, in the input's unit; 0: as the "
+      "spacing",
+      {0, 1e300});
 
   group = "Density (Section 4.3)";
   add("density_power", &O::density_power, "p", "rho = kappa^p: 1, 2, 3 are the paper's f, f^2, f^3",
@@ -265,7 +280,8 @@ bool is_allowed(const T& value, const Option_range& range)
 /// Checks all options.
 /// \returns `options`
 /// \throws Invalid_input_error an option has a value that is not allowed; more than one resolution
-///   is asked for instead of `number_of_samples`; or the samplings with candidates would have more
+///   is asked for instead of `number_of_samples`; a largest distance is asked for from a wrap; or
+///   the samplings with candidates would have more
 ///   than 1e9, `number_of_samples` times `oversampling`; the message names the option, its value
 ///   and what is allowed
 inline const Remeshing_options& validate(const Remeshing_options& options)
@@ -288,6 +304,10 @@ inline const Remeshing_options& validate(const Remeshing_options& options)
     throw Invalid_input_error("min_edge_length is " + to_text(options.min_edge_length) +
                               ", but must be at most max_edge_length, " +
                               to_text(options.max_edge_length));
+  if (options.intersections == Intersections::wrap &&
+      (options.max_distance > 0 || options.relative_max_distance > 0))
+    throw Invalid_input_error("max_distance cannot be kept where intersections is wrap: the wrap, "
+                              "not the input, is remeshed");
   const bool has_candidates =
       options.sampling == Sampling::elimination || options.sampling == Sampling::random;
   constexpr double max_candidates = 1e9; // they are numbered by int

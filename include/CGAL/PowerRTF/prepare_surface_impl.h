@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/fields/resolution.h>
 #include <CGAL/PowerRTF/fields/sizing.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
+#include <CGAL/PowerRTF/input/cured_soup.h>
 #include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
@@ -33,6 +34,16 @@ inline void check_fields(const Remeshing_options& options, const Surface_fields&
     throw Invalid_input_error("size_factor needs a sizing field, but there is none");
   if (is_distance_asked_for(options) && has_wanted_lengths(options, fields))
     throw Invalid_input_error("a largest distance and wanted edge lengths exclude each other");
+}
+
+/// \throws Invalid_input_error `fields` are those of vertices and facets that a cure makes anew
+inline void check_cure(const Remeshing_options& options, const Surface_fields& fields)
+{
+  if (fields.creases || fields.densities || fields.sizes || !fields.lines.empty() ||
+      !fields.labels.empty())
+    throw Invalid_input_error("what is given for vertices and facets is for those of the input; "
+                              "intersections = " +
+                              to_text(options.intersections) + " makes others");
 }
 
 /// The creases beside those that are found or given: lines, and the boundaries of labels.
@@ -73,7 +84,12 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   const internal::Stopwatch watch(report.seconds.surface);
   internal::check_fields(options, fields);
   internal::Progress_part part(0.1);
-  Surface surface = internal::clean_surface(soup, options.repair, report.repairs, concurrency);
+  if (options.intersections != Intersections::keep) {
+    internal::check_cure(options, fields);
+    soup = internal::cured_soup(soup, options, report.cure, concurrency);
+  }
+  Surface surface = internal::clean_surface(soup, options.repair, options.non_manifold,
+                                            report.repairs, concurrency);
   const std::vector<Edge> more_creases = internal::more_creases(
       surface, soup, fields, report.repairs.reoriented_facets == 0, concurrency);
   soup = {}; // its memory

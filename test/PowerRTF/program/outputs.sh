@@ -316,6 +316,16 @@ run 0 -- quads.off out.off "${fast[@]}" --report r.json
 has triangulated_polygons 800
 has input_euler_characteristic 0
 
+# --- input that intersects itself
+run 0 -- crossing.off out.off -n 200 --intersections resolve --report r.json
+has self_intersections 0
+expect 'the report counts what was resolved' [ "$(field resolved_pairs)" -gt 0 ]
+run 0 -- crossing.off out.off -n 500 --density uniform --intersections wrap --wrap-radius 0.3 --report r.json
+has self_intersections 0
+has border_edges 0
+has wrap_radius 0.3
+has wrap_offset 0.01
+
 # --- what the output has not
 off_to_obj <torus.off | sed '1i mtllib a.mtl' | sed '$ a vt 0 0\nusemtl m' >textured.obj
 run 0 'textured.obj: not carried over to the output: materials, texture coordinates' -- \

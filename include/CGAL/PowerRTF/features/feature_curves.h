@@ -47,6 +47,7 @@ public:
   {
     for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
       m_is_corner[v] = m_graph.degree(v) != 0 && m_graph.degree(v) != 2;
+    if (!surface.seams.empty()) mark_ends_of_sheets();
     if (scale > 0) mark_turns();
   }
 
@@ -80,6 +81,33 @@ public:
   }
 
 private:
+  /// Vertices of two feature edges where a sheet of a network has only one of them, or other edges
+  /// on both its sides: sheets meet there that do not go on along the curve.
+  void mark_ends_of_sheets()
+  {
+    const auto& triangles = m_surface.triangles;
+    const auto edge = [&](int h) {
+      return sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h));
+    };
+    const auto is_cut = [&](int h) {
+      return m_surface.adjacency.opposite[h] == Facet_adjacency::none ||
+             std::binary_search(m_surface.creases.begin(), m_surface.creases.end(), edge(h));
+    };
+    const auto opposite = [&](int h) {
+      return is_cut(h) ? Facet_adjacency::none : m_surface.adjacency.opposite[h];
+    };
+    for_each_fan(3 * triangles.size(), opposite, [&](const std::vector<int>& fan) {
+      const int v = halfedge_source(triangles, fan[0]);
+      if (m_graph.degree(v) != 2) return;
+      std::vector<Edge> ends;
+      for (const int h : fan)
+        for (const int side : {h, previous_halfedge(h)})
+          if (is_cut(side)) ends.push_back(edge(side));
+      sort_uniquely(ends);
+      if (ends.size() == 1) m_is_corner[v] = 1;
+    });
+  }
+
   /// The point at arc distance `m_scale` from `v` along edge `e`, or the first corner before it.
   Vec3d ahead(int v, int e) const
   {

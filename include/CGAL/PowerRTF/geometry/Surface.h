@@ -81,7 +81,8 @@ struct Normalization {
 /// \ingroup PkgPowerRTFSurface
 /// A triangulated, oriented 2-manifold surface (possibly with borders and several components) in
 /// the coordinates of the unit box, with the fields that steer the sampling. One with one side only
-/// (a Moebius strip) is oriented but for its seams.
+/// (a Moebius strip) is oriented but for its seams. A network of such surfaces, which meet in edges
+/// of more than two facets, is one once it is cut along its seams.
 struct Surface {
   std::vector<Vec3d> points;          ///< #V positions
   std::vector<Triangle> triangles;    ///< #F vertex indices, counter-clockwise seen from outside
@@ -92,7 +93,8 @@ struct Surface {
   std::vector<double> vertex_density; ///< #V densities \f$\rho > 0\f$; 1 everywhere: uniform
   std::vector<int> input_vertices;    ///< #V place of each vertex among those of the input
   std::vector<Edge> creases;          ///< edges, smaller vertex first, that the result must keep
-  std::vector<Edge> seams;            ///< the creases at which the orientations do not agree
+  std::vector<Edge> seams;            ///< the creases at which the orientations do not
+                                      ///< agree or more than two facets meet
   /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
   std::vector<int> facet_patches;
   double area = 0; ///< sum of the facets' areas

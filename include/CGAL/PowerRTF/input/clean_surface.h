@@ -17,8 +17,8 @@ namespace CGAL::PowerRTF::internal {
 /// What `import_surface()` and `import_soup()` share: the surface of the first attempt to repair
 /// the soup that succeeds.
 /// \throws Invalid_input_error there is none
-Surface clean_surface(const Polygon_soup& soup, Repair repair, Repair_counts& repairs,
-                      Concurrency concurrency = Sequential_tag());
+Surface clean_surface(const Polygon_soup& soup, Repair repair, Non_manifold non_manifold,
+                      Repair_counts& repairs, Concurrency concurrency = Sequential_tag());
 
 } // namespace CGAL::PowerRTF::internal
 

@@ -16,7 +16,7 @@
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
 #include <CGAL/PowerRTF/input/near_borders.h>
-#include <CGAL/PowerRTF/input/polygon_triangulation.h>
+#include <CGAL/PowerRTF/input/soup_triangles.h>
 #include <CGAL/PowerRTF/input/split_sheets.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -33,89 +33,6 @@
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
-
-/// The mapping of the points marked in `used` to the unit box.
-inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vector<int>& used,
-                              Concurrency concurrency)
-{
-  const int vertices = static_cast<int>(points.size());
-  const std::vector<int> not_finite = select(concurrency, vertices, [&](int v) {
-    const Vec3d& p = points[v];
-    return used[v] && !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-  });
-  if (!not_finite.empty())
-    throw Invalid_input_error("vertex " + std::to_string(not_finite[0]) +
-                              " has a coordinate that is not a finite number");
-  const auto first = std::find(used.begin(), used.end(), 1);
-  const Vec3d any = first == used.end() ? Vec3d{0, 0, 0} : points[first - used.begin()];
-  const Box3<double> box = reduce(
-      concurrency, vertices, Box3<double>{any, any},
-      [&](Box3<double>& b, int v) {
-        if (used[v]) b.add(points[v]);
-      },
-      [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
-  const Vec3d low = box.lo, high = box.hi, size = high - low;
-  const double side = (std::max)({size.x, size.y, size.z});
-  if (!(side < 1e300)) throw Invalid_input_error("the coordinates are too large");
-  if (!(side > 1e-300)) throw Invalid_input_error("the surface has no area");
-  int exponent;
-  if (std::frexp(side, &exponent) == 0.5) --exponent;
-  Normalization result;
-  result.scale = std::ldexp(1., -exponent);
-  // A vertex of the result may leave the input's box a little.
-  for (const double x : {low.x, low.y, low.z, high.x, high.y, high.z})
-    result.reach = (std::max)(result.reach, std::abs(x) + side);
-  // Floats hold the center, too, where they hold anything like the surface.
-  const double coarse = result.spacing<float>(), fine = result.spacing<double>();
-  result.center = Normalization::snapped(low + 0.5 * size, 1024 * coarse < side ? coarse : fine);
-  result.grid = fine * result.scale;
-  return result;
-}
-
-/// Cuts the polygons into triangles of distinct vertices; `vertex[v]` stands for corner `v`.
-inline std::vector<Triangle> triangulated(const Polygon_soup& soup,
-                                          const std::vector<Vec3d>& points,
-                                          const std::vector<int>& vertex, Repair_counts& repairs,
-                                          Concurrency concurrency)
-{
-  std::vector<Triangle> triangles;
-  const int polygons = static_cast<int>(soup.first.size()) - 1;
-  const auto corner = [&](int k, int i) { return vertex[soup.corners[soup.first[k] + i]]; };
-  const auto is_triangle = [&](int k) {
-    return soup.first[k + 1] - soup.first[k] == 3 && corner(k, 0) != corner(k, 1) &&
-           corner(k, 1) != corner(k, 2) && corner(k, 2) != corner(k, 0);
-  };
-  if (select(concurrency, polygons, [&](int k) { return !is_triangle(k); }).empty()) {
-    triangles.resize(polygons);
-    for_each_index(concurrency, polygons, [&](int k) {
-      triangles[k] = {corner(k, 0), corner(k, 1), corner(k, 2)};
-    });
-    return triangles;
-  }
-  triangles.reserve(soup.first.size() - 1);
-  std::vector<int> polygon;
-  for (std::size_t k = 0; k + 1 < soup.first.size(); ++k) {
-    Cancellation::poll_now_and_then();
-    polygon.clear();
-    for (int i = soup.first[k]; i < soup.first[k + 1]; ++i) {
-      const int v = vertex[soup.corners[i]];
-      if (polygon.empty() || polygon.back() != v) polygon.push_back(v);
-    }
-    while (polygon.size() > 1 && polygon.back() == polygon.front()) polygon.pop_back();
-    if (polygon.size() < 3) {
-      ++repairs.degenerate_facets;
-      continue;
-    }
-    if (polygon.size() == 3)
-      triangles.push_back({polygon[0], polygon[1], polygon[2]});
-    else {
-      triangulate_polygon(points, polygon, triangles);
-      ++repairs.triangulated_polygons;
-    }
-  }
-  repairs.degenerate_facets += drop_collapsed(triangles);
-  return triangles;
-}
 
 /// A soup of more triangles than caches hold is put into an order in which what is near in space is
 /// near in memory: all that is done with it is several times as fast.
@@ -172,6 +89,7 @@ inline void drop_repeated(std::vector<Triangle>& triangles, bool keep_reversed,
 enum class Manifold_repair {
   none,         ///< nothing
   orient,       ///< drop repeated facets, turn facets
+  network,      ///< make seams of edges of more than two facets, part what touches in vertices
   split,        ///< part sheets that touch, too
   split_double, ///< facets on top of each other with opposite orientations are two sheets
 };
@@ -188,6 +106,7 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
                                    Repair_counts& repairs,
                                    Concurrency concurrency = Sequential_tag())
 {
+  soup.seams.clear();
   const std::string not_manifold = "the surface is not a 2-manifold: ";
   if (soup.adjacency.repeated_facets) {
     if (allowed == Manifold_repair::none)
@@ -198,23 +117,32 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
   if (soup.adjacency.non_manifold_edges > 0) {
     const std::string count = not_manifold + std::to_string(soup.adjacency.non_manifold_edges) +
                               " edge(s) with more than two facets";
-    if (allowed < Manifold_repair::split) return {count};
-    if (!split_sheets(soup, repairs))
-      return {count + " that do not pair up into sheets, so that the shape would have to change"};
+    if (allowed < Manifold_repair::network)
+      return {count + "; non_manifold = keep or split takes them"};
+    if (allowed != Manifold_repair::network && !split_sheets(soup, repairs))
+      return {count + " that do not pair up into sheets, so that the shape would have to change; "
+                      "non_manifold = keep keeps them"};
   }
   if (soup.adjacency.same_direction) {
     if (allowed == Manifold_repair::none) return {"the facets are not consistently oriented"};
     soup.seams = orient_facets(soup.triangles, soup.adjacency, repairs.reoriented_facets);
     soup.update_adjacency();
-    if (!soup.seams.empty()) {
-      if (has_single_fans(soup.triangles, soup.adjacency, soup.points.size())) return {};
-      return {not_manifold + "it has one side only, and parts of it touch in a point only"};
-    }
+  }
+  if (soup.adjacency.non_manifold_edges > 0) {
+    const std::vector<Edge> crowded = crowded_edges(soup);
+    soup.seams.insert(soup.seams.end(), crowded.begin(), crowded.end());
+    sort_uniquely(soup.seams);
+    repairs.non_manifold_vertices += split_fans_off_seams(soup); // the adjacency stays
+    return {};
+  }
+  if (!soup.seams.empty()) {
+    if (has_single_fans(soup.triangles, soup.adjacency, soup.points.size())) return {};
+    return {not_manifold + "it has one side only, and parts of it touch in a point only"};
   }
   const auto touching =
       count_non_manifold_vertices(soup.triangles, soup.adjacency, soup.points.size(), concurrency);
   if (touching == 0) return {};
-  if (allowed < Manifold_repair::split)
+  if (allowed < Manifold_repair::network)
     return {not_manifold + std::to_string(touching) +
             " vertex(es) where parts of the surface touch in a point only"};
   repairs.non_manifold_vertices += split_fans(soup, soup.adjacency); // the adjacency stays
@@ -255,7 +183,7 @@ inline Surface compacted(Triangle_soup&& soup, const Normalization& normalizatio
 }
 
 /// Closes the cracks of an oriented 2-manifold: as many as can be while it stays one.
-inline void close_cracks(Triangle_soup& soup, Repair_counts& repairs)
+inline void close_cracks(Triangle_soup& soup, Manifold_repair allowed, Repair_counts& repairs)
 {
   if (soup.adjacency.border_edges == 0) return;
   const std::vector<int> vertex = merged_near_borders(soup.points, soup.triangles, soup.adjacency);
@@ -268,7 +196,8 @@ inline void close_cracks(Triangle_soup& soup, Repair_counts& repairs)
     for (int& v : t) v = vertex[v];
   counts.degenerate_facets += drop_collapsed(closed.triangles);
   closed.update_adjacency();
-  if (!make_manifold(closed, Manifold_repair::split, counts).is_done()) return;
+  allowed = allowed == Manifold_repair::network ? allowed : Manifold_repair::split;
+  if (!make_manifold(closed, allowed, counts).is_done()) return;
   if (closed.adjacency.border_edges >= soup.adjacency.border_edges) return;
   soup = std::move(closed);
   repairs = counts;
@@ -289,7 +218,8 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
   soup.update_adjacency(concurrency);
   Repair_status status = make_manifold(soup, allowed, repairs, concurrency);
   if (!status.is_done()) return status;
-  if (polygons.merges_vertices && allowed != Manifold_repair::none) close_cracks(soup, repairs);
+  if (polygons.merges_vertices && allowed != Manifold_repair::none)
+    close_cracks(soup, allowed, repairs);
   if (degenerate > 0 && soup.seams.empty()) {
     const std::size_t before = degenerate_facets(soup.points, soup.triangles).size();
     repairs.duplicate_vertices += remove_degenerate_facets(soup.points, soup.triangles);
@@ -307,14 +237,17 @@ struct Repair_attempt {
   Manifold_repair allowed;
 };
 
-inline std::vector<Repair_attempt> repair_attempts(Repair repair, bool has_duplicates)
+inline std::vector<Repair_attempt> repair_attempts(Repair repair, Non_manifold non_manifold,
+                                                   bool has_duplicates)
 {
   using Allowed = Manifold_repair;
   std::vector<Repair_attempt> attempts{
       {true, repair == Repair::yes ? Allowed::orient : Allowed::none}};
+  if (repair == Repair::yes && non_manifold == Non_manifold::keep)
+    attempts.push_back({true, Allowed::network});
   // Sheets that touch are right as they were given if they are closed without merging.
   if (has_duplicates) attempts.push_back({false, attempts[0].allowed});
-  if (repair == Repair::yes) {
+  if (repair == Repair::yes && non_manifold == Non_manifold::split) {
     attempts.push_back({true, Allowed::split});
     attempts.push_back({true, Allowed::split_double});
   }
@@ -322,13 +255,10 @@ inline std::vector<Repair_attempt> repair_attempts(Repair repair, bool has_dupli
 }
 
 CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair repair,
-                                            Repair_counts& repairs, Concurrency concurrency)
+                                            Non_manifold non_manifold, Repair_counts& repairs,
+                                            Concurrency concurrency)
 {
-  if (soup.first.size() == 1) throw Invalid_input_error("the mesh has no facet");
-  std::vector<int> used(soup.points.size(), 0);
-  for_each_index(concurrency, static_cast<int>(soup.corners.size()),
-                 [&](int c) { atomic_store(&used[soup.corners[c]], 1); });
-  const Normalization normalization = unit_box(soup.points, used, concurrency);
+  const auto [normalization, used, points] = boxed_points(soup, concurrency);
 
   std::vector<int> own_vertex(soup.points.size());
   std::iota(own_vertex.begin(), own_vertex.end(), 0);
@@ -339,13 +269,9 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
     duplicates += used[v] && vertex[v] != own_vertex[v];
     unused += !used[v];
   }
-  std::vector<Vec3d> points(soup.points.size());
-  for_each_index(concurrency, static_cast<int>(points.size()), [&](int v) {
-    points[v] = used[v] ? normalization.to_inside(soup.points[v]) : Vec3d{0, 0, 0};
-  });
 
   std::string reason;
-  for (const auto& [merges, allowed] : repair_attempts(repair, duplicates > 0)) {
+  for (const auto& [merges, allowed] : repair_attempts(repair, non_manifold, duplicates > 0)) {
     Repair_counts counts = repairs;
     counts.unused_vertices += unused;
     if (merges) counts.duplicate_vertices += duplicates;

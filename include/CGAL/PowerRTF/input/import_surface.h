@@ -30,7 +30,8 @@ template <class FaceGraph, class NamedParameters = CGAL::parameters::Default_nam
 Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_counts& repairs,
                        Repair repair = Repair::yes)
 {
-  return internal::clean_surface(internal::soup_of_mesh(mesh, np), repair, repairs);
+  return internal::clean_surface(internal::soup_of_mesh(mesh, np), repair, Non_manifold::split,
+                                 repairs);
 }
 
 /// \ingroup PkgPowerRTFSurface
@@ -41,6 +42,7 @@ Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_
 /// \param polygons range of ranges of indices into `points`
 /// \param repairs counts what had to be mended
 /// \param repair no: all that is named below is refused
+/// \param non_manifold keep: edges of more than two facets are seams of the surface
 /// \returns the surface as `import_surface()` does; `input_vertices` are indices into `points`.
 ///   Repeated polygons are dropped; neighbors are turned to agree, as few as possible (a component
 ///   that is inside out stays so); sheets that meet in an edge are parted (`split_sheets()`),
@@ -49,9 +51,10 @@ Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_
 ///   that cannot be oriented and for facets at an edge that do not pair up into sheets
 template <class PointRange, class PolygonRange>
 Surface import_soup(const PointRange& points, const PolygonRange& polygons, Repair_counts& repairs,
-                    Repair repair = Repair::yes)
+                    Repair repair = Repair::yes, Non_manifold non_manifold = Non_manifold::split)
 {
-  return internal::clean_surface(internal::soup_of_ranges(points, polygons), repair, repairs);
+  return internal::clean_surface(internal::soup_of_ranges(points, polygons), repair, non_manifold,
+                                 repairs);
 }
 
 } // namespace CGAL::PowerRTF

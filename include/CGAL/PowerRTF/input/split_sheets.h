@@ -150,6 +150,14 @@ inline bool orient_crowds(std::vector<Triangle>& triangles, const Facet_adjacenc
       [](int, int) { return false; }, turned);
 }
 
+/// Gives the facets of the halfedges `fan`, which leave `v`, a copy of it.
+inline void copy_vertex(Triangle_soup& soup, int v, const std::vector<int>& fan)
+{
+  for (const int h : fan) soup.triangles[h / 3][h % 3] = static_cast<int>(soup.points.size());
+  soup.points.push_back(Vec3d(soup.points[v]));
+  soup.originals.push_back(int(soup.originals[v]));
+}
+
 /// Gives each fan of facets around a vertex a vertex of its own; the first keeps the vertex.
 /// `adjacency` says which facets go on in one another, with opposite directions.
 /// \returns the number of vertices that were copied
@@ -166,11 +174,55 @@ inline std::size_t split_fans(Triangle_soup& soup, const Facet_adjacency& adjace
     }
     copied += fans[v] == 1;
     fans[v] = 2;
-    for (const int h : fan) soup.triangles[h / 3][h % 3] = static_cast<int>(soup.points.size());
-    soup.points.push_back(Vec3d(soup.points[v]));
-    soup.originals.push_back(int(soup.originals[v]));
+    copy_vertex(soup, v, fan);
   });
   return copied;
+}
+
+/// The edges of more than two facets, smaller vertex first, sorted.
+inline std::vector<Edge> crowded_edges(const Triangle_soup& soup)
+{
+  std::vector<Edge> single; // once for each facet
+  for (int h = 0; h < static_cast<int>(soup.adjacency.opposite.size()); ++h)
+    if (soup.adjacency.opposite[h] == Facet_adjacency::none)
+      single.push_back(
+          sorted_edge(halfedge_source(soup.triangles, h), halfedge_target(soup.triangles, h)));
+  std::sort(single.begin(), single.end());
+  std::vector<Edge> crowded;
+  for (std::size_t k = 1; k < single.size(); ++k)
+    if (single[k] == single[k - 1]) crowded.push_back(single[k]);
+  crowded.erase(std::unique(crowded.begin(), crowded.end()), crowded.end());
+  return crowded;
+}
+
+/// Gives each fan of facets, between seams, that touches others in its vertex only a vertex of its
+/// own; the first keeps the vertex if no seam goes through it.
+/// \returns the number of copies
+inline std::size_t split_fans_off_seams(Triangle_soup& soup)
+{
+  const auto is_seam = [&](int h) {
+    return std::binary_search(
+        soup.seams.begin(), soup.seams.end(),
+        sorted_edge(halfedge_source(soup.triangles, h), halfedge_target(soup.triangles, h)));
+  };
+  std::vector<char> is_taken(soup.points.size(), 0);
+  for (const Edge& e : soup.seams)
+    for (const int v : e) is_taken[v] = 1;
+  std::vector<std::vector<int>> off; // fans
+  const auto opposite = [&](int h) {
+    return is_seam(h) ? Facet_adjacency::none : soup.adjacency.opposite[h];
+  };
+  for_each_fan(soup.adjacency.opposite.size(), opposite, [&](const std::vector<int>& fan) {
+    if (std::any_of(fan.begin(), fan.end(),
+                    [&](int h) { return is_seam(h) || is_seam(previous_halfedge(h)); }))
+      return;
+    char& taken = is_taken[halfedge_source(soup.triangles, fan[0])];
+    if (taken) off.push_back(fan);
+    taken = 1;
+  });
+  for (const std::vector<int>& fan : off)
+    copy_vertex(soup, halfedge_source(soup.triangles, fan[0]), fan);
+  return off.size();
 }
 
 /// Cuts the edges of the crowds into halves, and with them their facets.

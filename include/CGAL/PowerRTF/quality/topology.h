@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -61,6 +62,51 @@ private:
   const std::vector<Triangle>& m_triangles;
   std::vector<int> m_opposite;
 };
+
+/// Of a soup with non-manifold edges: its sheets and where they meet.
+inline void set_network_topology(const std::vector<Triangle>& triangles,
+                                 const Facet_adjacency& adjacency, Topology_statistics& result)
+{
+  // The sheets' vertices are fans of corners, joined across edges of two facets.
+  const int halfedges = static_cast<int>(3 * triangles.size());
+  std::vector<int> fan(halfedges);
+  std::iota(fan.begin(), fan.end(), 0);
+  std::vector<std::pair<Edge, int>> open; // edges of one facet, or of more than two
+  long edges = 0;
+  for (int h = 0; h < halfedges; ++h) {
+    const int o = adjacency.opposite[h];
+    edges += o < h; // once for each facet where there is no opposite
+    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
+    if (o == Facet_adjacency::none) open.emplace_back(sorted_edge(a, b), h);
+    if (o < h) continue;
+    const bool is_turned = halfedge_source(triangles, o) != a;
+    join_trees(fan.data(), h, is_turned ? next_halfedge(o) : o);
+    join_trees(fan.data(), next_halfedge(h), is_turned ? o : next_halfedge(o));
+  }
+  long fans = 0;
+  for (int c = 0; c < halfedges; ++c) fans += fan[c] == c;
+  result.sheets = facet_components(adjacency).second;
+  result.sheets_characteristic = fans - edges + static_cast<long>(triangles.size());
+
+  std::sort(open.begin(), open.end());
+  std::map<std::pair<int, std::size_t>, int> at; // vertex, number of facets -> an edge there
+  std::vector<int> part;                         // of non-manifold edges
+  for (auto first = open.begin(); first != open.end();) {
+    const auto last =
+        std::find_if(first, open.end(), [&](const auto& x) { return x.first != first->first; });
+    const std::size_t facets = last - first;
+    if (facets > 2) {
+      const int e = static_cast<int>(part.size());
+      part.push_back(e);
+      for (const int v : first->first) {
+        const auto [found, is_new] = at.insert({{v, facets}, e});
+        if (!is_new) join_trees(part.data(), found->second, e);
+      }
+    }
+    first = last;
+  }
+  for (std::size_t e = 0; e < part.size(); ++e) result.junctions += part[e] == static_cast<int>(e);
+}
 
 } // namespace internal
 
@@ -125,6 +171,7 @@ inline Topology_statistics topology(std::vector<Triangle> triangles,
   result.non_manifold_vertices = count(size, [&](int v) { return is_used(v) && is_bad(v); });
   result.euler_characteristic = static_cast<long>(result.vertices) -
                                 static_cast<long>(result.edges) + static_cast<long>(result.faces);
+  if (result.non_manifold_edges > 0) internal::set_network_topology(triangles, adjacency, result);
   return result;
 }
 

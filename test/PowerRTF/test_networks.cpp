@@ -1,0 +1,259 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sheets that meet in edges of more than two facets are remeshed as one network; inputs that
+// intersect themselves become such networks, or closed surfaces around them.
+#include "dirty_shapes.h"
+
+#include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/quality/topology.h>
+#include <CGAL/PowerRTF_remesher.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace CGAL::PowerRTF;
+using doctest::Approx;
+using shapes::Soup;
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// How many edges have so many facets, for each such number above 2.
+std::map<std::size_t, std::size_t> crowded_edges(const std::vector<Triangle>& triangles)
+{
+  std::map<Edge, std::size_t> facets;
+  for (const Triangle& t : triangles)
+    for (int i = 0; i < 3; ++i) ++facets[sorted_edge(t[i], t[(i + 1) % 3])];
+  std::map<std::size_t, std::size_t> result;
+  for (const auto& [edge, count] : facets)
+    if (count > 2) ++result[count];
+  return result;
+}
+
+struct Run {
+  Surface surface;
+  Extracted_mesh mesh;
+  Remeshing_report report;
+};
+
+Remeshing_options options_for(Intersections intersections, std::size_t n = 600)
+{
+  Remeshing_options options = Remeshing_options::fast_preset();
+  options.number_of_samples = n;
+  options.density = Density::uniform;
+  options.intersections = intersections;
+  return options;
+}
+
+Run remeshed(const Soup& soup, const Remeshing_options& options)
+{
+  Run run;
+  run.surface = prepare_surface(soup.points, soup.triangles, options, run.report);
+  CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<Kernel>> remesher(run.surface, options,
+                                                                    run.report);
+  Remeshing_default_visitor visitor;
+  REQUIRE(remesher.optimize(visitor));
+  run.mesh = remesher.extract(visitor);
+  run.report = remesher.report();
+  return run;
+}
+
+/// A square that stands on the middle of another one, upon vertices that both have.
+Soup fin()
+{
+  const Soup floor = shapes::plane_patch(4, 4);
+  Soup wall = shapes::plane_patch(4, 4);
+  for (Vec3d& p : wall.points) p = {0.5, p.y, p.x};
+  return shapes::joined(floor, wall);
+}
+
+/// Two squares through each other.
+Soup crossing_squares()
+{
+  Soup wall = shapes::plane_patch(5, 5);
+  for (Vec3d& p : wall.points) p = {0.43, 0.9 * p.y + 0.03, p.x - 0.51};
+  return shapes::joined(shapes::plane_patch(5, 5), wall);
+}
+
+Soup crossing_spheres()
+{
+  return shapes::joined(shapes::icosphere(2),
+                        shapes::translated(shapes::icosphere(2), {0.9, 0.3, 0.2}));
+}
+
+double area(const Soup& soup)
+{
+  double sum = 0;
+  for (const Triangle& t : soup.triangles)
+    sum += length(cross(soup.points[t[1]] - soup.points[t[0]],
+                        soup.points[t[2]] - soup.points[t[0]])) /
+           2;
+  return sum;
+}
+
+std::string refusal(const Soup& soup, const Remeshing_options& options)
+{
+  Remeshing_report report;
+  try {
+    prepare_surface(soup.points, soup.triangles, options, report);
+  } catch (const Invalid_input_error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+} // namespace
+
+TEST_CASE("sheets that meet in edges still meet there, and in nothing else")
+{
+  struct Case {
+    const char* name;
+    Soup soup;
+    std::size_t sheets, facets_at_edge;
+    long euler_characteristic;
+  };
+  const Soup cubes = shapes::touching_cubes(3, {1, 1, 0});
+  for (const auto& [title, soup, sheets, facets, characteristic] :
+       {Case{"a fin on a floor", fin(), 3, 3, 1},
+        Case{"cubes with a common edge", cubes, 2, 4, 3}}) {
+    CAPTURE(std::string(title));
+    const Run run = remeshed(soup, options_for(Intersections::keep));
+    for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
+    CHECK(run.report.self_intersections == 0);
+    CHECK(run.report.topology.sheets == sheets);
+    CHECK(run.report.topology.junctions == 1);
+    CHECK(run.report.topology.euler_characteristic == characteristic);
+    const auto crowded = crowded_edges(run.mesh.triangles);
+    REQUIRE(crowded.size() == 1);
+    CHECK(crowded.begin()->first == facets);
+    // Every sheet has a component of its own once the mesh is cut there.
+    CHECK(std::size_t(facet_components(facet_adjacency(run.mesh.triangles, 600)).second) == sheets);
+  }
+}
+
+TEST_CASE("a network that is none in the result misses a guarantee")
+{
+  Remeshing_report report;
+  report.topology = report.input_topology = topology(shapes::merged(fin()).triangles);
+  REQUIRE(report.input_topology.non_manifold_edges == 4);
+  CHECK(report.input_topology.sheets == 3);
+  CHECK(report.input_topology.junctions == 1);
+  CHECK(report.input_topology.sheets_characteristic == 3);
+  report.samples_asked = report.topology.vertices;
+  CHECK(report.missed_guarantees().empty());
+  report.topology.sheets = 2;
+  CHECK(report.missed_guarantees().size() == 1);
+}
+
+TEST_CASE("edges of more than two facets are parted or refused on request")
+{
+  Remeshing_options options = options_for(Intersections::keep);
+  options.non_manifold = Non_manifold::split;
+  CHECK(refusal(fin(), options).find("non_manifold = keep") != std::string::npos);
+  Remeshing_report report;
+  const Soup cubes = shapes::touching_cubes(3, {1, 1, 0});
+  CHECK(prepare_surface(cubes.points, cubes.triangles, options, report).seams.empty());
+  CHECK(report.repairs.non_manifold_edges == 3);
+  options.non_manifold = Non_manifold::refuse;
+  CHECK(refusal(cubes, options).find("more than two facets") != std::string::npos);
+}
+
+TEST_CASE("intersections that are resolved leave all sheets where they were, and none in the mesh")
+{
+  struct Case {
+    Soup soup;
+    std::size_t sheets;
+    long euler_characteristic;
+  };
+  for (const auto& [soup, sheets, characteristic] :
+       {Case{crossing_squares(), 3, 1}, Case{crossing_spheres(), 4, 4},
+        Case{shapes::rotated(crossing_spheres(), 0.7), 4, 4}}) {
+    REQUIRE(self_intersections(soup.points, soup.triangles) > 0);
+    const Run run = remeshed(soup, options_for(Intersections::resolve));
+    const Surface& s = run.surface;
+    CHECK(run.report.cure.resolved_pairs == self_intersections(soup.points, soup.triangles));
+    CHECK(self_intersections(s.points, s.triangles) == 0);
+    CHECK(s.area / (s.normalization.scale * s.normalization.scale) == Approx(area(soup)));
+    CHECK(run.report.topology.sheets == sheets);
+    CHECK(run.report.topology.euler_characteristic == characteristic);
+    for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
+    const auto crowded = crowded_edges(run.mesh.triangles);
+    REQUIRE(crowded.size() == 1);
+    CHECK(crowded.begin()->first == 4);
+  }
+}
+
+TEST_CASE("overlapping facets in one plane are resolved to one sheet")
+{
+  const Soup soup = shapes::joined(shapes::plane_patch(3, 3),
+                                   shapes::translated(shapes::plane_patch(3, 3), {0.5, 0.25, 0}));
+  Remeshing_report report;
+  const Surface s =
+      prepare_surface(soup.points, soup.triangles, options_for(Intersections::resolve), report);
+  CHECK(self_intersections(s.points, s.triangles) == 0);
+  CHECK(s.area / (s.normalization.scale * s.normalization.scale) == Approx(2 - 0.5 * 0.75));
+  CHECK(s.seams.empty() == (s.adjacency.non_manifold_edges == 0));
+}
+
+TEST_CASE("what is resolved is scaled with the input")
+{
+  const Soup soup = crossing_spheres();
+  const double factor = 0x1p40;
+  const Soup large = shapes::scaled(soup, factor);
+  const Remeshing_options options = options_for(Intersections::resolve);
+  Remeshing_report report;
+  const Surface a = prepare_surface(soup.points, soup.triangles, options, report);
+  const Surface b = prepare_surface(large.points, large.triangles, options, report);
+  CHECK(a.points == b.points);
+  CHECK(a.triangles == b.triangles);
+}
+
+TEST_CASE("a wrap is closed, near the input, and does not intersect itself")
+{
+  Soup soup = crossing_spheres(); // with holes of three facets, turned at random
+  for (const std::size_t f : {300, 100, 10}) soup.triangles.erase(soup.triangles.begin() + f);
+  soup = shapes::some_reversed(soup, 3);
+  Remeshing_options options = options_for(Intersections::wrap);
+  options.wrap_radius = 0.15;
+  const Run run = remeshed(soup, options);
+  for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
+  CHECK(run.report.topology.border_edges == 0);
+  CHECK(run.report.topology.euler_characteristic == 2);
+  CHECK(run.report.topology.components == 1);
+  const Intersection_cure& cure = run.report.cure;
+  CHECK(cure.wrap_radius == 0.15);
+  CHECK(cure.wrap_offset > 0);
+  const Surface& s = run.surface;
+  CHECK(self_intersections(s.points, s.triangles) == 0);
+  // Its vertices lie outside both spheres, at the offset.
+  for (const Vec3d& inside : s.points) {
+    const Vec3d p = s.normalization.to_outside(inside);
+    const double r = (std::min)(length(p), length(p - Vec3d{0.9, 0.3, 0.2}));
+    CHECK(r > 0.94);
+    CHECK(r < 1 + 2 * cure.wrap_offset + 0.01);
+  }
+}
+
+TEST_CASE("what cannot be had of a cured input is refused")
+{
+  Remeshing_options options = options_for(Intersections::wrap);
+  options.max_distance = 0.1;
+  CHECK_THROWS_AS(validate(options), Invalid_input_error);
+  const Soup soup = crossing_spheres();
+  Remeshing_report report;
+  const std::vector<double> densities(soup.points.size(), 1);
+  CHECK_THROWS_AS(prepare_surface(internal::soup_of_ranges(soup.points, soup.triangles), {},
+                                  densities, options_for(Intersections::resolve), report),
+                  Invalid_input_error);
+}
