@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_IMPL_H
 
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
+#include <CGAL/PowerRTF/extraction/part_chords.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
@@ -86,6 +87,7 @@ CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh) const
     name[v] = is_twin ? m_twin_of[v - m_first_twin] : static_cast<int>(points.size());
     if (!is_twin) points.push_back(mesh.points[v]);
   }
+  internal::part_chords(mesh, name);
   mesh.points.swap(points);
   for (Triangle& t : mesh.triangles)
     for (int& v : t) v = name[v];
