@@ -27,6 +27,7 @@ inline std::string option_name(const CGAL::PowerRTF::Option& option)
   static const std::map<std::string, std::string> shorter{{"number-of-samples", "samples"},
                                                           {"random-seed", "seed"},
                                                           {"feature-angle", "features"},
+                                                          {"merge-distance", "merge"},
                                                           {"max-iterations", "iterations"}};
   const std::string name = member_name(option);
   const auto found = shorter.find(name);

@@ -38,6 +38,7 @@ Json to_json(const Stage_seconds& s)
 Json to_json(const Repair_counts& r)
 {
   return {{"duplicate_vertices", r.duplicate_vertices},
+          {"inserted_vertices", r.inserted_vertices},
           {"unused_vertices", r.unused_vertices},
           {"degenerate_facets", r.degenerate_facets},
           {"triangulated_polygons", r.triangulated_polygons},

@@ -90,6 +90,7 @@ void print_repairs(std::ostream& out, const Repair_counts& r)
     if (count > 0) row(out, what, std::to_string(count));
   };
   repair(r.duplicate_vertices, "duplicate vertices merged");
+  repair(r.inserted_vertices, "vertices inserted into edges");
   repair(r.unused_vertices, "unused vertices dropped");
   repair(r.degenerate_facets, "degenerate facets removed");
   repair(r.triangulated_polygons, "polygons triangulated");

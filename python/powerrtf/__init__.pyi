@@ -76,6 +76,7 @@ def remesh(
     seed: int = 0,
     feature_angle: float = 40.0,
     repair: bool = True,
+    merge_distance: float = 0.0,
     non_manifold: str = "keep",
     intersections: str = "keep",
     wrap_radius: float = 0.0,

@@ -245,6 +245,56 @@ TEST_CASE("a wrap is closed, near the input, and does not intersect itself")
   }
 }
 
+TEST_CASE("vertices on edges are joined with them within the tolerance")
+{
+  // A square beside two halves: a T-junction, torn by a crack.
+  const double crack = 1e-3;
+  const Soup soup{{{0, 0, 0},
+                   {1, 0, 0},
+                   {1, 1, 0},
+                   {0, 1, 0},
+                   {1 + crack, 0, 0},
+                   {2, 0, 0},
+                   {2, 0.5, 0},
+                   {1 + crack, 0.5, 0},
+                   {1 + crack, 1, 0},
+                   {2, 1, 0}},
+                  {{{0, 1, 2}}, {{0, 2, 3}}, {{4, 5, 6}}, {{4, 6, 7}}, {{7, 6, 9}}, {{7, 9, 8}}}};
+  for (const double factor : {1., 1e200, 1e-200}) {
+    const Soup scaled = shapes::scaled(soup, factor);
+    Remeshing_options options = options_for(Intersections::keep, 200);
+    Remeshing_report apart, joined;
+    CHECK(prepare_surface(scaled.points, scaled.triangles, options, apart).adjacency.border_edges ==
+          4 + 6);
+    options.merge_distance = 2 * crack * factor;
+    const Surface s = prepare_surface(scaled.points, scaled.triangles, options, joined);
+    CHECK(joined.repairs.duplicate_vertices == 2);
+    CHECK(joined.repairs.inserted_vertices == 1);
+    CHECK(s.adjacency.border_edges == 3 + 4);
+    CHECK(s.points.size() == 8);
+    CHECK(self_intersections(s.points, s.triangles) == 0);
+    CHECK(s.area / (s.normalization.scale * factor) / (s.normalization.scale * factor) ==
+          Approx(2).epsilon(1e-3));
+    options.merge_distance = crack / 2 * factor;
+    prepare_surface(scaled.points, scaled.triangles, options, apart = {});
+    CHECK(apart.repairs.duplicate_vertices == 0);
+  }
+}
+
+TEST_CASE("a doubled layer is one within the tolerance")
+{
+  const Soup layer = shapes::plane_patch(4, 4);
+  const Soup soup =
+      shapes::joined(layer, shapes::shaken(shapes::translated(layer, {0, 0, 1e-3}), 1e-4, 1));
+  Remeshing_options options = options_for(Intersections::keep, 200);
+  options.merge_distance = 2e-3;
+  const Run run = remeshed(soup, options);
+  CHECK(run.report.repairs.duplicate_facets == layer.triangles.size());
+  CHECK(run.report.repairs.duplicate_vertices == layer.points.size());
+  CHECK(run.report.topology.components == 1);
+  for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
+}
+
 TEST_CASE("what cannot be had of a cured input is refused")
 {
   Remeshing_options options = options_for(Intersections::wrap);

@@ -68,6 +68,10 @@ struct Remeshing_options {
   double max_angle = 180;      ///< none is larger; 180: not asked for
   unsigned random_seed = 0;         ///< of all random choices
   Repair repair = Repair::yes;      ///< of the input
+  /// Vertices within this distance of each other are joined, vertices within it of edges inserted
+  /// into them, which closes cracks and T-junctions; in the input's unit. 0: vertices of a polygon
+  /// soup at exactly the same place are one.
+  double merge_distance = 0;
   Non_manifold non_manifold = Non_manifold::keep; ///< edges of the input with more than two facets
   Intersections intersections = Intersections::keep; ///< of the input with itself
   /// `Intersections::wrap`: holes and gaps that are narrower than twice this are closed; in the

@@ -76,6 +76,7 @@ struct Distance_statistics {
 /// What was mended in the input before it was used.
 struct Repair_counts {
   std::size_t duplicate_vertices = 0; ///< merged: at the same place, up to rounding at a border
+  std::size_t inserted_vertices = 0;  ///< into edges that they were on: once for each
   std::size_t unused_vertices = 0;    ///< dropped
   std::size_t degenerate_facets = 0;  ///< without area: removed
   std::size_t triangulated_polygons = 0;

@@ -125,6 +125,10 @@ void for_each_option(Visitor&& visit)
       "degrees: sharper edges are kept as creases where they make clean curves; 180: none", angle);
   add("repair", &O::repair, "",
       "input that is no 2-manifold is made one, its shape kept; no: it is refused", no_number);
+  add("merge_distance", &O::merge_distance, "",
+      "vertices this near to each other or to edges are joined with them, in the input's unit; 0: "
+      "vertices at the same place",
+      {0, 1e300});
   add("non_manifold", &O::non_manifold, "",
       "edges of more than two facets: sheets meet there in the result, too, or are parted, or the "
       "input is refused",

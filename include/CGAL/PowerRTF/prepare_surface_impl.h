@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/fields/sizing.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
 #include <CGAL/PowerRTF/input/cured_soup.h>
+#include <CGAL/PowerRTF/input/merge_near.h>
 #include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
@@ -84,6 +85,13 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   const internal::Stopwatch watch(report.seconds.surface);
   internal::check_fields(options, fields);
   internal::Progress_part part(0.1);
+  if (options.merge_distance > 0) {
+    if (fields.creases || !fields.lines.empty() || !fields.labels.empty())
+      throw Invalid_input_error(
+          "creases and labels of the user's own are those of edges and facets "
+          "of the input, which merge_distance may join or cut");
+    internal::merge_near(soup, options.merge_distance, report.repairs, concurrency);
+  }
   if (options.intersections != Intersections::keep) {
     internal::check_cure(options, fields);
     soup = internal::cured_soup(soup, options, report.cure, concurrency);
