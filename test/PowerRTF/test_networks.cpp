@@ -194,6 +194,16 @@ TEST_CASE("intersections that are resolved leave all sheets where they were, and
   }
 }
 
+TEST_CASE("cuts that would meet in one point, but for rounding, are resolved")
+{
+  const Soup spindle = shapes::rotated(shapes::torus(24, 12, 0.5, 1), 0.7);
+  REQUIRE(self_intersections(spindle.points, spindle.triangles) > 0);
+  Remeshing_report report;
+  const Surface s = prepare_surface(spindle.points, spindle.triangles,
+                                    options_for(Intersections::resolve), report);
+  CHECK(self_intersections(s.points, s.triangles) == 0);
+}
+
 TEST_CASE("overlapping facets in one plane are resolved to one sheet")
 {
   const Soup soup = shapes::joined(shapes::plane_patch(3, 3),

@@ -3,7 +3,7 @@
 //
 // Triangles cut where they meet others, so that they share edges and vertices there and meet in
 // nothing else. The cuts are exact; then their points are rounded, which may make triangles meet
-// anew: so they are cut again, and rounded to a coarser grid, until they do not (iterated snap
+// anew: so they are cut again, until they do not, or all is done on a coarser grid (iterated snap
 // rounding).
 #ifndef CGAL_POWER_RTF_INPUT_RESOLVE_INTERSECTIONS_H
 #define CGAL_POWER_RTF_INPUT_RESOLVE_INTERSECTIONS_H
@@ -15,6 +15,7 @@
 #include <CGAL/PowerRTF/internal/errors.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
@@ -70,7 +71,8 @@ public:
 
 private:
   using Flat_point = Exact::Point_2;
-  using Cdt = Constrained_Delaunay_triangulation_2<Exact, Default, Exact_intersections_tag>;
+  using Cdt = Constrained_triangulation_plus_2<
+      Constrained_Delaunay_triangulation_2<Exact, Default, Exact_intersections_tag>>;
 
   Flat_point flat(const Point& p) const { return {p[(m_axis + 1) % 3], p[(m_axis + 2) % 3]}; }
 
@@ -209,20 +211,32 @@ private:
 /// \throws Invalid_input_error it could not be done
 inline std::size_t resolve_intersections(Triangle_set& set, double grid, Concurrency concurrency)
 {
-  constexpr double finest_grid = 0x1p-50, coarsening = 16, coarsest_grid = 0x1p-30;
-  std::size_t found = 0, left = 0;
-  for (double rounding = (std::max)(grid, finest_grid); rounding < coarsest_grid;
+  // A finer grid keeps points apart that meant the same one; a coarser one than the last is visible
+  // in floats.
+  constexpr double finest_grid = 0x1p-32, coarsening = 0x1p4, coarsest_grid = 0x1p-24;
+  constexpr int max_passes = 4; // mostly 1 or 2 do
+  const auto pairs_of = [&](const Triangle_set& s) {
+    return Intersecting_pairs<Soup_triangles>({s.points, s.triangles}, concurrency)
+        .find(boost::irange(0, static_cast<int>(s.triangles.size())));
+  };
+  const auto found = pairs_of(set);
+  if (found.empty()) return 0;
+  for (double rounding = (std::max)(grid, finest_grid); rounding <= coarsest_grid;
        rounding *= coarsening) {
-    const auto pairs = Intersecting_pairs<Soup_triangles>({set.points, set.triangles}, concurrency)
-                           .find(boost::irange(0, static_cast<int>(set.triangles.size())));
-    left = pairs.size();
-    found = (std::max)(found, left);
-    if (left == 0) return found;
-    set = Triangle_cutter(set, rounding).run(pairs);
+    auto pairs = found;
+    Triangle_set cut = set;
+    for (int pass = 0; pass < max_passes && !pairs.empty(); ++pass) {
+      cut = Triangle_cutter(cut, rounding).run(pairs);
+      pairs = pairs_of(cut);
+    }
+    if (!pairs.empty()) continue;
+    set = std::move(cut);
+    return found.size();
   }
-  throw Invalid_input_error(std::to_string(left) +
-                            " pairs of facets still intersect after they have been cut where they "
-                            "meet; intersections = wrap makes a closed surface of any facets");
+  throw Invalid_input_error(std::to_string(found.size()) +
+                            " pairs of facets intersect, and still some after they have been cut "
+                            "where they meet; intersections = wrap makes a closed surface of any "
+                            "facets");
 }
 
 } // namespace CGAL::PowerRTF::internal
