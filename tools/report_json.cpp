@@ -121,10 +121,11 @@ void add_mesh(Json& json, const Run& run)
   json["non_manifold_edges"] = r.topology.non_manifold_edges;
   json["non_manifold_vertices"] = r.topology.non_manifold_vertices;
   json["oriented"] = r.topology.oriented;
+  json["input_non_manifold_edges"] = r.input_topology.non_manifold_edges;
+  json["input_non_manifold_vertices"] = r.input_topology.non_manifold_vertices;
   if (r.input_topology.non_manifold_edges > 0) {
     json["sheets"] = r.topology.sheets;
     json["junctions"] = r.topology.junctions;
-    json["input_non_manifold_edges"] = r.input_topology.non_manifold_edges;
     json["input_sheets"] = r.input_topology.sheets;
     json["input_junctions"] = r.input_topology.junctions;
   }

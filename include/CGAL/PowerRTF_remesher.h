@@ -182,7 +182,7 @@ private:
   {
     const PowerRTF::Feature_samples& features = m_patches.features();
     PowerRTF::Extracted_mesh mesh;
-    if (m_surface.seams.empty()) {
+    if (!m_surface.is_closed_up()) {
       mesh = triangulate(m_surface, samples(), features);
     } else {
       const PowerRTF::Opened_surface opened(m_surface, samples(), features);
@@ -256,6 +256,7 @@ private:
     {
       const Stage stage("extraction", m_report.seconds.extraction);
       mesh = triangles(surface, samples, features);
+      mesh.is_opened = m_surface.is_closed_up();
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
@@ -270,7 +271,7 @@ private:
                                      const PowerRTF::Feature_samples& features)
   {
     using Method = PowerRTF::Extraction_method;
-    const bool is_opened = !m_surface.seams.empty(); // its cells are those of the surface as it was
+    const bool is_opened = m_surface.is_closed_up(); // its cells are those of the surface as it was
     const bool by_cells = m_options.extraction == Method::cells && !is_opened && !all_fixed();
     Progress_part part(0.2);
     PowerRTF::Neighbor_cycles neighbors;

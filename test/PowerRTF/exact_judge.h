@@ -69,6 +69,7 @@ inline Mesh merged(const Mesh& mesh)
 struct Topology {
   std::size_t vertices = 0, unused_vertices = 0, facets = 0, components = 0, border_loops = 0;
   std::size_t non_manifold_edges = 0, non_manifold_vertices = 0;
+  std::size_t sheets = 0; ///< components once it is cut along the edges of more than two facets
   long euler_characteristic = 0;
   bool oriented = true;   ///< no edge is traversed twice in the same direction
   bool orientable = true; ///< across the edges of two facets
@@ -99,10 +100,16 @@ inline Topology topology(const Mesh& mesh)
       edges[std::minmax(mesh.facets[f][i], mesh.facets[f][(i + 1) % 3])].push_back({f, i});
 
   Topology t;
-  Classes facets(count), directed(2 * count), fans(3 * count), border(mesh.points.size());
-  std::set<std::size_t> border_vertices;
+  Classes directed(2 * count), fans(3 * count), sheets(count);
+  Classes border(mesh.points.size()), parts(mesh.points.size());
+  std::set<std::size_t> border_vertices, crowded_vertices;
   for (const auto& [ends, sides] : edges) {
-    if (sides.size() > 2) ++t.non_manifold_edges;
+    parts.unite(ends.first, ends.second);
+    if (sides.size() > 2) {
+      ++t.non_manifold_edges;
+      crowded_vertices.insert({ends.first, ends.second});
+    }
+    if (sides.size() == 2) sheets.unite(sides[0].facet, sides[1].facet);
     if (sides.size() == 1) {
       border.unite(ends.first, ends.second);
       border_vertices.insert(ends.first);
@@ -111,7 +118,6 @@ inline Topology topology(const Mesh& mesh)
       const Side a = sides[0], b = sides[k];
       const std::size_t a_next = (a.corner + 1) % 3, b_next = (b.corner + 1) % 3;
       const bool same = mesh.facets[a.facet][a.corner] == mesh.facets[b.facet][b.corner];
-      facets.unite(a.facet, b.facet);
       fans.unite(3 * a.facet + a.corner, 3 * b.facet + (same ? b.corner : b_next));
       fans.unite(3 * a.facet + a_next, 3 * b.facet + (same ? b_next : b.corner));
       if (same || sides.size() > 2) t.oriented = false;
@@ -121,20 +127,23 @@ inline Topology topology(const Mesh& mesh)
     }
   }
 
-  std::set<std::size_t> components, loops;
+  std::set<std::size_t> components, loops, sheet_names;
   std::map<std::size_t, std::set<std::size_t>> fans_of;
   for (std::size_t f = 0; f < count; ++f) {
-    components.insert(facets.find(f));
+    components.insert(parts.find(mesh.facets[f][0]));
+    sheet_names.insert(sheets.find(f));
     if (directed.find(2 * f) == directed.find(2 * f + 1)) t.orientable = false;
     for (int i = 0; i < 3; ++i) fans_of[mesh.facets[f][i]].insert(fans.find(3 * f + i));
   }
   for (const std::size_t v : border_vertices) loops.insert(border.find(v));
-  for (const auto& [v, classes] : fans_of) t.non_manifold_vertices += classes.size() > 1;
+  for (const auto& [v, classes] : fans_of)
+    t.non_manifold_vertices += classes.size() > 1 || crowded_vertices.count(v) > 0;
   t.vertices = fans_of.size();
   t.unused_vertices = mesh.points.size() - t.vertices;
   t.facets = count;
   t.components = components.size();
   t.border_loops = loops.size();
+  t.sheets = sheet_names.size();
   t.euler_characteristic = long(t.vertices) - long(edges.size()) + long(count);
   return t;
 }

@@ -142,6 +142,52 @@ TEST_CASE("sheets that meet in edges still meet there, and in nothing else")
   }
 }
 
+TEST_CASE("sheets that touch in a vertex still touch there, and in nothing else")
+{
+  Soup open = fin(); // whose wall's far corner another square touches
+  open = shapes::joined(open, shapes::translated(shapes::plane_patch(3, 3), {0.5, 1, 1}));
+  struct Case {
+    const char* name;
+    Soup soup;
+    std::size_t touching; // 0: it has seams, too
+    long euler_characteristic;
+  };
+  for (const auto& [title, soup, touching, characteristic] :
+       {Case{"cubes with a common vertex", shapes::touching_cubes(3, {1, 1, 1}), 1, 3},
+        Case{"a fin that a square touches", open, 0, 1}}) {
+    CAPTURE(std::string(title));
+    const Run run = remeshed(soup, options_for(Intersections::keep));
+    for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
+    CHECK(run.report.self_intersections == 0);
+    CHECK(run.report.topology.vertices == 600);
+    CHECK(run.report.topology.components == 1);
+    CHECK(run.report.topology.euler_characteristic == characteristic);
+    if (touching > 0) CHECK(run.report.topology.non_manifold_vertices == touching);
+    CHECK(run.report.quality.q_min > 0.3);
+  }
+}
+
+TEST_CASE("sheets nearer to each other than their triangles' edges do not intersect")
+{
+  Soup edge = shapes::rotated(shapes::box(3), 0.7); // one that a square cuts off a little below it
+  double top = 0;
+  for (const Vec3d& p : edge.points) top = (std::max)(top, p.y);
+  Soup floor = shapes::plane_patch(4, 4);
+  for (Vec3d& p : floor.points) p = {6 * p.x - 3, top - 0.02, 6 * p.y - 3};
+  const Run run = remeshed(shapes::joined(edge, floor), options_for(Intersections::resolve, 400));
+  REQUIRE(run.report.cure.resolved_pairs > 0);
+  for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
+  CHECK(run.report.self_intersections == 0);
+}
+
+TEST_CASE("triangles at a seam are as good as others")
+{
+  for (const Soup& soup : {fin(), crossing_squares(), shapes::touching_cubes(3, {1, 1, 0})}) {
+    const Run run = remeshed(soup, options_for(Intersections::resolve, 1000));
+    CHECK(run.report.quality.q_min > 0.5);
+  }
+}
+
 TEST_CASE("a network that is none in the result misses a guarantee")
 {
   Remeshing_report report;

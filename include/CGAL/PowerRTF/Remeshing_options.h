@@ -38,8 +38,9 @@ enum class Dislocations { keep, annihilate };
 /// Of an input that is no oriented 2-manifold and can be made one without a change of its shape;
 /// `no`: it is refused.
 enum class Repair { no, yes };
-/// Edges of more than two facets. `keep`: the result has them, too, as curves where its sheets
-/// meet; `split`: the sheets are parted, if the facets pair up; `refuse`: the input is refused.
+/// Edges of more than two facets, and vertices where sheets touch. `keep`: they are in the result,
+/// too, as curves and points where its sheets meet; `split`: the sheets are parted, if the facets
+/// pair up; `refuse`: the input is refused.
 enum class Non_manifold { keep, split, refuse };
 /// Of the input with itself. `keep`: they stay, and then the result may have some, too. `resolve`:
 /// facets are cut where they meet, and all sheets stay. `wrap`: the input is replaced by a closed
@@ -72,7 +73,7 @@ struct Remeshing_options {
   /// into them, which closes cracks and T-junctions; in the input's unit. 0: vertices of a polygon
   /// soup at exactly the same place are one.
   double merge_distance = 0;
-  Non_manifold non_manifold = Non_manifold::keep; ///< edges of the input with more than two facets
+  Non_manifold non_manifold = Non_manifold::keep;    ///< where sheets of the input meet
   Intersections intersections = Intersections::keep; ///< of the input with itself
   /// `Intersections::wrap`: holes and gaps that are narrower than twice this are closed; in the
   /// input's unit. 0: as the spacing, from a hundredth to a twentieth of the diagonal of the

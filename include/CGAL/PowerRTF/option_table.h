@@ -130,13 +130,12 @@ void for_each_option(Visitor&& visit)
       "vertices at the same place",
       {0, 1e300});
   add("non_manifold", &O::non_manifold, "",
-      "edges of more than two facets: sheets meet there in the result, too, or are parted, or the "
-      "input is refused",
+      "edges of more than two facets, vertices where sheets touch: they are kept in the result, or "
+      "the sheets are parted, or the input is refused",
       no_number);
   add("intersections", &O::intersections, "",
       "of the input with itself: they stay, facets are cut where they meet, or the input is "
-      "replaced "
-      "by a closed surface around it",
+      "replaced by a closed surface around it",
       no_number);
   add("wrap_radius", &O::wrap_radius, "",
       "wrap: closes holes and gaps narrower than twice this, in the input's unit; 0: as the "

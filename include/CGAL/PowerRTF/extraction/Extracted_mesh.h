@@ -21,6 +21,8 @@ struct Extracted_mesh {
   std::vector<Vec3d> points;
   std::vector<Triangle> triangles; ///< counter-clockwise seen from outside
   std::vector<Edge> feature_edges; ///< the pieces of creases and borders; sorted
+  /// Of an `Opened_surface`: points at the same place will be one vertex.
+  bool is_opened = false;
 
   /// Puts the triangles into an order that depends on nothing but which triangles there are.
   void sort_triangles(internal::Concurrency concurrency = Sequential_tag())

@@ -38,7 +38,7 @@ public:
 
   /// `sight`: by vertex.
   Intersection_guard(const Working_mesh& mesh, std::vector<Sight>&& sight)
-      : m(mesh), m_triangles(mesh.mesh), m_sight(std::move(sight)),
+      : m(mesh), m_triangles(mesh), m_sight(std::move(sight)),
         m_is_inserted(mesh.mesh.num_faces(), false)
   {
     for (const Face f : m.mesh.faces()) insert(f);
@@ -62,9 +62,11 @@ public:
                               {Corners{a, d, c}, Corners{d, b, c}});
   }
 
-  /// Whether moving the source of `h` to its target adds an intersection.
+  /// Whether moving the source of `h` to its target adds an intersection. A vertex on a seam is let
+  /// go: it touches its copies until they are gone, too.
   bool forbids_collapse(Halfedge h) const
   {
+    if (m.is_on_seam(m.mesh.source(h))) return false;
     const Vertex v = m.mesh.target(h);
     Faces old;
     Triangles fresh;
@@ -159,7 +161,7 @@ private:
       if (std::find(except.begin(), except.end(), f) != except.end()) continue;
       const Corners u = m_triangles.corners(f);
       const Triangle_points q = m_triangles.points(u);
-      if (!has_no_area(q) && triangles_intersect(t, p, u, q)) ++found;
+      if (!has_no_area(q) && m_triangles.intersect(t, p, u, q)) ++found;
     }
     return found;
   }
@@ -177,7 +179,7 @@ private:
       sum += count(*t, except, most - sum);
       for (auto u = triangles.begin(); u != t; ++u)
         if (!has_no_area(m_triangles.points(*u)) &&
-            triangles_intersect(*t, m_triangles.points(*t), *u, m_triangles.points(*u)))
+            m_triangles.intersect(*t, m_triangles.points(*t), *u, m_triangles.points(*u)))
           ++sum;
     }
     return sum;

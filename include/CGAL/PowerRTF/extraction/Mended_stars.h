@@ -284,7 +284,7 @@ private:
   {
     const Surface_piece part(m_surface, m_samples, *m_places, piece.facets);
     Working_mesh mesh(insert_samples(part.surface, part.samples, part.places));
-    reduce_to_samples(mesh, false);
+    reduce_to_samples(mesh);
     for (Triangle t : mesh.triangles()) {
       for (int& v : t) {
         const int s = mesh.samples[Working_mesh::Vertex(v)];

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces with one side only (a Moebius strip, a Klein bottle) are opened along their seams for
-// the extraction, which needs an orientation, and sewn up again: a sample on a seam is two vertices
-// in between.
+// Surfaces with one side only (a Moebius strip, a Klein bottle) and networks of sheets are opened
+// along their seams and where they touch for the extraction, which needs an oriented 2-manifold,
+// and sewn up again: a sample there is several vertices in between.
 #ifndef CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_H
 #define CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_H
 
@@ -16,7 +16,7 @@
 
 namespace CGAL::PowerRTF {
 
-/// A surface cut along its seams, with its samples.
+/// A surface cut along its seams and at its contacts, with its samples.
 class Opened_surface {
 public:
   /// `samples`: the last ones are those of `features`.

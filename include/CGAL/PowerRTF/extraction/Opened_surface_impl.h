@@ -6,7 +6,6 @@
 #define CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_IMPL_H
 
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
-#include <CGAL/PowerRTF/extraction/part_chords.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
@@ -29,6 +28,7 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   m_surface = std::move(cut.surface);
   m_surface.facet_patches.clear();
   m_surface.seams.clear();
+  m_surface.contacts.clear();
   m_first_feature = samples.size() - features.size();
   m_first_twin = samples.size();
 
@@ -87,8 +87,8 @@ CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh) const
     name[v] = is_twin ? m_twin_of[v - m_first_twin] : static_cast<int>(points.size());
     if (!is_twin) points.push_back(mesh.points[v]);
   }
-  internal::part_chords(mesh, name);
   mesh.points.swap(points);
+  mesh.is_opened = false;
   for (Triangle& t : mesh.triangles)
     for (int& v : t) v = name[v];
   for (Edge& e : mesh.feature_edges) e = sorted_edge(name[e[0]], name[e[1]]);

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
+#include <CGAL/PowerRTF/input/near_borders.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -37,6 +38,9 @@ struct Working_mesh {
   std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
   std::vector<int> patches;   ///< by face: the surface's flat patch; -1, or empty: of none
+  /// By vertex, of an opened surface: a number that those at the same place have, which will be one
+  /// vertex; -1: it is alone. Empty: all are.
+  std::vector<int> places;
 
   /// \throw Invalid_input_error if the triangles are no oriented 2-manifold
   explicit Working_mesh(Refined_surface&& surface, Concurrency concurrency = Sequential_tag())
@@ -60,6 +64,20 @@ struct Working_mesh {
       mesh.point(Vertex(v)) = Point(p.x, p.y, p.z);
     });
   }
+
+  /// Sets `places`.
+  void find_places()
+  {
+    std::vector<Vec3d> points;
+    for (const Vertex v : mesh.vertices()) points.push_back(point(v));
+    places = first_of_equal_points(points);
+    std::vector<char> is_shared(points.size(), 0);
+    for (std::size_t v = 0; v < points.size(); ++v)
+      if (places[v] != static_cast<int>(v)) is_shared[v] = is_shared[places[v]] = 1;
+    for (std::size_t v = 0; v < points.size(); ++v)
+      if (!is_shared[v]) places[v] = -1;
+  }
+  bool is_on_seam(Vertex v) const { return !places.empty() && places[v] >= 0; }
 
   Vec3d point(Vertex v) const
   {

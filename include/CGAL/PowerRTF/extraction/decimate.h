@@ -23,12 +23,15 @@ namespace CGAL::PowerRTF::internal {
 
 class Decimator {
 public:
-  /// What `guard` forbids is not done.
-  Decimator(Working_mesh& mesh, Edge_flipper& flipper, Intersection_guard* guard = nullptr)
+  /// What `guard` forbids is not done. `seams_only`: of an opened surface, so that copies are again
+  /// at the same places.
+  Decimator(Working_mesh& mesh, Edge_flipper& flipper, Intersection_guard* guard = nullptr,
+            bool seams_only = false)
       : m(mesh), m_flipper(flipper), m_guard(guard), m_touched(mesh.samples.size(), 0)
   {
     for (const Vertex v : m.mesh.vertices())
-      if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
+      if (m.samples[v] < 0 && !m.mesh.is_isolated(v) && (!seams_only || m.is_on_seam(v)))
+        m_rest.push_back(v);
     m_all = m_rest.size();
   }
 
@@ -189,7 +192,7 @@ private:
     const Vertex v = m.mesh.target(to_v);
     const auto point = m.mesh.point(v);
     const Vec3d normal = m.normals[v];
-    const int sample = m.samples[v];
+    const int sample = m.samples[v], place = m.places.empty() ? -1 : m.places[v];
     const Vertex u = m.mesh.source(to_v);
     if (m_guard) m_guard->erase_around(std::array{u, v});
     leave_patches(u);
@@ -199,6 +202,7 @@ private:
     m.mesh.point(kept) = point;
     m.normals[kept] = normal;
     m.samples[kept] = sample;
+    if (!m.places.empty()) m.places[kept] = place;
     m_touched[kept] = m_pass;
     if (m_guard) m_guard->insert_around(kept);
     for (const Halfedge h : halfedges_around_target(kept, m.mesh)) {

@@ -26,14 +26,12 @@ namespace CGAL::PowerRTF {
 /// `features`: the last samples; edges between those that are next to each other on a curve stay.
 /// Without it borders recede to the samples.
 ///
-/// `may_touch_itself`: self-intersections are let be (an opened surface touches itself along its
-/// seams).
+/// `is_opened`: vertices at the same place will be one (see `Opened_surface`).
 ///
 /// \pre `surface` is an oriented 2-manifold
 /// \throw Invalid_input_error if it is not, or if a sample lies on no facet
 Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples,
-                                    const Feature_samples& features = {},
-                                    bool may_touch_itself = false);
+                                    const Feature_samples& features = {}, bool is_opened = false);
 
 } // namespace CGAL::PowerRTF
 

@@ -10,7 +10,6 @@
 #include <CGAL/PowerRTF/extraction/extract_guarded.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
-#include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 namespace CGAL::PowerRTF {
@@ -40,29 +39,38 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
   return result;
 }
 
+/// The number of them in the surface itself.
+inline std::size_t intersections(const Surface& surface, bool is_opened)
+{
+  Working_mesh mesh(surface.points, surface.triangles, Sequential_tag());
+  if (is_opened) mesh.find_places();
+  return Intersection_finder(mesh).all().size();
+}
+
 } // namespace internal
 
 CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface,
                                                           const Samples& samples,
                                                           const Feature_samples& features,
-                                                          bool may_touch_itself)
+                                                          bool is_opened)
 {
   internal::Progress_part part(0.3);
   internal::Working_mesh mesh(internal::insert_samples(surface, samples, features.places));
   part.next(0.95); // what follows is rare
-  const std::size_t defects = internal::reduce_to_samples(mesh, may_touch_itself);
+  if (is_opened) mesh.find_places();
+  const std::size_t defects = internal::reduce_to_samples(mesh);
   Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
-  if (defects == 0 || may_touch_itself) return result;
+  if (defects == 0) return result;
 
   // Where the samples are too sparse: more carefully there, and more widely if that does not help.
   internal::Sparse_places sparse = internal::sparse_places(mesh);
   if (sparse.balls.empty()) return result;
   std::size_t fewest = sparse.balls.size();
   std::vector<internal::Ball> guarded;
-  const std::size_t input_intersections = self_intersections(surface.points, surface.triangles);
+  const std::size_t input_intersections = internal::intersections(surface, is_opened);
   for (const double reach : {2., 8., 1e3}) {
     guarded.insert(guarded.end(), sparse.balls.begin(), sparse.balls.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach);
+    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, is_opened);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
     if (sparse.balls.size() < fewest) {

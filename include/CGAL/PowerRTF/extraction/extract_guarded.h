@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
+#include <CGAL/PowerRTF/extraction/remove_intersections.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/point_grid.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -46,7 +47,7 @@ inline Sparse_places sparse_places(const Working_mesh& m)
     return longest;
   };
   Sparse_places result;
-  const auto pairs = Intersection_finder(m.mesh).all();
+  const auto pairs = Intersection_finder(m).all();
   result.intersections = pairs.size();
   for (const auto& [f, g] : pairs)
     for (const auto face : {f, g})
@@ -65,8 +66,10 @@ public:
 
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
   Guarded_extraction(const Surface& surface, const Samples& samples,
-                     const Feature_samples& features, const std::vector<Ball>& balls, double reach)
-      : m_may_go(may_go(samples, features)), m(insert_samples(surface, samples, features.places)),
+                     const Feature_samples& features, const std::vector<Ball>& balls, double reach,
+                     bool is_opened)
+      : m_may_go(may_go(samples, features)),
+        m(mesh_with_samples(surface, samples, features, is_opened)),
         m_guard(m, sight(balls, reach)), m_flipper(m, 0.1, &m_guard)
   {}
 
@@ -74,11 +77,13 @@ public:
   {
     m_flipper.push_around_samples();
     m_flipper.run(20 * m.mesh.number_of_edges());
+    if (!m.places.empty()) Decimator(m, m_flipper, &m_guard, true).run();
     decimate();
     exchange();
     Edge_flipper flipper(m, -0.7, &m_guard);
     for (const auto e : m.mesh.edges()) flipper.push(e);
     flipper.run(20 * m.mesh.number_of_edges());
+    if (!m.places.empty()) Intersection_remover(m, flipper).run(); // that seams have brought
   }
 
   const Working_mesh& mesh() const { return m; }
@@ -86,6 +91,14 @@ public:
 
 private:
   enum class Place { inside, on_feature };
+
+  static Working_mesh mesh_with_samples(const Surface& surface, const Samples& samples,
+                                        const Feature_samples& features, bool is_opened)
+  {
+    Working_mesh mesh(insert_samples(surface, samples, features.places));
+    if (is_opened) mesh.find_places();
+    return mesh;
+  }
 
   // By sample: all but those at corners.
   static std::vector<char> may_go(const Samples& samples, const Feature_samples& features)
@@ -131,7 +144,7 @@ private:
     for (int round = 0, vain = 0; round < max_exchanges && vain < max_vain; ++round) {
       m_rest.clear();
       for (const Vertex v : m.mesh.vertices())
-        if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
+        if (m.samples[v] < 0 && !m.mesh.is_isolated(v) && !m.is_on_seam(v)) m_rest.push_back(v);
       if (m_rest.size() > m_may_go.size()) return;
       vain = m_rest.size() < fewest ? 0 : vain + 1;
       fewest = std::min(fewest, m_rest.size());
@@ -179,7 +192,8 @@ private:
     std::vector<std::pair<double, Vertex>> order;
     for (const Vertex v : m.mesh.vertices()) {
       const int s = m.samples[v];
-      if (s < 0 || !m_may_go[s] || is_near[v] || m.mesh.is_isolated(v) || !is_at(place, v))
+      if (s < 0 || !m_may_go[s] || is_near[v] || m.mesh.is_isolated(v) || m.is_on_seam(v) ||
+          !is_at(place, v))
         continue;
       Vec3d normal{0, 0, 0};
       for (const Halfedge h : halfedges_around_target(v, m.mesh))

@@ -19,24 +19,53 @@ namespace CGAL::PowerRTF::internal {
 /// A mesh's faces for `Intersecting_pairs`.
 class Face_triangles {
 public:
-  using Mesh = Working_mesh::Mesh;
   using Face = Working_mesh::Face;
+  using Vertex = Working_mesh::Vertex;
   using Corners = Working_mesh::Corners;
 
-  explicit Face_triangles(const Mesh& mesh) : m_mesh(mesh) {}
+  explicit Face_triangles(const Working_mesh& mesh) : m(mesh) {}
 
-  Corners corners(Face f) const
-  {
-    const auto h = m_mesh.halfedge(f);
-    return {m_mesh.source(h), m_mesh.target(h), m_mesh.target(m_mesh.next(h))};
-  }
+  Corners corners(Face f) const { return m.corners(f); }
   Triangle_points points(const Corners& t) const
   {
-    return {m_mesh.point(t[0]), m_mesh.point(t[1]), m_mesh.point(t[2])};
+    return {m.mesh.point(t[0]), m.mesh.point(t[1]), m.mesh.point(t[2])};
+  }
+
+  /// Of triangles with area, with their points. In an opened surface, vertices at the same place
+  /// count as one; sheets that get an edge in common off their seams count as intersecting.
+  bool intersect(const Corners& s, const Triangle_points& p, const Corners& t,
+                 const Triangle_points& q) const
+  {
+    if (m.places.empty()) return triangles_intersect(s, p, t, q);
+    return triangles_intersect(places(s), p, places(t), q) || meet_off_seams(s, t);
   }
 
 private:
-  const Mesh& m_mesh;
+  int place(Vertex v) const { return m.is_on_seam(v) ? m.places[v] : -1 - static_cast<int>(v); }
+  std::array<int, 3> places(const Corners& t) const
+  {
+    return {place(t[0]), place(t[1]), place(t[2])};
+  }
+
+  bool meet_off_seams(const Corners& s, const Corners& t) const
+  {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const Vertex a = s[i], b = s[(i + 1) % 3], c = t[j], d = t[(j + 1) % 3];
+        if (std::minmax(a, b) == std::minmax(c, d)) continue; // it is one edge
+        if (std::minmax(place(a), place(b)) == std::minmax(place(c), place(d)))
+          return !(is_border(a, b) && is_border(c, d));
+      }
+    return false;
+  }
+
+  bool is_border(Vertex a, Vertex b) const
+  {
+    const auto h = m.mesh.halfedge(a, b);
+    return h.is_valid() && m.mesh.is_border(m.mesh.edge(h));
+  }
+
+  const Working_mesh& m;
 };
 
 /// Two faces that intersect; see there.
@@ -45,10 +74,10 @@ using Face_pair = Intersecting_pairs<Face_triangles>::Pair;
 /// Finds the pairs of a mesh.
 class Intersection_finder : public Intersecting_pairs<Face_triangles> {
 public:
-  using Mesh = Face_triangles::Mesh;
+  using Mesh = Working_mesh::Mesh;
 
-  explicit Intersection_finder(const Mesh& mesh, Concurrency concurrency = Sequential_tag())
-      : Intersecting_pairs(Face_triangles(mesh), concurrency), m_mesh(mesh)
+  explicit Intersection_finder(const Working_mesh& mesh, Concurrency concurrency = Sequential_tag())
+      : Intersecting_pairs(Face_triangles(mesh), concurrency), m_mesh(mesh.mesh)
   {}
 
   /// All of them, sorted.

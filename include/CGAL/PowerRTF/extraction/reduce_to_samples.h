@@ -14,10 +14,10 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// Removes the vertices that are no samples, makes the edges Delaunay and, unless the mesh
-/// `may_touch_itself`, removes self-intersections.
+/// Removes the vertices that are no samples, makes the edges Delaunay and removes
+/// self-intersections.
 /// \returns the number of vertices and self-intersections that could not be removed.
-inline std::size_t reduce_to_samples(Working_mesh& mesh, bool may_touch_itself)
+inline std::size_t reduce_to_samples(Working_mesh& mesh)
 {
   // While the mesh is fine, normals that differ by more than 84 degrees are a fold; among the
   // samples alone even 134 degrees occur on thin parts, and refusing more costs good triangles.
@@ -32,7 +32,7 @@ inline std::size_t reduce_to_samples(Working_mesh& mesh, bool may_touch_itself)
   for (const auto e : mesh.mesh.edges()) flipper.push(e);
   flipper.run(20 * mesh.mesh.number_of_edges());
   part.next(1);
-  return may_touch_itself ? rest : rest + Intersection_remover(mesh, flipper).run();
+  return rest + Intersection_remover(mesh, flipper).run();
 }
 
 } // namespace CGAL::PowerRTF::internal

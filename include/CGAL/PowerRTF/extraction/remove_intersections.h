@@ -20,7 +20,7 @@ namespace CGAL::PowerRTF::internal {
 class Intersection_remover {
 public:
   Intersection_remover(Working_mesh& mesh, Edge_flipper& flipper)
-      : m(mesh), m_flipper(flipper), m_triangles(mesh.mesh), m_finder(mesh.mesh),
+      : m(mesh), m_flipper(flipper), m_triangles(mesh), m_finder(mesh),
         m_has_changed(mesh.mesh.num_faces())
   {}
 

@@ -27,10 +27,12 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
     : m_whole(surface)
 {
   const std::size_t n = options.number_of_samples;
-  if (surface.adjacency.non_manifold_edges == 0) // else its curves tell how many they need
+  if (surface.adjacency.non_manifold_edges == 0 &&
+      surface.contacts.empty()) // else its curves tell how many they need
     require_enough_samples(surface, n, concurrency);
   set_output_grid(surface, options);
-  const bool is_one_patch = surface.creases.empty() && surface.adjacency.border_edges == 0 &&
+  const bool is_one_patch = surface.creases.empty() && surface.contacts.empty() &&
+                            surface.adjacency.border_edges == 0 &&
                             facet_components(surface.adjacency, concurrency).second == 1;
   // Means over the nearest vertices would depend on how finely a facet is split.
   const bool splits = options.attributes == Attributes::facet;

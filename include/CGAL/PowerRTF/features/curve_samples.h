@@ -72,8 +72,9 @@ public:
         if (last >= 0) result.edges.push_back({last, now});
         last = now;
       }
-      result.edges.push_back(
-          {last, curve.has_corners ? corner_sample(curve.vertices.back()) : first});
+      if (curve.vertices.size() > 1)
+        result.edges.push_back(
+            {last, curve.has_corners ? corner_sample(curve.vertices.back()) : first});
     }
     return result;
   }
@@ -91,6 +92,7 @@ private:
   std::size_t segments(std::size_t c, double spacing) const
   {
     const Feature_curve& curve = m_curves[c];
+    if (curve.vertices.size() == 1) return 1;
     const bool is_closed = curve.vertices.front() == curve.vertices.back();
     const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
     return static_cast<std::size_t>(

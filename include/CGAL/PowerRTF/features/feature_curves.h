@@ -18,9 +18,10 @@ namespace CGAL::PowerRTF {
 
 /// A chain of feature edges.
 struct Feature_curve {
-  std::vector<int> vertices; ///< from corner to corner; first = last for a closed one
-  bool has_corners = true;   ///< no: closed, and none of its vertices is a corner
-  int parallels = 1;         ///< curves between the same two corners, itself included
+  /// From corner to corner; first = last for a closed one; a single one where sheets touch.
+  std::vector<int> vertices;
+  bool has_corners = true; ///< no: closed, and none of its vertices is a corner
+  int parallels = 1;       ///< curves between the same two corners, itself included
 };
 
 namespace internal {
@@ -47,6 +48,7 @@ public:
   {
     for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
       m_is_corner[v] = m_graph.degree(v) != 0 && m_graph.degree(v) != 2;
+    for (const int v : surface.contacts) m_is_corner[v] = 1;
     if (!surface.seams.empty()) mark_ends_of_sheets();
     if (scale > 0) mark_turns();
   }
@@ -76,6 +78,8 @@ public:
       trace(m_graph[e][0], e);
       curves.back().has_corners = false;
     }
+    for (const int v : m_surface.contacts)
+      if (m_graph.degree(v) == 0) curves.push_back({{v}});
     count_parallels(curves);
     return curves;
   }
@@ -185,7 +189,8 @@ private:
 /// none).
 inline std::vector<Feature_curve> feature_curves(const Surface& surface, double scale)
 {
-  if (surface.creases.empty() && surface.adjacency.border_edges == 0) return {};
+  if (surface.creases.empty() && surface.adjacency.border_edges == 0 && surface.contacts.empty())
+    return {};
   return internal::Feature_tracer(surface, scale).curves();
 }
 

@@ -82,7 +82,7 @@ struct Normalization {
 /// A triangulated, oriented 2-manifold surface (possibly with borders and several components) in
 /// the coordinates of the unit box, with the fields that steer the sampling. One with one side only
 /// (a Moebius strip) is oriented but for its seams. A network of such surfaces, which meet in edges
-/// of more than two facets, is one once it is cut along its seams.
+/// of more than two facets or touch in vertices, is one once it is cut along its seams and there.
 struct Surface {
   std::vector<Vec3d> points;          ///< #V positions
   std::vector<Triangle> triangles;    ///< #F vertex indices, counter-clockwise seen from outside
@@ -95,10 +95,14 @@ struct Surface {
   std::vector<Edge> creases;          ///< edges, smaller vertex first, that the result must keep
   std::vector<Edge> seams;            ///< the creases at which the orientations do not
                                       ///< agree or more than two facets meet
+  std::vector<int> contacts;          ///< vertices where sheets touch, off seams; sorted
   /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
   std::vector<int> facet_patches;
   double area = 0; ///< sum of the facets' areas
   Normalization normalization;
+
+  /// Whether it must be cut to be an oriented 2-manifold.
+  bool is_closed_up() const { return !seams.empty() || !contacts.empty(); }
 };
 
 /// \ingroup PkgPowerRTFSurface

@@ -39,6 +39,7 @@ inline Cut_surface cut_along_creases(const Surface& surface)
   Cut_surface cut;
   cut.surface = surface;
   cut.surface.creases.clear();
+  cut.surface.contacts.clear();
   for (std::size_t v = 0; v < surface.points.size(); ++v)
     cut.originals.push_back(static_cast<int>(v));
   std::vector<char> taken(surface.points.size(), 0);

@@ -21,7 +21,8 @@ namespace CGAL::PowerRTF::internal {
 /// without area counts as a pair with itself and with nothing else.
 ///
 /// \tparam Triangles has the type `Face` and, of a face `f`, `corners(f)`: an array of three
-/// vertices that compare, and `points(corners)`: their points.
+/// vertices, `points(corners)`: their points, and of two faces with area
+/// `intersect(corners, points, corners, points)`.
 template <class Triangles>
 class Intersecting_pairs {
 public:
@@ -38,7 +39,7 @@ public:
   bool intersect(Face f, Face g) const
   {
     const auto s = m_triangles.corners(f), t = m_triangles.corners(g);
-    return triangles_intersect(s, m_triangles.points(s), t, m_triangles.points(t));
+    return m_triangles.intersect(s, m_triangles.points(s), t, m_triangles.points(t));
   }
 
   /// The pairs of `faces`, sorted.

@@ -30,6 +30,11 @@ struct Soup_triangles {
   {
     return {point(t[0]), point(t[1]), point(t[2])};
   }
+  bool intersect(const Triangle& s, const Triangle_points& p, const Triangle& t,
+                 const Triangle_points& q) const
+  {
+    return triangles_intersect(s, p, t, q);
+  }
 
 private:
   Epick::Point_3 point(int v) const { return {all_points[v].x, all_points[v].y, all_points[v].z}; }

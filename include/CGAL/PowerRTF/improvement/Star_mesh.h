@@ -59,6 +59,7 @@ public:
   {
     const std::size_t n = mesh.points.size();
     m.normals.resize(n);
+    if (mesh.is_opened) m.find_places();
     for (const auto& [a, b] : mesh.feature_edges) {
       m_on_feature[a] = m_on_feature[b] = true;
       const Halfedge h = m.mesh.halfedge(Vertex(a), Vertex(b));
@@ -353,7 +354,7 @@ private:
   // On neither feature nor border.
   bool is_interior(Vertex v) const
   {
-    return !m_on_feature[v] && !m.mesh.is_isolated(v) && !m.mesh.is_border(v);
+    return !m_on_feature[v] && !m.mesh.is_isolated(v) && !m.mesh.is_border(v) && !m.is_on_seam(v);
   }
 
   // What a vertex is, but for its edges.

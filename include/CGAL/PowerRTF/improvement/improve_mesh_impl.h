@@ -201,7 +201,7 @@ private:
     };
     for (const Face f : find_too_far(stars))
       if (!is_locked(f)) broken.push_back(f);
-    for (const auto& [f, g] : Intersection_finder(mesh, stars.concurrency()).all())
+    for (const auto& [f, g] : Intersection_finder(stars.working(), stars.concurrency()).all())
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
     return broken;
   }

@@ -373,7 +373,7 @@ private:
                   squared_length(m.point(mesh.target(mesh.halfedge(f))) - p) < radius * radius;
          }))
       faces.push_back(Working_mesh::Face(i));
-    return !Intersection_finder(mesh).find(faces).empty();
+    return !Intersection_finder(m.working()).find(faces).empty();
   }
 
   Star_mesh& m;

@@ -40,7 +40,7 @@ inline Triangle_soup triangle_soup(const std::vector<Vec3d>& points,
                                    std::vector<Triangle>&& triangles, Concurrency concurrency)
 {
   constexpr std::size_t max_unsorted = 1 << 16;
-  Triangle_soup soup{points, std::move(triangles), {}, {}, {}};
+  Triangle_soup soup{points, std::move(triangles), {}, {}, {}, {}};
   soup.originals.resize(points.size());
   std::iota(soup.originals.begin(), soup.originals.end(), 0);
   if (soup.triangles.size() <= max_unsorted) return soup;
@@ -89,7 +89,7 @@ inline void drop_repeated(std::vector<Triangle>& triangles, bool keep_reversed,
 enum class Manifold_repair {
   none,         ///< nothing
   orient,       ///< drop repeated facets, turn facets
-  network,      ///< make seams of edges of more than two facets, part what touches in vertices
+  network,      ///< keep edges of more than two facets and vertices where sheets touch
   split,        ///< part sheets that touch, too
   split_double, ///< facets on top of each other with opposite orientations are two sheets
 };
@@ -107,6 +107,7 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
                                    Concurrency concurrency = Sequential_tag())
 {
   soup.seams.clear();
+  soup.contacts.clear();
   const std::string not_manifold = "the surface is not a 2-manifold: ";
   if (soup.adjacency.repeated_facets) {
     if (allowed == Manifold_repair::none)
@@ -132,7 +133,9 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
     const std::vector<Edge> crowded = crowded_edges(soup);
     soup.seams.insert(soup.seams.end(), crowded.begin(), crowded.end());
     sort_uniquely(soup.seams);
-    repairs.non_manifold_vertices += split_fans_off_seams(soup); // the adjacency stays
+  }
+  if (allowed == Manifold_repair::network) {
+    soup.contacts = find_contacts(soup);
     return {};
   }
   if (!soup.seams.empty()) {
@@ -142,7 +145,7 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
   const auto touching =
       count_non_manifold_vertices(soup.triangles, soup.adjacency, soup.points.size(), concurrency);
   if (touching == 0) return {};
-  if (allowed < Manifold_repair::network)
+  if (allowed < Manifold_repair::split)
     return {not_manifold + std::to_string(touching) +
             " vertex(es) where parts of the surface touch in a point only"};
   repairs.non_manifold_vertices += split_fans(soup, soup.adjacency); // the adjacency stays
@@ -176,6 +179,7 @@ inline Surface compacted(Triangle_soup&& soup, const Normalization& normalizatio
     for (int& v : surface.triangles[f]) v = new_index[v];
   });
   for (const Edge& e : soup.seams) surface.seams.push_back({new_index[e[0]], new_index[e[1]]});
+  for (const int v : soup.contacts) surface.contacts.push_back(new_index[v]);
   surface.creases = surface.seams;
   surface.vertex_density.assign(surface.points.size(), 1);
   surface.normalization = normalization;
@@ -220,7 +224,7 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
   if (!status.is_done()) return status;
   if (polygons.merges_vertices && allowed != Manifold_repair::none)
     close_cracks(soup, allowed, repairs);
-  if (degenerate > 0 && soup.seams.empty()) {
+  if (degenerate > 0 && soup.seams.empty() && soup.contacts.empty()) {
     const std::size_t before = degenerate_facets(soup.points, soup.triangles).size();
     repairs.duplicate_vertices += remove_degenerate_facets(soup.points, soup.triangles);
     repairs.degenerate_facets += before - degenerate_facets(soup.points, soup.triangles).size();

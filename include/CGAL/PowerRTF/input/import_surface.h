@@ -42,7 +42,8 @@ Surface import_surface(const FaceGraph& mesh, const NamedParameters& np, Repair_
 /// \param polygons range of ranges of indices into `points`
 /// \param repairs counts what had to be mended
 /// \param repair no: all that is named below is refused
-/// \param non_manifold keep: edges of more than two facets are seams of the surface
+/// \param non_manifold keep: edges of more than two facets are seams of the surface, and vertices
+///   where sheets touch its contacts
 /// \returns the surface as `import_surface()` does; `input_vertices` are indices into `points`.
 ///   Repeated polygons are dropped; neighbors are turned to agree, as few as possible (a component
 ///   that is inside out stays so); sheets that meet in an edge are parted (`split_sheets()`),

@@ -27,6 +27,7 @@ struct Triangle_soup {
   std::vector<Triangle> triangles;
   std::vector<int> originals; ///< for each vertex the one of the input that it is or copies
   std::vector<Edge> seams;    ///< see `Surface`
+  std::vector<int> contacts;  ///< see `Surface`
   Facet_adjacency adjacency;  ///< of the triangles
 
   /// To be called after changes of the triangles.
@@ -195,10 +196,8 @@ inline std::vector<Edge> crowded_edges(const Triangle_soup& soup)
   return crowded;
 }
 
-/// Gives each fan of facets, between seams, that touches others in its vertex only a vertex of its
-/// own; the first keeps the vertex if no seam goes through it.
-/// \returns the number of copies
-inline std::size_t split_fans_off_seams(Triangle_soup& soup)
+/// The vertices where more than one fan of facets ends, some of them without a seam: sorted.
+inline std::vector<int> find_contacts(const Triangle_soup& soup)
 {
   const auto is_seam = [&](int h) {
     return std::binary_search(
@@ -208,7 +207,7 @@ inline std::size_t split_fans_off_seams(Triangle_soup& soup)
   std::vector<char> is_taken(soup.points.size(), 0);
   for (const Edge& e : soup.seams)
     for (const int v : e) is_taken[v] = 1;
-  std::vector<std::vector<int>> off; // fans
+  std::vector<int> contacts;
   const auto opposite = [&](int h) {
     return is_seam(h) ? Facet_adjacency::none : soup.adjacency.opposite[h];
   };
@@ -216,13 +215,12 @@ inline std::size_t split_fans_off_seams(Triangle_soup& soup)
     if (std::any_of(fan.begin(), fan.end(),
                     [&](int h) { return is_seam(h) || is_seam(previous_halfedge(h)); }))
       return;
-    char& taken = is_taken[halfedge_source(soup.triangles, fan[0])];
-    if (taken) off.push_back(fan);
-    taken = 1;
+    const int v = halfedge_source(soup.triangles, fan[0]);
+    if (is_taken[v]) contacts.push_back(v);
+    is_taken[v] = 1;
   });
-  for (const std::vector<int>& fan : off)
-    copy_vertex(soup, halfedge_source(soup.triangles, fan[0]), fan);
-  return off.size();
+  sort_uniquely(contacts);
+  return contacts;
 }
 
 /// Cuts the edges of the crowds into halves, and with them their facets.

@@ -181,7 +181,7 @@ namespace internal {
 inline Topology_statistics manifold_topology(const Surface& surface,
                                              Concurrency concurrency = Sequential_tag())
 {
-  if (!surface.seams.empty()) // its borders have no direction
+  if (surface.is_closed_up()) // its borders may have no direction
     return topology(surface.triangles, concurrency);
   const auto [component, components] = facet_components(surface.adjacency, concurrency);
   Topology_statistics result;
