@@ -214,7 +214,8 @@ inline std::size_t resolve_intersections(Triangle_set& set, double grid, Concurr
   // A finer grid keeps points apart that meant the same one; a coarser one than the last is visible
   // in floats.
   constexpr double finest_grid = 0x1p-32, coarsening = 0x1p4, coarsest_grid = 0x1p-24;
-  constexpr int max_passes = 4; // mostly 1 or 2 do
+  constexpr int max_passes = 4;         // mostly 1 or 2 do
+  constexpr std::size_t max_growth = 2; // sheets that are nearly one cut each other ever finer
   const auto pairs_of = [&](const Triangle_set& s) {
     return Intersecting_pairs<Soup_triangles>({s.points, s.triangles}, concurrency)
         .find(boost::irange(0, static_cast<int>(s.triangles.size())));
@@ -226,6 +227,7 @@ inline std::size_t resolve_intersections(Triangle_set& set, double grid, Concurr
     auto pairs = found;
     Triangle_set cut = set;
     for (int pass = 0; pass < max_passes && !pairs.empty(); ++pass) {
+      if (pairs.size() > max_growth * found.size()) break;
       cut = Triangle_cutter(cut, rounding).run(pairs);
       pairs = pairs_of(cut);
     }
@@ -235,8 +237,8 @@ inline std::size_t resolve_intersections(Triangle_set& set, double grid, Concurr
   }
   throw Invalid_input_error(std::to_string(found.size()) +
                             " pairs of facets intersect, and still some after they have been cut "
-                            "where they meet; intersections = wrap makes a closed surface of any "
-                            "facets");
+                            "where they meet, as where sheets are nearly one; intersections = wrap "
+                            "makes a closed surface of any facets");
 }
 
 } // namespace CGAL::PowerRTF::internal
