@@ -358,8 +358,9 @@ TEST_CASE("what cannot be had of a cured input is refused")
   CHECK_THROWS_AS(validate(options), Invalid_input_error);
   const Soup soup = crossing_spheres();
   Remeshing_report report;
-  const std::vector<double> densities(soup.points.size(), 1);
-  CHECK_THROWS_AS(prepare_surface(internal::soup_of_ranges(soup.points, soup.triangles), {},
-                                  densities, options_for(Intersections::resolve), report),
+  Surface_fields fields;
+  fields.densities.emplace(soup.points.size(), 1);
+  CHECK_THROWS_AS(prepare_surface(internal::soup_of_ranges(soup.points, soup.triangles), fields,
+                                  options_for(Intersections::resolve), report),
                   Invalid_input_error);
 }
