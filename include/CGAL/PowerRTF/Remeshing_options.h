@@ -67,8 +67,8 @@ struct Remeshing_options {
   // Guarantees that are asked for, about the angles of the triangles, in degrees:
   double min_angle = 0;        ///< none is smaller; 0: not asked for
   double max_angle = 180;      ///< none is larger; 180: not asked for
-  unsigned random_seed = 0;         ///< of all random choices
-  Repair repair = Repair::yes;      ///< of the input
+  unsigned random_seed = 0;    ///< of all random choices
+  Repair repair = Repair::yes; ///< of the input
   /// Vertices within this distance of each other are joined, vertices within it of edges inserted
   /// into them, which closes cracks and T-junctions; in the input's unit. 0: vertices of a polygon
   /// soup at exactly the same place are one.
