@@ -78,6 +78,36 @@ off_to_ply() {
          "\nproperty list uchar int vertex_indices\nend_header" } NR > 2'
 }
 
+# catches NUMBER: the program has a handler for the signal
+catches() {
+  local mask
+  mask=$(awk '/^SigCgt/ { print $2 }' "/proc/$pid/status" 2>/dev/null) &&
+    [ $((0x${mask: -8} & 1 << ($1 - 1))) -ne 0 ]
+}
+# waits 60 s at most for a command to succeed
+await() {
+  for _ in $(seq 600); do
+    "$@" 2>/dev/null && return
+    sleep 0.1
+  done
+  return 1
+}
+has_ended() { ! kill -0 $pid; }
+# cancel NAME NUMBER: sends the signal to the program `pid` once it has a handler and has begun, and
+# sets `status`; fails where the system does not tell of handlers
+cancel() {
+  if [ ! -e "/proc/$pid/status" ]; then
+    kill -KILL $pid
+    return 1
+  fi
+  expect "$1 can be caught" await catches "$2"
+  sleep 1
+  kill -"$1" $pid
+  await has_ended || kill -KILL $pid
+  wait $pid
+  status=$?
+}
+
 # finish: the summary; the script's exit status
 finish() {
   echo "$checks checks, $failures failures"

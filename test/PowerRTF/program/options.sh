@@ -200,21 +200,6 @@ run 0 -- --quiet torus.off --iterations 2 -n 100 -- out.off
 
 # --- Ctrl-C and SIGTERM: exit code 128 + the signal's number, the output untouched
 torus 100 >large.off
-# catches NUMBER: the program has a handler for the signal
-catches() {
-  local mask
-  mask=$(awk '/^SigCgt/ { print $2 }' "/proc/$pid/status" 2>/dev/null) &&
-    [ $((0x${mask: -8} & 1 << ($1 - 1))) -ne 0 ]
-}
-# waits 60 s at most for a command to succeed
-await() {
-  for _ in $(seq 600); do
-    "$@" 2>/dev/null && return
-    sleep 0.1
-  done
-  return 1
-}
-has_ended() { ! kill -0 $pid; }
 # ends_by NAME NUMBER: the signal cancels a run
 ends_by() {
   local status
@@ -222,16 +207,7 @@ ends_by() {
   "$program" large.off out.off -n 4000 --iterations 1000000 --centroid-tolerance 0 \
     --weight-method none 2>stderr &
   pid=$!
-  if [ ! -e "/proc/$pid/status" ]; then
-    kill -KILL $pid
-    return
-  fi
-  expect "$1 can be caught" await catches "$2"
-  sleep 1
-  kill -"$1" $pid
-  await has_ended || kill -KILL $pid
-  wait $pid
-  status=$?
+  cancel "$1" "$2" || return
   expect "$1 ends with $status instead of $((128 + $2))" [ $status -eq $((128 + $2)) ]
   expect "$1 is said" grep -q cancelled stderr
   expect "$1 leaves the output" [ "$(cat out.off)" = untouched ]
