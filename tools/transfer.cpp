@@ -15,6 +15,7 @@ namespace {
 using CGAL::PowerRTF::interpolated;
 using CGAL::PowerRTF::Source;
 using CGAL::PowerRTF::Sources;
+using CGAL::PowerRTF::values_at;
 
 Mesh_property of_vertices(const Mesh_property& property, const std::vector<Source>& sources)
 {
@@ -33,10 +34,7 @@ Mesh_property of_vertices(const Mesh_property& property, const std::vector<Sourc
 
 Mesh_property of_faces(const Mesh_property& property, const std::vector<Source>& sources)
 {
-  Mesh_property result{property.name, property.type, {}, property.names};
-  result.values.reserve(sources.size());
-  for (const Source& s : sources) result.values.push_back(property.values[s.face]);
-  return result;
+  return {property.name, property.type, values_at(property.values, sources), property.names};
 }
 
 /// Gives the normals, where there are some, the length 1.

@@ -67,10 +67,8 @@ inline std::vector<Edge> more_creases(const Surface& surface, const Polygon_soup
                               std::to_string(soup.first.size() - 1) + " facets");
   const Sources sources = find_sources(soup, surface.normalization, is_oriented, surface.points,
                                        surface.triangles, concurrency);
-  std::vector<int> labels;
-  labels.reserve(sources.faces.size());
-  for (const Source& s : sources.faces) labels.push_back(fields.labels[s.face]);
-  const std::vector<Edge> boundaries = label_boundaries(surface, labels, concurrency);
+  const std::vector<Edge> boundaries =
+      label_boundaries(surface, values_at(fields.labels, sources.faces), concurrency);
   creases.insert(creases.end(), boundaries.begin(), boundaries.end());
   return creases;
 }

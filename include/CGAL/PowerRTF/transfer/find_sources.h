@@ -43,6 +43,16 @@ Sources find_sources(const Polygon_soup& input, const Normalization& normalizati
                      const std::vector<Triangle>& triangles,
                      internal::Concurrency concurrency = Sequential_tag());
 
+/// The values of the polygons that the sources are on.
+template <class T>
+std::vector<T> values_at(const std::vector<T>& of_polygons, const std::vector<Source>& sources)
+{
+  std::vector<T> result;
+  result.reserve(sources.size());
+  for (const Source& s : sources) result.push_back(of_polygons[s.face]);
+  return result;
+}
+
 } // namespace CGAL::PowerRTF
 
 #ifndef CGAL_POWER_RTF_COMPILED
