@@ -219,8 +219,8 @@ Sources find_sources(const Polygon_mesh& input, const Normalization& normalizati
 {
   if (!has_sources(input, run.options)) return {};
   const Stage stage("transfer", run.report.seconds.transfer);
-  return find_sources(input.soup, normalization, run.report.repairs.reoriented_facets == 0,
-                      mesh.points, mesh.triangles, Concurrency());
+  return find_sources(input.soup, normalization, run.report.faces_as_input(), mesh.points,
+                      mesh.triangles, Concurrency());
 }
 
 /// Writes all files but the report.

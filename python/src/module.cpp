@@ -110,10 +110,10 @@ Result remesh_with(tools::Run& run, const Input& input, Surface surface, Python_
   }
   run.report = remesher.report();
   if (!input.fields.labels.empty() && !run.report.cancelled) {
-    const Sources sources = find_sources(
-        input.soup, remesher.surface().normalization, run.report.repairs.reoriented_facets == 0,
-        result.mesh.points, result.mesh.triangles, tools::Concurrency());
-    for (const Source& s : sources.faces) result.labels.push_back(input.fields.labels[s.face]);
+    const Sources sources =
+        find_sources(input.soup, remesher.surface().normalization, run.report.faces_as_input(),
+                     result.mesh.points, result.mesh.triangles, tools::Concurrency());
+    result.labels = values_at(input.fields.labels, sources.faces);
   }
   if (input.wants_patches) result.patches = remesher.patches(result.mesh);
   for (Vec3d& p : result.mesh.points) p = remesher.surface().normalization.to_outside(p);

@@ -132,6 +132,22 @@ TEST_CASE("sources have the user's numbers, also on surfaces that are put into a
   CHECK(farthest(input, t).first <= t.report.absolute(t.report.distance.max) * (1 + 1e-9));
 }
 
+TEST_CASE("a wrap faces outward, whichever way the facets of its input do")
+{
+  const double thickness = 0.02;
+  shapes::Soup plate = shapes::box(3);
+  for (Vec3d& p : plate.points) p.z *= thickness;
+  for (const bool is_turned : {false, true}) {
+    if (is_turned)
+      for (Triangle& t : plate.triangles) std::swap(t[0], t[1]);
+    const Mesh input = shapes::make_mesh(plate);
+    Remeshing_options options;
+    options.intersections = Intersections::wrap;
+    options.wrap_radius = 0.06;
+    CHECK(farthest(input, traced(input, 400, options)).first < thickness / 2);
+  }
+}
+
 TEST_CASE("faces with more than three sides are sources, and give their labels to all on them")
 {
   for (int shift = 0; shift < 6; ++shift) {

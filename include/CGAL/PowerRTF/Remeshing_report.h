@@ -148,6 +148,9 @@ struct Remeshing_report {
   /// A distance in % of the diagonal, in the input's unit of length.
   double absolute(double percent) const { return percent / 100 * diagonal; }
 
+  /// Whether all facets of the surface face the way that the input's do there.
+  bool faces_as_input() const { return repairs.reoriented_facets == 0 && cure.wrap_offset == 0; }
+
   /// The guarantees that the result misses, in words; empty: all are met.
   std::vector<std::string> missed_guarantees() const;
 };

@@ -96,8 +96,8 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   }
   Surface surface = internal::clean_surface(soup, options.repair, options.non_manifold,
                                             report.repairs, concurrency);
-  const std::vector<Edge> more_creases = internal::more_creases(
-      surface, soup, fields, report.repairs.reoriented_facets == 0, concurrency);
+  const std::vector<Edge> more_creases =
+      internal::more_creases(surface, soup, fields, report.faces_as_input(), concurrency);
   soup = {}; // its memory
   part.next(0.2);
   Remeshing_options with_number = options;

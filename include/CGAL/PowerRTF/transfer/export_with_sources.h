@@ -110,9 +110,8 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
   if constexpr (puts_sources || (puts_labels && has_labels)) {
     const Stage stage("transfer", report.seconds.transfer);
     elements.emplace(input);
-    sources = find_sources(soup_of_mesh(input, np_in), normalization,
-                           report.repairs.reoriented_facets == 0, mesh.points, mesh.triangles,
-                           concurrency);
+    sources = find_sources(soup_of_mesh(input, np_in), normalization, report.faces_as_input(),
+                           mesh.points, mesh.triangles, concurrency);
   }
   const Stage stage("write", report.seconds.write);
   if constexpr (puts_labels && has_labels) {
