@@ -21,9 +21,8 @@ namespace tools {
 std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name);
 
 /// The fields, regions and creases that the options name, of `mesh`.
-/// \throws Invalid_input_error as `vertex_values()`; a label is no whole number; a line runs along
-/// no
-///   edge of a facet
+/// \throws Invalid_input_error as `vertex_values()`; a label is no whole number; a line
+///   runs along no edge of a facet
 CGAL::PowerRTF::Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh);
 
 /// Leaves of the materials and groups of an OBJ file those that are the labels asked for, and of

@@ -52,9 +52,8 @@ class Mesh:
     """The result of a run: triangles. Unpacks as ``vertices, faces = mesh``.
 
     Attributes: ``vertices`` (n, 3) and ``faces`` (m, 3), counter-clockwise seen from outside, arrays of
-    the input's kind; ``labels`` of the faces, where the input has some, and ``patches``, where they are wanted, or
-    None; and ``report``, the :class:`Report`. Can be
-    pickled.
+    the input's kind; ``labels`` of the faces, where the input has some, and ``patches``, where they are
+    wanted, or None; and ``report``, the :class:`Report`. Can be pickled.
 
     >>> import powerrtf
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
