@@ -54,14 +54,19 @@ public:
   {
     std::string name;
     while (tokens.next_in_line()) name += (name.empty() ? "" : " ") + std::string(tokens.token());
-    m_now = name;
+    if (!m_is_used && m_unnamed > 0) m_values.assign(m_unnamed, number_of("default"));
     m_is_used = true;
+    m_now = std::move(name);
+    m_number = -1;
   }
   void end_facet()
   {
-    const auto [found, is_new] = m_numbers.emplace(m_now, static_cast<int>(m_names.size()));
-    if (is_new) m_names.push_back(m_now);
-    m_values.push_back(found->second);
+    if (!m_is_used) {
+      ++m_unnamed;
+      return;
+    }
+    if (m_number < 0) m_number = number_of(m_now);
+    m_values.push_back(m_number);
   }
   /// The numbers of the names as a property of the faces, if there is a statement.
   void add_to(Polygon_mesh& mesh, const char* property)
@@ -72,8 +77,17 @@ public:
   }
 
 private:
+  int number_of(const std::string& name)
+  {
+    const auto [found, is_new] = m_numbers.emplace(name, static_cast<int>(m_names.size()));
+    if (is_new) m_names.push_back(name);
+    return found->second;
+  }
+
   bool m_is_used = false;
-  std::string m_now = "default";
+  std::size_t m_unnamed = 0; // facets before the first statement
+  std::string m_now;
+  int m_number = -1; // of it; -1: no facet has it yet
   std::map<std::string, int> m_numbers;
   std::vector<std::string> m_names;
   std::vector<double> m_values;
