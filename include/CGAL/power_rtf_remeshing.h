@@ -258,10 +258,9 @@ struct Run_types {
  *          When the visitor stopped the run, `cancelled` is `true` and `output` is as it was.
  *
  * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not
- *         finite or is no 2-manifold; a density or a wanted edge length is not a
- *         positive, finite number; the samples are too few for the surface, or for the lengths;
- * `resolution` or an option has a value that is not allowed (the message says what is). `output` is
- * as it was.
+ *         finite or is no 2-manifold; a density or a wanted edge length is not a positive, finite
+ *         number; the samples are too few for the surface, or for the lengths; `resolution` or an
+ *         option has a value that is not allowed (the message says what is). `output` is as it was.
  */
 template <class ConcurrencyTag = Parallel_if_available_tag, class InputMesh, class OutputMesh,
           class NamedParametersIn = parameters::Default_named_parameters,
