@@ -190,10 +190,8 @@ private:
       opened.sew_up(mesh);
     }
     const Stage stage("quality", m_report.seconds.quality);
-    const PowerRTF::Topology_statistics given = m_report.input_topology; // of unsplit facets
     PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
                      typename Traits::Concurrency_tag());
-    if (given.faces > 0) m_report.input_topology = given;
     return mesh;
   }
 

@@ -16,7 +16,8 @@ namespace CGAL::PowerRTF {
 class Facet_tree;
 
 /// Fills the parts of `report` that describe the result: topology of both, self-intersections,
-/// features, triangle quality and distance. The numbers are the same for every `concurrency`.
+/// features, triangle quality and distance. The numbers are the same for every `concurrency`. The
+/// topology of `surface` stays as it is in `report`, if it is there.
 ///
 /// \param patches the surface as it is, or cut along its creases
 /// \param tree of the facets of `patches`

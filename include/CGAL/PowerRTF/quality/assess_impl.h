@@ -41,7 +41,8 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
                                   Remeshing_report& report, internal::Concurrency concurrency)
 {
   internal::Progress_part part(0.1);
-  report.input_topology = internal::manifold_topology(surface, concurrency);
+  if (report.input_topology.faces == 0) // else it is that before facets were split
+    report.input_topology = internal::manifold_topology(surface, concurrency);
   report.topology = topology(mesh.triangles, concurrency);
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
