@@ -4,13 +4,14 @@
 
 peer_python.py PACKAGE INPUT OUTPUT.ply uniform|curvature SIZE CREASE_ANGLE
 
-SIZE: pyacvd, pyinstantmeshes: the number of vertices; pymeshlab, gpytoolbox, mmgpy: the length of
-the edges in units of the diagonal of the bounding box (mmgpy with `curvature`: the largest distance
-to the surface). Edges are kept where the normals turn by more than CREASE_ANGLE degrees (180: none)
-by the packages that can. Prints JSON: CPU seconds and MiB of memory without the packages' import.
+SIZE: pyacvd, pyinstantmeshes: the number of vertices; else the length of the edges in units of the
+diagonal of the bounding box (mmgpy with `curvature`: the largest distance to the surface). Edges are
+kept where the normals turn by more than CREASE_ANGLE degrees (180: none) by the packages that can.
+Prints JSON: CPU seconds and MiB of memory without the packages' import.
 """
 
 import json
+import math
 import resource
 import sys
 import time
@@ -109,8 +110,26 @@ def with_mmgpy(density, size, crease_angle):
     return with_arrays(remesh)
 
 
+def with_meshlib(density, size, crease_angle):
+    import meshlib.mrmeshpy as meshlib
+
+    def run(source, target):
+        mesh = meshlib.loadMesh(source)
+        settings = meshlib.RemeshSettings()
+        settings.targetEdgeLen = size * mesh.computeBoundingBox().diagonal()
+        if crease_angle < 180:
+            settings.notFlippable = mesh.findCreaseEdges(math.radians(crease_angle))
+        settings.projectOnOriginalMesh = True
+        settings.packMesh = True
+        meshlib.remesh(mesh, settings)
+        meshlib.saveMesh(mesh, target)
+
+    return run
+
+
 PACKAGES = {"pymeshlab": with_pymeshlab, "pyacvd": with_pyacvd, "gpytoolbox": with_gpytoolbox,
-            "pyinstantmeshes": with_pyinstantmeshes, "mmgpy": with_mmgpy}
+            "pyinstantmeshes": with_pyinstantmeshes, "mmgpy": with_mmgpy,
+            "meshlib": with_meshlib}
 
 
 def main():

@@ -84,6 +84,7 @@ PYTHON_PEERS = (
     ("pyinstantmeshes", "Instant Meshes, pyinstantmeshes", ("uniform",), number,
      "it takes one length"),
     ("mmgpy", "mmgs, mmgpy", ("uniform", "curvature"), edge_length, ""),
+    ("meshlib", "MeshLib", ("uniform",), edge_length, "it takes one length"),
 )
 
 
@@ -95,12 +96,13 @@ def find(binaries, python, missing):
             ("cgal_isotropic_remeshing", "CGAL isotropic_remeshing", edge_length,
              ("uniform", "curvature") if version and int(version.split(".")[0]) >= 6
              else ("uniform",)),
-            ("cgal_mesh_3", "CGAL Mesh_3", edge_length, ("uniform", "curvature"))):
+            ("cgal_mesh_3", "CGAL Mesh_3", edge_length, ("uniform", "curvature")),
+            ("pmp_remeshing", "pmp-library", edge_length, ("uniform", "curvature"))):
         path = binaries / program
         if not path.exists():
             notice(f"Peer skipped: {name}: {path} is not built")
             continue
-        peers.append(Peer(name, version,
+        peers.append(Peer(name, version if program.startswith("cgal") else "",
                           lambda model, target, density, size, crease_angle, path=path:
                           [path, model, target, density, repr(size), crease_angle],
                           densities, start))
@@ -127,8 +129,6 @@ def find(binaries, python, missing):
                           ("uniform", "curvature"), number, ".obj"))
     else:
         notice("Peer skipped: Geogram: there is no vorpalite in PATH")
-    notice("Peer skipped: pmp-library: its remeshing is in a library and an interactive viewer, "
-           "there is no command to run")
     return peers
 
 

@@ -31,7 +31,7 @@ import peers as other  # noqa: E402
 from models import Models  # noqa: E402
 from runs import Failed, Runner  # noqa: E402
 
-TARGETS = ("power_rtf_remesh", "judge", "cad_models", "cgal_isotropic_remeshing", "cgal_mesh_3")
+TARGETS = ("power_rtf_remesh", "judge", "cad_models", "peers")
 PEER_COLUMNS = ("model", "density", "vertices", "tool", *figures.MEASURES, "d<sub>max</sub>",
                 "d<sub>max</sub>, absolute", "edge length", "CPU (s)", "MiB", "topology")
 # What the README shows, and under which heads.
