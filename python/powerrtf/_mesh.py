@@ -10,6 +10,7 @@ from . import _core
 from ._cells import Cells
 from ._input import to_host
 from ._page import Page, html_page
+from ._sources import Sources
 
 
 class MissedGuaranteeWarning(UserWarning):
@@ -73,6 +74,7 @@ class Mesh:
         self.report = report
         self._sites = sites
         self._given = given
+        self._found_sources = None
 
     def __iter__(self):
         return iter((self.vertices, self.faces))
@@ -97,6 +99,48 @@ class Mesh:
         (3, True)
         """
         return Cells(_core.cells(self._sites))
+
+    @property
+    def _sources(self):
+        if self._found_sources is None:
+            self._found_sources = Sources(self._given, self._arrays(), self._sites)
+        return self._found_sources
+
+    @property
+    def source_face(self):
+        """The input's face that each vertex lies on, (n,): that of the nearest place that faces the
+        same way. Found when it is asked for; the input's arrays must not have been changed since."""
+        return self._sources.face
+
+    @property
+    def source_vertices(self):
+        """The input's vertices at the corners of a triangle of that face, (n, 3): of a triangle all
+        of its corners."""
+        return self._sources.vertices
+
+    @property
+    def barycentric(self):
+        """The barycentric coordinates of that place in that triangle, (n, 3)."""
+        return self._sources.weights
+
+    def transfer(self, values, of="vertices"):
+        """Values of the input's vertices on the result's, interpolated linearly; those that are not
+        floating-point numbers, as labels, are those of the nearest corner. Or values of the input's
+        faces on the result's, each that of the face at its center.
+
+        :param values: a row for each vertex or face of the input
+        :param of: "vertices" or "faces"
+        :returns: an array of the same kind and type
+
+        >>> import powerrtf
+        >>> square = [[0., 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> mesh = powerrtf.remesh(square, [[0, 1, 2, 3]], 100)
+        >>> bool(abs(mesh.transfer(square) - mesh.vertices).max() < 1e-12)
+        True
+        >>> str(mesh.transfer(["green"], of="faces")[7])
+        'green'
+        """
+        return self._sources.transfer(values, of)
 
     def show(self, height=900):
         """The page of :func:`report_html` in a notebook, where it is the cell's value."""

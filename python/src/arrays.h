@@ -94,6 +94,13 @@ inline Polygon_soup soup_of_arrays(const Real_array& points, const Index_array& 
   return soup;
 }
 
+inline std::vector<CGAL::PowerRTF::Triangle> triangles_of_array(const Index_array& array)
+{
+  std::vector<CGAL::PowerRTF::Triangle> triangles(array.shape(0));
+  for_each_index(array, [&](std::size_t i, auto v) { triangles[i / 3][i % 3] = int(v); });
+  return triangles;
+}
+
 /// \throws Invalid_input_error an edge refers to no point
 inline std::vector<Edge> edges_of_array(const Index_array& array, const Polygon_soup& soup)
 {

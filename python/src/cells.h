@@ -23,6 +23,7 @@ using CGAL::PowerRTF::Normalization;
 struct Placed_sites {
   Cell_sites in;
   Normalization normalization;
+  bool faces_as_input = true; ///< see `Remeshing_report`
 };
 
 template <class Remesher>
@@ -31,6 +32,7 @@ Placed_sites sites_of(const Remesher& remesher)
   const auto& options = remesher.options();
   Placed_sites sites;
   sites.normalization = remesher.surface().normalization;
+  sites.faces_as_input = remesher.report().faces_as_input();
   sites.in.samples = remesher.sites();
   sites.in.cells = static_cast<int>(options.number_of_samples - remesher.features().size());
   sites.in.area = remesher.surface().area;
@@ -55,6 +57,7 @@ inline nb::dict to_python(Placed_sites&& sites)
   d["guard_factor"] = in.guard_factor;
   d["center"] = nb::make_tuple(center.x, center.y, center.z);
   d["scale"] = sites.normalization.scale;
+  d["faces_as_input"] = sites.faces_as_input;
   return d;
 }
 
@@ -79,6 +82,7 @@ inline Placed_sites sites_from_python(const nb::dict& d)
   sites.normalization.center = {nb::cast<double>(center[0]), nb::cast<double>(center[1]),
                                 nb::cast<double>(center[2])};
   sites.normalization.scale = nb::cast<double>(d["scale"]);
+  sites.faces_as_input = nb::cast<bool>(d["faces_as_input"]);
   return sites;
 }
 

@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "cells.h"
 #include "options.h"
+#include "sources.h"
 
 #include "html_page.h"
 #include "input_fields.h"
@@ -19,7 +20,6 @@
 
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
-#include <CGAL/PowerRTF/transfer/find_sources.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <nanobind/stl/optional.h>
@@ -80,13 +80,6 @@ Input input_of(const Real_array& points, const Index_array& faces,
   for (const std::string& region : given.refine)
     fields.refinements.push_back(tools::parse_refinement(region));
   return input;
-}
-
-std::vector<Triangle> triangles_of(const Polygon_soup& soup)
-{
-  std::vector<Triangle> triangles(soup.corners.size() / 3);
-  for (std::size_t i = 0; i < soup.corners.size(); ++i) triangles[i / 3][i % 3] = soup.corners[i];
-  return triangles;
 }
 
 struct Result {
@@ -213,7 +206,7 @@ nb::bytes html_page(const Real_array& points, const Index_array& faces,
     Extracted_mesh mesh;
     mesh.points = points_of_array(vertices);
     for (Vec3d& p : mesh.points) p = surface.normalization.to_inside(p);
-    mesh.triangles = triangles_of(soup_of_arrays(vertices, triangles, {}));
+    mesh.triangles = triangles_of_array(triangles);
     tools::write_html(page, surface, mesh, report);
   }
   const std::string text = page.str();
@@ -251,10 +244,9 @@ void check_output(const std::string& file)
 void write_mesh(const std::string& file, const Real_array& points, const Index_array& faces,
                 bool ascii)
 {
-  const Polygon_soup soup = soup_of_arrays(points, faces, {});
   tools::Output_file output(file);
-  tools::write_mesh(output.stream(), tools::format_of(file), encoding_of(ascii), soup.points,
-                    triangles_of(soup));
+  tools::write_mesh(output.stream(), tools::format_of(file), encoding_of(ascii),
+                    points_of_array(points), triangles_of_array(faces));
   output.close();
   output.commit();
 }
@@ -279,6 +271,8 @@ NB_MODULE(_core, m)
   m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
         "traits"_a, "threads"_a, "progress"_a.none());
   m.def("cells", &cells<tools::Concurrency>, "sites"_a);
+  m.def("sources", &sources<tools::Concurrency>, "points"_a, "faces"_a, "sizes"_a.none(),
+        "vertices"_a, "triangles"_a, "sites"_a);
   m.def("html_page", &html_page, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
         "vertices"_a, "triangles"_a, "report"_a);
   m.def("read_mesh", &read_mesh, "file"_a);

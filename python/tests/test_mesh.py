@@ -53,6 +53,42 @@ def test_a_result_can_be_pickled():
     assert np.array_equal(again.cells().points, mesh.cells().points)
 
 
+def test_vertices_know_where_they_come_from():
+    mesh = powerrtf.remesh(CUBE * 1e3 + 5e4, QUADS, 600)
+    corners, weights = mesh.source_vertices, mesh.barycentric
+    assert (weights >= 0).all() and np.allclose(weights.sum(1), 1)
+    for k in range(3):
+        assert (QUADS[mesh.source_face] == corners[:, k, None]).any(1).all()
+    places = (weights[..., None] * (CUBE * 1e3 + 5e4)[corners]).sum(1)
+    assert np.abs(places - mesh.vertices).max() < 1e-6  # a cube is its own remesh
+    again = pickle.loads(pickle.dumps(mesh))
+    assert np.array_equal(again.source_face, mesh.source_face)
+
+
+def test_values_are_transferred():
+    mesh = powerrtf.remesh(CUBE, QUADS, 600)
+    assert np.abs(mesh.transfer(CUBE) - mesh.vertices).max() < 1e-9
+    heights = mesh.transfer(CUBE[:, 2].astype(np.float32))
+    assert heights.dtype == np.float32 and heights.shape == (600,)
+    corner = mesh.transfer(np.arange(8))  # labels are not mixed
+    assert corner.dtype == np.arange(8).dtype and np.abs(CUBE[corner] - mesh.vertices).max() < 1
+    face = mesh.transfer(np.arange(6), of="faces")
+    centers = mesh.vertices[mesh.faces].mean(1)
+    sides = np.einsum("nd,nd->n", centers - .5, CUBE[QUADS].mean(1)[face] - .5)
+    assert np.allclose(sides, .25)
+    with pytest.raises(powerrtf.InvalidInputError, match="each of the input's 8 vertices"):
+        mesh.transfer(np.arange(6))
+    with pytest.raises(powerrtf.InvalidInputError, match="vertices|faces"):
+        mesh.transfer(CUBE, of="edges")
+
+
+def test_sources_of_polygons_of_different_sizes():
+    faces = [[0, 1, 3], [0, 3, 2], *QUADS[1:].tolist()]
+    mesh = powerrtf.remesh(CUBE, faces, 300)
+    assert set(mesh.source_face) <= set(range(7))
+    assert all(set(c) <= set(faces[f]) for c, f in zip(mesh.source_vertices, mesh.source_face))
+
+
 class WithArrayInterface:
     def __init__(self, array):
         self._array = array

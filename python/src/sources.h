@@ -1,0 +1,53 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where the vertices and faces of a result come from, as arrays.
+#ifndef POWER_RTF_PYTHON_SOURCES_H
+#define POWER_RTF_PYTHON_SOURCES_H
+
+#include "cells.h"
+
+#include <CGAL/PowerRTF/transfer/find_sources.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace powerrtf {
+
+/// The face that each vertex of a result lies on, the corners of a triangle of that face and the
+/// weights of these; and the face that the center of each face lies on. Faces and vertices have the
+/// numbers of the input's.
+///
+/// \param sites of the run
+template <class Concurrency>
+nb::tuple sources(const Real_array& points, const Index_array& faces,
+                  const std::optional<Index_array>& sizes, const Real_array& vertices,
+                  const Index_array& triangles, const nb::dict& sites)
+{
+  using namespace CGAL::PowerRTF;
+  const Placed_sites placed = sites_from_python(sites);
+  std::vector<int> of_vertices, of_faces;
+  std::vector<Triangle> corners;
+  std::vector<Vec3d> weights;
+  {
+    const nb::gil_scoped_release release;
+    std::vector<Vec3d> inside = points_of_array(vertices);
+    for (Vec3d& p : inside) p = placed.normalization.to_inside(p);
+    const Sources found =
+        find_sources(soup_of_arrays(points, faces, sizes), placed.normalization,
+                     placed.faces_as_input, inside, triangles_of_array(triangles), Concurrency());
+    for (const Source& s : found.vertices) {
+      of_vertices.push_back(s.face);
+      corners.push_back(s.vertices);
+      weights.push_back({s.weights[0], s.weights[1], s.weights[2]});
+    }
+    for (const Source& s : found.faces) of_faces.push_back(s.face);
+  }
+  return nb::make_tuple(to_array<int>(std::move(of_vertices)), to_array<int>(std::move(corners)),
+                        to_array<double>(std::move(weights)), to_array<int>(std::move(of_faces)));
+}
+
+} // namespace powerrtf
+
+#endif // POWER_RTF_PYTHON_SOURCES_H
