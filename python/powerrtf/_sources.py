@@ -5,7 +5,8 @@
 import numpy as np
 
 from . import _core
-from ._input import InvalidInputError, like, to_host
+from ._core import InvalidInputError
+from ._input import like, to_host
 
 
 class Sources:

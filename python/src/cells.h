@@ -61,6 +61,16 @@ inline nb::dict to_python(Placed_sites&& sites)
   return d;
 }
 
+inline Normalization normalization_from_python(const nb::dict& d)
+{
+  Normalization normalization;
+  const auto center = nb::cast<nb::tuple>(d["center"]);
+  normalization.center = {nb::cast<double>(center[0]), nb::cast<double>(center[1]),
+                          nb::cast<double>(center[2])};
+  normalization.scale = nb::cast<double>(d["scale"]);
+  return normalization;
+}
+
 inline Placed_sites sites_from_python(const nb::dict& d)
 {
   Placed_sites sites;
@@ -78,11 +88,7 @@ inline Placed_sites sites_from_python(const nb::dict& d)
   in.area = nb::cast<double>(d["area"]);
   in.cos_angle = nb::cast<double>(d["cos_angle"]);
   in.guard_factor = nb::cast<double>(d["guard_factor"]);
-  const auto center = nb::cast<nb::tuple>(d["center"]);
-  sites.normalization.center = {nb::cast<double>(center[0]), nb::cast<double>(center[1]),
-                                nb::cast<double>(center[2])};
-  sites.normalization.scale = nb::cast<double>(d["scale"]);
-  sites.faces_as_input = nb::cast<bool>(d["faces_as_input"]);
+  sites.normalization = normalization_from_python(d);
   return sites;
 }
 

@@ -9,7 +9,6 @@
 
 #include <CGAL/PowerRTF/transfer/find_sources.h>
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -19,24 +18,27 @@ namespace powerrtf {
 /// weights of these; and the face that the center of each face lies on. Faces and vertices have the
 /// numbers of the input's.
 ///
-/// \param sites of the run
+/// \param sites of the run: they tell the way into the unit box, and whether the surface faces as
+/// the
+///   input does
 template <class Concurrency>
 nb::tuple sources(const Real_array& points, const Index_array& faces,
                   const std::optional<Index_array>& sizes, const Real_array& vertices,
                   const Index_array& triangles, const nb::dict& sites)
 {
   using namespace CGAL::PowerRTF;
-  const Placed_sites placed = sites_from_python(sites);
+  const Normalization normalization = normalization_from_python(sites);
+  const bool faces_as_input = nb::cast<bool>(sites["faces_as_input"]);
   std::vector<int> of_vertices, of_faces;
   std::vector<Triangle> corners;
   std::vector<Vec3d> weights;
   {
     const nb::gil_scoped_release release;
     std::vector<Vec3d> inside = points_of_array(vertices);
-    for (Vec3d& p : inside) p = placed.normalization.to_inside(p);
+    for (Vec3d& p : inside) p = normalization.to_inside(p);
     const Sources found =
-        find_sources(soup_of_arrays(points, faces, sizes), placed.normalization,
-                     placed.faces_as_input, inside, triangles_of_array(triangles), Concurrency());
+        find_sources(soup_of_arrays(points, faces, sizes), normalization, faces_as_input, inside,
+                     triangles_of_array(triangles), Concurrency());
     for (const Source& s : found.vertices) {
       of_vertices.push_back(s.face);
       corners.push_back(s.vertices);

@@ -78,7 +78,7 @@ def test_values_are_transferred():
     assert np.allclose(sides, .25)
     with pytest.raises(powerrtf.InvalidInputError, match="each of the input's 8 vertices"):
         mesh.transfer(np.arange(6))
-    with pytest.raises(powerrtf.InvalidInputError, match="vertices|faces"):
+    with pytest.raises(powerrtf.InvalidInputError, match=r"must be one of vertices\|faces"):
         mesh.transfer(CUBE, of="edges")
 
 
