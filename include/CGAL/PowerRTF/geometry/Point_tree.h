@@ -21,8 +21,10 @@ struct Box_of_point {
 };
 
 /// Some of the points.
+template <class Real>
 struct Near_points {
   static constexpr int capacity = 128;
+  Real x[capacity], y[capacity], z[capacity];
   int items[capacity];
   int count = 0;
 };
@@ -56,7 +58,7 @@ struct Point_tree_view {
 
   /// Finds all points no farther than `radius` from the box of the points [`begin`, `end`).
   /// \returns `false` if they are too many
-  CGAL_POWER_RTF_HD bool find_near(int begin, int end, Real radius, Near_points& near) const
+  CGAL_POWER_RTF_HD bool find_near(int begin, int end, Real radius, Near_points<Real>& near) const
   {
     const Box_of_point<Real> box_of{points};
     Box3<double> box = box_of(begin);
@@ -65,26 +67,40 @@ struct Point_tree_view {
     near.count = 0;
     visit_near(
         tree, nodes, Box_query(box),
-        [&]() { return near.count <= Near_points::capacity ? bound : -1.f; },
+        [&]() { return near.count <= Near_points<Real>::capacity ? bound : -1.f; },
         [&](int i) {
-          if (near.count < Near_points::capacity) near.items[near.count] = i;
+          if (near.count < Near_points<Real>::capacity) near.items[near.count] = i;
           ++near.count;
         });
-    return near.count <= Near_points::capacity;
+    if (near.count > Near_points<Real>::capacity) return false;
+    for (int k = 0; k < near.count; ++k) {
+      const Vec3<Real> p = points[near.items[k]];
+      near.x[k] = p.x;
+      near.y[k] = p.y;
+      near.z[k] = p.z;
+    }
+    return true;
   }
 
   /// `nearest()` among the points of `near`.
   template <int K, class Counts>
-  CGAL_POWER_RTF_HD int nearest_of(const Near_points& near, const Vec3<Real>& p, Real radius,
+  CGAL_POWER_RTF_HD int nearest_of(const Near_points<Real>& near, const Vec3<Real>& p, Real radius,
                                    int* found, Counts counts) const
   {
-    Real squared[Near_points::capacity], distances[K];
-    for (int k = 0; k < near.count; ++k) squared[k] = squared_length(points[near.items[k]] - p);
-    Nearest_items<Real> nearest{K, distances, found};
+    Real squared[Near_points<Real>::capacity], distances[K];
     for (int k = 0; k < near.count; ++k) {
-      const int i = near.items[k];
-      if (squared[k] <= radius * radius && nearest.takes(squared[k], i) && counts(i))
-        nearest.insert(squared[k], i);
+      const Real x = near.x[k] - p.x, y = near.y[k] - p.y, z = near.z[k] - p.z;
+      squared[k] = x * x + y * y + z * z;
+    }
+    int inside[Near_points<Real>::capacity], number = 0;
+    for (int k = 0; k < near.count; ++k) { // without branches, which would be guessed wrong
+      inside[number] = k;
+      number += squared[k] <= radius * radius;
+    }
+    Nearest_items<Real> nearest{K, distances, found};
+    for (int m = 0; m < number; ++m) {
+      const int k = inside[m], i = near.items[k];
+      if (nearest.takes(squared[k], i) && counts(i)) nearest.insert(squared[k], i);
     }
     return nearest.count;
   }

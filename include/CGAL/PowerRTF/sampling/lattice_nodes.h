@@ -113,7 +113,7 @@ struct Find_lattice_neighbors {
     float largest = 0;
     for (int i = begin; i < end; ++i)
       largest = internal::larger(largest, reach * view.node_spacing[i]);
-    Near_points near;
+    Near_points<float> near;
     const bool are_known = tree.find_near(begin, end, largest, near);
     for (int i = begin; i < end; ++i) {
       const auto counts = [&](int j) {
