@@ -128,7 +128,7 @@ private:
                        last_wave_sweeps = 6;
   static constexpr float wave_acceleration = 1.6f; // without: 30 and 15 sweeps
   static constexpr int turning_sweeps = 3;
-  static constexpr float neighbor_reach = 0.85f;    // of 6 nodes per point: 15 others are within
+  static constexpr float neighbor_reach = 1.04f;    // of 4 nodes per point: 15 others are within
   static constexpr float cos_neighbor_angle = 0.2f; // nodes on the other side of a sheet are none
 
   template <class T>

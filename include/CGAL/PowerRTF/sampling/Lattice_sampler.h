@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  static constexpr double nodes_per_sample = 6, coarsening = 4, tolerance = 0.035;
+  static constexpr double nodes_per_sample = 4, coarsening = 4, tolerance = 0.035;
   static constexpr int coarsest_level = 64, max_scalings = 2;
   static constexpr std::size_t min_lattice = 50; // samples of a component
   static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
