@@ -82,7 +82,7 @@ TEST_CASE("what cannot be sampled is refused")
 TEST_CASE("more samples than the nodes of a lattice can be numbered for are refused at once")
 {
   const Surface s = shapes::make_surface(shapes::icosphere(1));
-  CHECK_THROWS_AS(sample_surface(s, options(90000000, Sampling::lattice)), Invalid_input_error);
+  CHECK_THROWS_AS(sample_surface(s, options(140000000, Sampling::lattice)), Invalid_input_error);
 }
 
 TEST_CASE("the same seed gives the same samples, another seed others")

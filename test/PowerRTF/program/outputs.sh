@@ -177,12 +177,12 @@ piece() { sed -n "s/.* $1=\"\([0-9]*\)\".*/\1/p" f.vtp | head -n 1; }
 # array NAME: its rows
 array() { sed -n "/Name=\"$1\"/,/<.DataArray>/p" f.vtp | sed '1d; $d'; }
 dots=$(piece NumberOfVerts)
-expect 'there are 1200 nodes' [ "$(piece NumberOfLines)" = 1200 ]
+expect 'there are 800 nodes' [ "$(piece NumberOfLines)" = 800 ]
 expect "there are about as many points as samples, not $dots" [ "$dots" -gt 180 -a "$dots" -lt 280 ]
-expect 'a point has one point, a line two' [ "$(piece NumberOfPoints)" -eq $((dots + 2400)) ]
-expect 'all points are there' [ "$(array Points | wc -l)" -eq $((dots + 2400)) ]
+expect 'a point has one point, a line two' [ "$(piece NumberOfPoints)" -eq $((dots + 1600)) ]
+expect 'all points are there' [ "$(array Points | wc -l)" -eq $((dots + 1600)) ]
 for name in node is_point normal axis spacing index dislocation; do
-  expect "each has its $name" [ "$(array $name | wc -l)" -eq $((dots + 1200)) ]
+  expect "each has its $name" [ "$(array $name | wc -l)" -eq $((dots + 800)) ]
 done
 expect 'the first are points' [ "$(array is_point | grep -c 1)" = "$dots" ]
 expect 'the points are on the torus' awk -v n="$dots" 'NR <= n {
