@@ -29,7 +29,7 @@ struct Batch_result {
 /// share the GPU.
 ///
 /// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`
-/// \param n the number of meshes, up to 2^31 - 1
+/// \param n the number of meshes, up to \f$2^{31} - 1\f$
 /// \param remesh `remesh(i)` returns the report of mesh i: it reads it, calls
 ///   `power_rtf_remeshing()` and writes the result, say. Called for each i in [0, n), begun in this
 ///   order, from several threads at once; what it throws is the error of this mesh only.
