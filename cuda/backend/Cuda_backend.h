@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The device engine's operations on one GPU and one stream: buffers, loops, reductions in a fixed
-// order, copies, time. Every error of the CUDA runtime is thrown.
+// order, copies, time. Every error of the CUDA runtime is thrown. Stream and memory are the
+// device's context's, which has them back in the end.
 #ifndef CGAL_POWER_RTF_CUDA_CUDA_BACKEND_H
 #define CGAL_POWER_RTF_CUDA_CUDA_BACKEND_H
 
+#include "Device_context.h"
 #include "Eight_lanes.cuh"
 #include "Warp_lanes.cuh"
 #include "teams.cuh"
 #include <CGAL/PowerRTF/internal/Single_lane.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
-
-#include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
 
 #include <cuda_runtime.h>
 
@@ -20,18 +20,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <string>
 #include <utility>
 
 namespace CGAL::PowerRTF::device {
-
-/// \throws Cuda_error with what the runtime says
-inline void check(cudaError_t code, const char* what)
-{
-  if (code == cudaSuccess) return;
-  cudaGetLastError(); // an error that is not sticky is forgotten
-  throw Cuda_error(std::string("the GPU failed (") + what + "): " + cudaGetErrorString(code));
-}
 
 template <class F>
 __global__ void for_each_kernel(int n, F f)
@@ -142,7 +135,7 @@ public:
   static constexpr bool is_host = false;
   static constexpr bool works_by_warps = true;
 
-  /// Device memory that is freed with it. Its contents are lost when it grows.
+  /// Device memory that is given back with it. Its contents are lost when it grows.
   template <class T>
   class Buffer {
   public:
@@ -191,28 +184,41 @@ public:
     std::size_t m_size = 0, m_capacity = 0;
   };
 
+  /// Memory of the host that the device sees, too.
+  class Pinned_block {
+  public:
+    /// \throws Cuda_error when the memory does not suffice
+    Pinned_block(Cuda_backend& backend, std::size_t bytes)
+        : m_backend(backend), m_bytes(bytes), m_data(backend.take_pinned(bytes))
+    {}
+    ~Pinned_block() { m_backend.give_back_pinned(m_data, m_bytes); }
+    Pinned_block(const Pinned_block&) = delete;
+    Pinned_block& operator=(const Pinned_block&) = delete;
+    void* data() { return m_data; }
+
+  private:
+    Cuda_backend& m_backend;
+    std::size_t m_bytes;
+    void* m_data;
+  };
+
   /// One item that both host and device see: the device writes it through the bus, the host reads
   /// it after `synchronize()`.
   template <class T>
   class Shared_item {
   public:
-    explicit Shared_item(Cuda_backend&)
-    {
-      check(cudaMallocHost(&m_item, sizeof(T)), "taking memory of the host");
-      *m_item = T();
-    }
-    ~Shared_item() { cudaFreeHost(m_item); }
-    Shared_item(const Shared_item&) = delete;
-    Shared_item& operator=(const Shared_item&) = delete;
+    explicit Shared_item(Cuda_backend& backend)
+        : m_memory(backend, sizeof(T)), m_item(new (m_memory.data()) T())
+    {}
     T* data() { return m_item; }
 
   private:
-    T* m_item = nullptr;
+    Pinned_block m_memory;
+    T* m_item;
   };
 
   /// \throws Cuda_error when the device is missing or cannot be used
   explicit Cuda_backend(int device);
-  ~Cuda_backend();
   Cuda_backend(const Cuda_backend&) = delete;
   Cuda_backend& operator=(const Cuda_backend&) = delete;
 
@@ -221,7 +227,7 @@ public:
   {
     if (n <= 0) return;
     const int threads = n <= small ? 32 : 128;
-    for_each_kernel<<<(n + threads - 1) / threads, threads, 0, m_stream>>>(n, f);
+    for_each_kernel<<<(n + threads - 1) / threads, threads, 0, stream()>>>(n, f);
     check(cudaGetLastError(), "starting a kernel");
   }
 
@@ -232,9 +238,9 @@ public:
     if (n <= 0) return;
     if (n <= few) {
       constexpr int threads = 64, items = threads / Eight_lanes::size;
-      for_each_by_eight_kernel<<<(n + items - 1) / items, threads, 0, m_stream>>>(n, f);
+      for_each_by_eight_kernel<<<(n + items - 1) / items, threads, 0, stream()>>>(n, f);
     } else {
-      for_each_by_one_kernel<<<(n + 127) / 128, 128, 0, m_stream>>>(n, f);
+      for_each_by_one_kernel<<<(n + 127) / 128, 128, 0, stream()>>>(n, f);
     }
     check(cudaGetLastError(), "starting a kernel");
   }
@@ -245,7 +251,7 @@ public:
   {
     if (n <= 0) return;
     constexpr int items = Warp_lanes::in_block, threads = items * Warp_lanes::size;
-    for_each_by_warp_kernel<<<(n + items - 1) / items, threads, 0, m_stream>>>(n, f);
+    for_each_by_warp_kernel<<<(n + items - 1) / items, threads, 0, stream()>>>(n, f);
     check(cudaGetLastError(), "starting a kernel");
   }
 
@@ -255,7 +261,7 @@ public:
     static_assert(Totals<Sums, Maxima>::size <= max_totals, "the partial sums have no room");
     int blocks = (n + reduction_threads - 1) / reduction_threads;
     blocks = blocks < 1 ? 1 : blocks > reduction_blocks ? reduction_blocks : blocks;
-    reduce_kernel<Sums, Maxima><<<blocks, reduction_threads, 0, m_stream>>>(
+    reduce_kernel<Sums, Maxima><<<blocks, reduction_threads, 0, stream()>>>(
         n, f, finish, m_partials.data(), m_ticket.data());
     check(cudaGetLastError(), "starting a reduction");
   }
@@ -266,7 +272,7 @@ public:
   void run_team(int n, F f)
   {
     if (n <= block_team_items) {
-      block_team_kernel<<<1, block_team_threads, 0, m_stream>>>(f);
+      block_team_kernel<<<1, block_team_threads, 0, stream()>>>(f);
       check(cudaGetLastError(), "starting a kernel");
       return;
     }
@@ -301,7 +307,7 @@ public:
   template <class T>
   void upload(T* to, const T* from, std::size_t n)
   {
-    check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyHostToDevice, m_stream), "upload");
+    check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyHostToDevice, stream()), "upload");
     synchronize();
   }
   template <class T>
@@ -309,38 +315,39 @@ public:
   {
     const std::size_t bytes = n * sizeof(T);
     const bool is_small = bytes <= pinned_bytes; // at once, without the runtime's own buffer
-    check(cudaMemcpyAsync(is_small ? m_pinned : static_cast<void*>(to), from, bytes,
-                          cudaMemcpyDeviceToHost, m_stream),
+    check(cudaMemcpyAsync(is_small ? m_pinned.data() : static_cast<void*>(to), from, bytes,
+                          cudaMemcpyDeviceToHost, stream()),
           "download");
     synchronize();
-    if (is_small) std::memcpy(static_cast<void*>(to), m_pinned, bytes);
+    if (is_small) std::memcpy(static_cast<void*>(to), m_pinned.data(), bytes);
   }
   template <class T>
   void fill(T* to, T value, std::size_t n)
   {
     if (n == 0) return;
-    fill_kernel<<<unsigned((n + 255) / 256), 256, 0, m_stream>>>(to, value, n);
+    fill_kernel<<<unsigned((n + 255) / 256), 256, 0, stream()>>>(to, value, n);
     check(cudaGetLastError(), "starting a kernel");
   }
 
-  cudaStream_t stream() const { return m_stream; }
-  void synchronize() { check(cudaStreamSynchronize(m_stream), "waiting for the kernels"); }
-  int multiprocessors() const { return m_multiprocessors; }
+  cudaStream_t stream() const { return m_stream->stream; }
+  void synchronize() { check(cudaStreamSynchronize(stream()), "waiting for the kernels"); }
+  int multiprocessors() const { return m_context.multiprocessors(); }
 
   /// The time on the device from `start_clock()` to the last `stop_clock()`.
-  void start_clock() { check(cudaEventRecord(m_begin, m_stream), "clock"); }
-  void stop_clock() { check(cudaEventRecord(m_end, m_stream), "clock"); }
+  void start_clock() { check(cudaEventRecord(m_stream->begin, stream()), "clock"); }
+  void stop_clock() { check(cudaEventRecord(m_stream->end, stream()), "clock"); }
   double seconds() const;
 
   std::size_t bytes() const { return m_bytes; }
-  const std::string& name() const { return m_name; }
-
-  /// \throws Cuda_error when the memory does not suffice
-  void* take(std::size_t bytes);
-  void give_back(void* p, std::size_t bytes) noexcept;
+  const std::string& name() const { return m_context.name(); }
 
 private:
-  void release() noexcept;
+  /// \throws Cuda_error when the memory does not suffice
+  void* take(std::size_t bytes);
+  /// The stream's work is waited for: the next who has it may be on another one.
+  void give_back(void* block, std::size_t bytes) noexcept;
+  void* take_pinned(std::size_t bytes);
+  void give_back_pinned(void* block, std::size_t bytes) noexcept;
 
   template <class F>
   int max_team_blocks() const
@@ -349,7 +356,7 @@ private:
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_multiprocessor, grid_team_kernel<F>,
                                                         grid_team_threads, 0),
           "occupancy");
-    return std::min(per_multiprocessor * m_multiprocessors, grid_team_blocks);
+    return std::min(per_multiprocessor * multiprocessors(), grid_team_blocks);
   }
   template <class F>
   void run_grid_team(int blocks, F f)
@@ -357,19 +364,17 @@ private:
     double* partials = m_partials.data();
     void* arguments[] = {&f, &partials};
     check(cudaLaunchCooperativeKernel(reinterpret_cast<void*>(grid_team_kernel<F>), dim3(blocks),
-                                      dim3(grid_team_threads), arguments, 0, m_stream),
+                                      dim3(grid_team_threads), arguments, 0, stream()),
           "starting a cooperative kernel");
   }
 
   static constexpr int small = 32768, few = 200000, max_totals = 128;
 
-  int m_device, m_multiprocessors = 0;
-  std::string m_name;
+  Device_context& m_context;
+  Borrowed_stream m_stream;
   std::size_t m_bytes = 0;
-  cudaStream_t m_stream = nullptr;
-  cudaEvent_t m_begin = nullptr, m_end = nullptr;
   static constexpr std::size_t pinned_bytes = 4096;
-  void* m_pinned = nullptr;
+  Pinned_block m_pinned;
   Buffer<double> m_partials;
   Buffer<unsigned> m_ticket;
   Buffer<std::uint64_t> m_keys; // of sort_order()

@@ -36,6 +36,11 @@ struct Cuda_device {
 /// The GPUs that can be used, at least one. \throws Cuda_error when there is none, saying why
 std::vector<Cuda_device> cuda_devices();
 
+/// \ingroup PkgPowerRTFTraits
+/// Frees the memory of a GPU that a process keeps between its runs for the next one.
+/// \throws Cuda_error when there is no such GPU
+void release_cuda_memory(int device = 0);
+
 /// Numbers that cells are computed in; sums are always double.
 enum class Cuda_precision { single_precision, double_precision };
 
