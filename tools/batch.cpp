@@ -19,6 +19,7 @@
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <set>
 #include <vector>
 
 namespace tools {
@@ -175,6 +176,8 @@ private:
     ++m_finished;
     if (item.is_done) ++m_written;
     m_progress.clear();
+    if (run.has_gpu_failed && !m_options.quiet && m_told_of_gpu.insert(run.gpu_not_used).second)
+      tell_of_gpu(run);
     if (!item.is_done)
       fail(item.failure);
     else if (!m_options.quiet)
@@ -198,7 +201,8 @@ private:
   const Program_options& m_options;
   int m_threads;
   std::vector<Item> m_items;
-  std::vector<Run> m_runs; // for the report
+  std::vector<Run> m_runs;             // for the report
+  std::set<std::string> m_told_of_gpu; // why it failed: for the first mesh that it did
   std::size_t m_finished = 0, m_written = 0;
   Progress m_progress;
   std::mutex m_mutex;

@@ -52,6 +52,12 @@ void print_faults(const Run& run)
                             " cells are wrong that were certified: a bug of this program"});
 }
 
+void tell_of_gpu(const Run& run)
+{
+  std::cerr << "power_rtf_remesh: " << run.options.input
+            << ": goes on with the CPU: " << run.gpu_not_used << '\n';
+}
+
 Exit_code fail(const Failure& failure)
 {
   std::cerr << "power_rtf_remesh: " << failure.message << '\n';

@@ -36,6 +36,9 @@ Exit_code exit_code(const Run& run);
 /// Tells the user what is wrong with the result.
 void print_faults(const Run& run);
 
+/// Tells the user why the CPU stands in for a GPU.
+void tell_of_gpu(const Run& run);
+
 /// Tells the user that something failed. \returns the code
 Exit_code fail(const Failure& failure);
 

@@ -8,6 +8,7 @@
 #include "html_page.h"
 #include "input_fields.h"
 #include "mesh_io.h"
+#include "outcome.h"
 #include "output_file.h"
 #include "traits.h"
 #include "transfer.h"
@@ -316,14 +317,22 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
   const bool keeps_input = is_search || has_sources(input.mesh, options);
   Surface surface = prepare(keeps_input ? Polygon_soup(soup) : std::move(soup), input.fields, run);
   if (is_search) guess_samples(surface, run);
-  with_traits(options.traits, run.options.remeshing, [&](auto traits, const std::string& why) {
+  const Run prepared = run;
+  const auto remesh = [&](auto traits, const std::string& why, bool has_gpu_failed) {
     using Traits = typename decltype(traits)::type;
+    run = prepared; // without what a GPU that has failed has left, as the outputs
     run.gpu_not_used = why;
+    run.has_gpu_failed = has_gpu_failed;
+    if (has_gpu_failed && !options.quiet) {
+      progress.clear();
+      tell_of_gpu(run);
+    }
     if (is_search) surface = surface_within_distance<Traits>(input, run, progress);
-    outputs.emplace(); // without those of a GPU that has failed
+    outputs.emplace();
     const bool may_fail = options.traits == "auto" && Traits::name() == std::string("cuda");
     make_results<Traits>(run, input.mesh, may_fail ? surface : std::move(surface), *outputs);
-  });
+  };
+  with_traits(options.traits, prepared.options.remeshing, remesh);
 }
 
 } // namespace

@@ -27,6 +27,7 @@ struct Run {
   Program_options options;
   CGAL::PowerRTF::Remeshing_report report;
   std::string gpu_not_used;                  ///< why --traits auto took the CPU
+  bool has_gpu_failed = false;               ///< that is why
   std::vector<std::string> not_carried_over; ///< to the output: "normals"
   int threads = 1;                           ///< used
   std::vector<std::string> missed;           ///< guarantees

@@ -43,34 +43,36 @@ inline bool is_gpu_faster(const CGAL::PowerRTF::Remeshing_options& options)
 }
 #endif
 
-/// Returns `run(Type<Traits>(), gpu_not_used)` for the traits of that name; `gpu_not_used` says why
-/// no GPU is used although any traits will do. For "auto", it is the faster of CPU and GPU, and the
-/// CPU stands in for a GPU that fails.
+/// Returns `run(Type<Traits>(), gpu_not_used, has_failed)` for the traits of that name. For "auto",
+/// they are the faster of CPU and GPU, and the CPU stands in for a GPU that fails: `run` is called
+/// again, unless the GPU fails before. `gpu_not_used` says why no GPU is used although any traits
+/// will do, `has_failed` whether it could not.
 template <class Run>
 auto with_traits(const std::string& name, const CGAL::PowerRTF::Remeshing_options& options,
                  const Run& run)
 {
   using Cpu_traits = CGAL::PowerRTF_traits_3<Kernel, Concurrency>;
   if (name == "exact")
-    return run(Type<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(), std::string());
-  if (name == "cpu") return run(Type<Cpu_traits>(), std::string());
+    return run(Type<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(), std::string(), false);
+  if (name == "cpu") return run(Type<Cpu_traits>(), std::string(), false);
 #ifdef CGAL_POWER_RTF_WITH_CUDA
   if (name == "auto" && !is_gpu_faster(options))
-    return run(Type<Cpu_traits>(), std::string("the CPU is faster for so few samples"));
+    return run(Type<Cpu_traits>(), std::string("the CPU is faster for so few samples"), false);
   std::string gpu_not_used;
   try {
     CGAL::PowerRTF::cuda_devices(); // before any work is done
-    return run(Type<CGAL::PowerRTF_cuda_traits_3<Kernel>>(), std::string());
+    return run(Type<CGAL::PowerRTF_cuda_traits_3<Kernel>>(), std::string(), false);
   } catch (const CGAL::PowerRTF::Cuda_error& e) {
     if (name == "cuda")
       throw CGAL::PowerRTF::Cuda_error(std::string("--traits cuda cannot be used: ") + e.what());
     gpu_not_used = e.what();
   }
+  return run(Type<Cpu_traits>(), gpu_not_used, true);
 #else
   (void)options;
-  const std::string gpu_not_used = "the CUDA traits are not built into this program";
+  return run(Type<Cpu_traits>(), std::string("the CUDA traits are not built into this program"),
+             false);
 #endif
-  return run(Type<Cpu_traits>(), gpu_not_used);
 }
 
 } // namespace tools

@@ -133,7 +133,7 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
             ? std::size_t(std::clamp(samples_of_sphere(surface, run.report.max_distance), 4., 3e8))
             : run.report.samples_asked;
     result = tools::with_traits(
-        name, run.options.remeshing, [&](auto traits, const std::string& gpu_not_used) {
+        name, run.options.remeshing, [&](auto traits, const std::string& gpu_not_used, bool) {
           using Traits = typename decltype(traits)::type;
           run.gpu_not_used = gpu_not_used;
           if (is_search) {

@@ -102,14 +102,19 @@ for name in features density-power oversampling normal-smoothing normal-angle gu
   for value in nan inf -inf 1e400; do refuse $name $value 'not a number'; done
 done
 many=(-n $((300 * $(nproc))) --weight-method multiplicative --iterations 1 --max-weight-iterations 1
-      --improvement no --quiet)
+      --improvement no)
 said=$("$program" torus.off cuda.off "${fast[@]}" --traits cuda 2>&1)
 case $? in # a program without the engine; a machine without a GPU; a machine with one
 2) run 2 cuda 'not built' -- torus.off out.off --traits cuda ;;
 1)
   run 1 'GPU' -- torus.off out.off "${fast[@]}" --traits cuda
-  run 0 -- torus.off out.off "${many[@]}" --traits auto --report r.json
+  run 0 'goes on with the CPU: ' -- torus.off out.off "${many[@]}" --traits auto --report r.json
   expect 'the report says why there is no GPU' grep -q '"gpu_not_used": ".*GPU' r.json
+  run 0 -- torus.off out.off "${many[@]}" --traits auto --quiet
+  expect 'who wants it quiet hears of no GPU' [ ! -s stderr ]
+  mkdir several && cp torus.off several/a.off && cp torus.off several/b.off
+  run 0 'goes on with the CPU: ' -- --batch several out "${many[@]}" --traits auto
+  expect 'many meshes hear once of the GPU' [ "$(grep -c CPU stderr)" -eq 1 ]
   ;;
 *)
   expect "--traits cuda: $said" test -s cuda.off
