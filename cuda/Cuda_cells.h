@@ -38,6 +38,19 @@ public:
       : m_backend(backend), m_builder(backend, max_sites, cos_angle, Real(options.guard_factor))
   {}
 
+  /// What so many sites take.
+  static std::size_t bytes(int sites, bool has_features)
+  {
+    return Cell_builder<Real>::bytes(sites, has_features);
+  }
+  /// What `neighbors()` takes beside that.
+  static std::size_t neighbors_bytes(int cells)
+  {
+    const std::size_t n = std::min(cells, chunk);
+    return internal::bytes_of_listed<Neighbor_rows>(n) + cells * sizeof(unsigned char) +
+           n * least_edges * sizeof(int);
+  }
+
   void set_sites(const Sites_arrays<Real>& in)
   {
     m_cells = in.cells;
@@ -87,12 +100,26 @@ private:
   template <class T>
   using Buffer = Cuda_backend::Buffer<T>;
   static constexpr int stride = Tangent_polygon<Real>::capacity;
+  static constexpr int chunk = 1 << 20; // cells: 800 megabytes; each constructs all cells again
+  static constexpr int least_edges = 5; // of a cell, on average: mostly 6
+
+  struct Neighbor_rows {
+    Buffer<int> sizes, padded;
+    Buffer<std::size_t> first;
+
+    template <class F>
+    static void for_each_array(F&& f, std::size_t cells)
+    {
+      f(&Neighbor_rows::sizes, cells);
+      f(&Neighbor_rows::padded, cells * stride);
+      f(&Neighbor_rows::first, cells);
+    }
+  };
 
   // Calls `f(begin, end, statuses)`; `statuses`: of all cells.
   template <class F>
   void for_each_chunk(F&& f)
   {
-    constexpr int chunk = 1 << 20; // 800 megabytes; each constructs all cells again
     Buffer<unsigned char> statuses;
     statuses.allocate(m_backend, m_cells);
     for (int begin = 0; begin < m_cells; begin += chunk)
@@ -103,17 +130,16 @@ private:
   void add_neighbors(int begin, int end, unsigned char* statuses, Neighbor_cycles& all)
   {
     const std::size_t n = end - begin, before = all.neighbors.size();
-    Buffer<int> sizes, padded, packed;
-    Buffer<std::size_t> first;
-    sizes.allocate(m_backend, n);
-    padded.allocate(m_backend, n * stride);
-    m_builder.polygons(begin, end, sizes.data(), nullptr, nullptr, padded.data(), statuses);
-    for (const int size : downloaded(sizes)) all.first.push_back(all.first.back() + size);
-    first.allocate(m_backend, n);
-    m_backend.upload(first.data(), all.first.data() + begin, n);
+    Neighbor_rows rows;
+    internal::allocate_listed(m_backend, rows, n);
+    m_builder.polygons(begin, end, rows.sizes.data(), nullptr, nullptr, rows.padded.data(),
+                       statuses);
+    for (const int size : downloaded(rows.sizes)) all.first.push_back(all.first.back() + size);
+    m_backend.upload(rows.first.data(), all.first.data() + begin, n);
+    Buffer<int> packed;
     packed.allocate(m_backend, all.first.back() - before);
-    m_backend.for_each(int(n),
-                       Pack_rows{sizes.data(), first.data(), before, padded.data(), packed.data()});
+    m_backend.for_each(int(n), Pack_rows{rows.sizes.data(), rows.first.data(), before,
+                                         rows.padded.data(), packed.data()});
     all.neighbors.resize(all.first.back());
     m_backend.download(all.neighbors.data() + before, packed.data(), packed.size());
   }

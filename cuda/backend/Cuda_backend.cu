@@ -14,8 +14,7 @@ namespace CGAL::PowerRTF::device {
 Cuda_backend::Cuda_backend(int device)
     : m_context(Device_context::of(device)), m_stream(m_context), m_pinned(*this, pinned_bytes)
 {
-  m_partials.allocate(*this, std::size_t(reduction_blocks) * max_totals);
-  m_ticket.allocate(*this, 1);
+  internal::allocate_listed(*this, *this);
   fill(m_ticket.data(), 0u, 1);
   start_clock();
   stop_clock();
@@ -30,6 +29,7 @@ void* Cuda_backend::take(std::size_t bytes)
                      " more were needed beside " + gibibytes(m_bytes) + " in use; " +
                      gibibytes(m_context.free_bytes()) + " are free");
   m_bytes += bytes;
+  m_most_bytes = std::max(m_most_bytes, m_bytes);
   return block;
 }
 
@@ -61,24 +61,49 @@ double Cuda_backend::seconds() const
   return milliseconds * 1e-3;
 }
 
-void Cuda_backend::sort_order(int n, std::uint64_t* keys, int* order)
+namespace {
+
+/// The first bit of the keys that counts for n items.
+int first_bit(int n)
 {
   // Cubes about a quarter of the samples' spacing wide; a pass of the sort takes eight bits.
   int levels = 2;
   while (levels < 21 && (1ll << 2 * (levels - 2)) < n) ++levels;
-  const int begin = std::max(63 - (3 * levels + 7) / 8 * 8, 0);
-  m_keys.allocate(*this, n);
-  m_places.allocate(*this, n);
-  int* const places = m_places.data();
-  for_each(n, [=] __device__(int i) { places[i] = i; });
+  return std::max(63 - (3 * levels + 7) / 8 * 8, 0);
+}
+
+/// Sorts, or, if there is no scratch, writes how many bytes that needs.
+void sort_pairs(unsigned char* scratch, std::size_t& bytes, const std::uint64_t* keys,
+                std::uint64_t* sorted, const int* places, int* order, int n, cudaStream_t stream)
+{
+  check(cub::DeviceRadixSort::SortPairs(scratch, bytes, keys, sorted, places, order, n,
+                                        first_bit(n), 63, stream),
+        "sorting");
+}
+
+std::size_t sort_scratch_bytes(int n)
+{
   std::size_t bytes = 0;
-  check(cub::DeviceRadixSort::SortPairs(nullptr, bytes, keys, m_keys.data(), places, order, n,
-                                        begin, 63, stream()),
-        "sorting");
-  m_scratch.allocate(*this, bytes);
-  check(cub::DeviceRadixSort::SortPairs(m_scratch.data(), bytes, keys, m_keys.data(), places, order,
-                                        n, begin, 63, stream()),
-        "sorting");
+  sort_pairs(nullptr, bytes, nullptr, nullptr, nullptr, nullptr, n, nullptr);
+  return bytes;
+}
+
+} // namespace
+
+std::size_t Cuda_backend::least_bytes() { return internal::bytes_of_listed<Cuda_backend>(); }
+
+std::size_t Cuda_backend::sort_bytes(int n)
+{
+  return internal::bytes_of_listed<Sort_arrays>(n, sort_scratch_bytes(n));
+}
+
+void Cuda_backend::sort_order(int n, std::uint64_t* keys, int* order)
+{
+  std::size_t bytes = sort_scratch_bytes(n);
+  internal::allocate_listed(*this, m_sort, n, bytes);
+  int* const places = m_sort.places.data();
+  for_each(n, [=] __device__(int i) { places[i] = i; });
+  sort_pairs(m_sort.scratch.data(), bytes, keys, m_sort.keys.data(), places, order, n, stream());
 }
 
 int Cuda_backend::select(int n, const unsigned char* is_wanted, int* items)
@@ -90,8 +115,8 @@ int Cuda_backend::select(int n, const unsigned char* is_wanted, int* items)
   check(cub::DeviceSelect::Flagged(nullptr, bytes, all, is_wanted, items, m_selected.data(), n,
                                    stream()),
         "selecting");
-  m_scratch.allocate(*this, bytes);
-  check(cub::DeviceSelect::Flagged(m_scratch.data(), bytes, all, is_wanted, items,
+  m_sort.scratch.allocate(*this, bytes);
+  check(cub::DeviceSelect::Flagged(m_sort.scratch.data(), bytes, all, is_wanted, items,
                                    m_selected.data(), n, stream()),
         "selecting");
   int count = 0;

@@ -9,6 +9,7 @@
 
 #include "Device_context.h"
 #include "kernels.cuh"
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 
 #include <cuda_runtime.h>
 
@@ -26,6 +27,7 @@ class Cuda_backend {
 public:
   static constexpr bool is_host = false;
   static constexpr bool works_by_warps = true;
+  static constexpr int max_resident = 300000; ///< threads that a GPU runs at once
 
   /// Device memory that is given back with it. Its contents are lost when it grows.
   template <class T>
@@ -221,6 +223,14 @@ public:
     check(cudaGetLastError(), "starting a kernel");
   }
 
+  /// From the beginning; see listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f)
+  {
+    f(&Cuda_backend::m_partials, std::size_t(reduction_blocks) * max_totals);
+    f(&Cuda_backend::m_ticket, 1);
+  }
+
   cudaStream_t stream() const { return m_stream->stream; }
   void synchronize() { check(cudaStreamSynchronize(stream()), "waiting for the kernels"); }
   int multiprocessors() const { return m_context.multiprocessors(); }
@@ -230,10 +240,28 @@ public:
   void stop_clock() { check(cudaEventRecord(m_stream->end, stream()), "clock"); }
   double seconds() const;
 
-  std::size_t bytes() const { return m_bytes; }
+  /// The most that was held at a time.
+  std::size_t bytes() const { return m_most_bytes; }
+  /// What a backend has from the beginning, and what `sort_order()` of n items adds.
+  static std::size_t least_bytes();
+  static std::size_t sort_bytes(int n);
   const std::string& name() const { return m_context.name(); }
 
 private:
+  struct Sort_arrays {
+    Buffer<std::uint64_t> keys;
+    Buffer<int> places;
+    Buffer<unsigned char> scratch; // of all of CUB's functions
+
+    template <class F>
+    static void for_each_array(F&& f, std::size_t n, std::size_t scratch_bytes)
+    {
+      f(&Sort_arrays::keys, n);
+      f(&Sort_arrays::places, n);
+      f(&Sort_arrays::scratch, scratch_bytes);
+    }
+  };
+
   /// \throws Cuda_error when the memory does not suffice
   void* take(std::size_t bytes);
   /// The stream's work is waited for: the next who has it may be on another one.
@@ -264,14 +292,12 @@ private:
 
   Device_context& m_context;
   Borrowed_stream m_stream;
-  std::size_t m_bytes = 0;
+  std::size_t m_bytes = 0, m_most_bytes = 0;
   static constexpr std::size_t pinned_bytes = 4096;
   Pinned_block m_pinned;
   Buffer<double> m_partials;
   Buffer<unsigned> m_ticket;
-  Buffer<std::uint64_t> m_keys; // of sort_order()
-  Buffer<int> m_places;
-  Buffer<unsigned char> m_scratch;
+  Sort_arrays m_sort;
   Buffer<int> m_selected; // their number
 };
 

@@ -51,7 +51,7 @@ bool Cell_builder<Real>::start_weight_passes(const Weight_pass_input<Real>& in)
   a.targets.radius = m_radius.data();
   a.targets.guard = m_guard.data();
   a.targets.out = in.out;
-  a.links = {m_next.data(), m_previous.data()};
+  a.links = {m_links.next.data(), m_links.previous.data()};
   a.in = in;
   a.records = m_pass_records.data();
   a.masses = m_partials.data();

@@ -23,31 +23,7 @@ Cell_builder<Real>::Cell_builder(Cuda_backend& backend, int max_sites, Real cos_
                                  Real guard_factor)
     : m_backend(backend), m_cos_angle(cos_angle), m_guard_factor(guard_factor)
 {
-  m_order.allocate(backend, max_sites);
-  m_packed.allocate(backend, max_sites);
-  m_packed_normals.allocate(backend, max_sites);
-  m_density_root.allocate(backend, max_sites);
-  m_nodes.allocate(backend, Group_layout(max_sites).nodes());
-  m_radius.allocate(backend, max_sites);
-  m_guard.allocate(backend, max_sites);
-  m_deferred.allocate(backend, max_sites);
-  m_deferred_counts.allocate(backend, 2);
-  m_ticket.allocate(backend, 1);
-  m_keys.allocate(backend, max_sites);
-  const int groups = Group_layout(max_sites).nodes(0);
-  m_list_neighbors.allocate(backend, std::size_t(Verlet_lists<Real>::capacity) * max_sites);
-  m_list_sizes.allocate(backend, max_sites);
-  m_list_radius.allocate(backend, max_sites);
-  m_list_outside.allocate(backend, max_sites);
-  m_list_weights.allocate(backend, max_sites);
-  m_group_radius.allocate(backend, groups);
-  m_groups.allocate(backend, std::size_t(Verlet_lists<Real>::max_groups) * groups);
-  m_group_sizes.allocate(backend, groups);
-  m_growth.allocate(backend, groups);
-  m_all_growth.allocate(backend, 1);
-  m_open_groups.allocate(backend, groups);
-  m_open_lanes.allocate(backend, groups);
-  m_open_counts.allocate(backend, 2);
+  internal::allocate_listed(backend, *this, max_sites);
   backend.fill(m_open_counts.data(), 0, 2);
   backend.fill(m_deferred_counts.data(), 0, 2);
   backend.fill(m_ticket.data(), 0u, 1);
@@ -146,11 +122,11 @@ void Cell_builder<Real>::sort(const Sites_arrays<Real>& arrays)
 template <class Real>
 void Cell_builder<Real>::link_features(const Sites_arrays<Real>& arrays)
 {
-  for (Buffer<int>* b : {&m_places, &m_next, &m_previous}) b->allocate(m_backend, m_order.size());
-  const int *const order = m_order.data(), *const places = m_places.data();
-  invert_order(m_backend, m_sites, order, m_places.data());
-  link_places(m_backend, m_sites, order, places, arrays.next, m_next.data());
-  link_places(m_backend, m_sites, order, places, arrays.previous, m_previous.data());
+  internal::allocate_listed(m_backend, m_links, m_order.size());
+  const int *const order = m_order.data(), *const places = m_links.places.data();
+  invert_order(m_backend, m_sites, order, m_links.places.data());
+  link_places(m_backend, m_sites, order, places, arrays.next, m_links.next.data());
+  link_places(m_backend, m_sites, order, places, arrays.previous, m_links.previous.data());
 }
 
 template <class Real>
@@ -206,7 +182,7 @@ void Cell_builder<Real>::construct(Cell_targets<Real>& targets)
   }
   check(cudaGetLastError(), "constructing cells");
   const int grid = std::min(blocks(m_cells, cell_warps<Real>), 4 * processors);
-  const Feature_links links{m_next.data(), m_previous.data()};
+  const Feature_links links{m_links.next.data(), m_links.previous.data()};
   deferred_cells_kernel<<<grid, 32 * cell_warps<Real>, 0, stream>>>(
       v, targets, links, m_deferred_counts.data() + (1 - turn));
   check(cudaGetLastError(), "constructing cells");
@@ -217,7 +193,7 @@ void Cell_builder<Real>::construct_by_warps(Cell_targets<Real>& targets)
 {
   targets.radius = m_radius.data();
   targets.guard = m_guard.data();
-  const Feature_links links{m_next.data(), m_previous.data()};
+  const Feature_links links{m_links.next.data(), m_links.previous.data()};
   warp_cells_kernel<<<blocks(m_sites, cell_warps<Real>), 32 * cell_warps<Real>, 0,
                       m_backend.stream()>>>(view(), targets, links);
   check(cudaGetLastError(), "constructing cells");

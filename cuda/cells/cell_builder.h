@@ -11,6 +11,7 @@
 #include "Weight_pass_state.h"
 
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/multiplicative_weights.h>
 
 namespace CGAL::PowerRTF::device {
@@ -36,6 +37,38 @@ public:
   /// compatible). `guard_factor`: see `Sites_view`.
   /// \throws Cuda_error when the memory does not suffice
   Cell_builder(Cuda_backend& backend, int max_sites, Real cos_angle, Real guard_factor);
+
+  /// But for those that only features and the weight passes need; see listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t sites)
+  {
+    using B = Cell_builder;
+    const Group_layout tree(static_cast<int>(sites));
+    const std::size_t groups = tree.nodes(0);
+    f(&B::m_order, sites);
+    f(&B::m_packed, sites);
+    f(&B::m_packed_normals, sites);
+    f(&B::m_nodes, tree.nodes());
+    for (auto array : {&B::m_density_root, &B::m_radius, &B::m_guard}) f(array, sites);
+    f(&B::m_deferred, sites);
+    f(&B::m_deferred_counts, 2);
+    f(&B::m_ticket, 1);
+    f(&B::m_keys, sites);
+    f(&B::m_list_neighbors, sites * Verlet_lists<Real>::capacity);
+    f(&B::m_list_sizes, sites);
+    for (auto array : {&B::m_list_radius, &B::m_list_outside, &B::m_list_weights}) f(array, sites);
+    f(&B::m_groups, groups * Verlet_lists<Real>::max_groups);
+    for (auto array : {&B::m_group_radius, &B::m_growth}) f(array, groups);
+    for (auto array : {&B::m_group_sizes, &B::m_open_groups}) f(array, groups);
+    f(&B::m_all_growth, 1);
+    f(&B::m_open_lanes, groups);
+    f(&B::m_open_counts, 2);
+  }
+  static std::size_t bytes(std::size_t sites, bool has_features)
+  {
+    return internal::bytes_of_listed<Cell_builder>(sites) +
+           (has_features ? internal::bytes_of_listed<Links>(sites) : 0);
+  }
 
   /// Sorts the sites and makes their tree. The arrays need not outlive the call's work.
   void set_sites(const Sites_arrays<Real>& arrays);
@@ -67,6 +100,16 @@ public:
 private:
   template <class T>
   using Buffer = Cuda_backend::Buffer<T>;
+
+  struct Links { // of features
+    Buffer<int> places, next, previous;
+
+    template <class F>
+    static void for_each_array(F&& f, std::size_t sites)
+    {
+      for (auto array : {&Links::places, &Links::next, &Links::previous}) f(array, sites);
+    }
+  };
 
   void sort(const Sites_arrays<Real>& arrays);
   void gather_sites(const Sites_arrays<Real>& arrays, bool positions);
@@ -117,7 +160,7 @@ private:
   Buffer<Weight_pass_state> m_pass_state;
   Buffer<Pass_record<Real>> m_pass_records;
   Buffer<Pass_counters<Real>> m_pass_counters;
-  Buffer<int> m_places, m_next, m_previous; // with features only
+  Links m_links;
   Buffer<std::uint64_t> m_keys;
 };
 

@@ -68,6 +68,36 @@ struct Start {
   }
 };
 
+/// What decides how much memory a run takes.
+inline Run_sizes sizes_of(const Case& c, const Start& start)
+{
+  const Surface& surface = start.patches->surface();
+  return {c.options.number_of_samples, surface.triangles.size(), surface.points.size(),
+          !surface.facet_patches.empty(), has_uniform_density(surface)};
+}
+
+/// The most memory that an engine on a device holds in a run with all kinds of steps.
+template <class Engine>
+std::size_t memory_of_run(const Case& c, const Start& start)
+{
+  const Remeshing_options& o = c.options;
+  const Surface& surface = start.patches->surface();
+  const Feature_samples& features = start.patches->features();
+  Engine engine(surface, o);
+  engine.set_samples(sample_surface<CGAL::Parallel_if_available_tag>(
+                         surface, o, features, nullptr, nullptr, engine.lattice_field_maker()),
+                     features);
+  for (int k = 0; k < 4; ++k) {
+    engine.build_cells();
+    if (o.weight_method == Weight_method::multiplicative) engine.optimize_weights(2);
+    engine.move_samples(k < 2 ? Position_method::lloyd : o.position_method);
+  }
+  engine.build_cells();
+  if (o.weight_method == Weight_method::newton) engine.newton_weights();
+  if (o.extraction == Extraction_method::cells) engine.neighbors();
+  return engine.device_report().bytes;
+}
+
 /// The samples of both engines in one order.
 struct Pairing {
   std::vector<int> of_first; ///< the second one's sample nearest to each of the first

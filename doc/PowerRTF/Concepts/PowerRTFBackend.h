@@ -21,6 +21,8 @@ class PowerRTFBackend {
 public:
   /// Whether the lanes of `for_each_by_warps()` are a warp, which needs lists of near vertices.
   static constexpr bool works_by_warps;
+  /// Items up to which `run_resident_team()` is worth trying.
+  static constexpr int max_resident;
 
   /// An array. It is default constructible and frees its memory; what it holds is lost when it
   /// grows.
@@ -92,8 +94,11 @@ public:
   void stop_clock();
   double seconds() const;
 
-  /// Memory of a device; 0 for the host.
+  /// The most memory of a device that was held at a time; 0 for the host.
   std::size_t bytes() const;
+  /// What a backend has from the beginning, and what `sort_order()` of n items adds; of a device.
+  static std::size_t least_bytes();
+  static std::size_t sort_bytes(int n);
 
   /// The name of the device; empty for the host.
   std::string name() const;

@@ -20,6 +20,10 @@ public:
   PowerRTFCells(Backend& backend, int max_sites, Real cos_angle, Real radius,
                 const CGAL::PowerRTF::Remeshing_options& options);
 
+  /// The memory that it takes for so many sites, and `neighbors()` beside that; of a device.
+  static std::size_t bytes(int max_sites, bool has_features);
+  static std::size_t neighbors_bytes(int cells);
+
   /// New sites. The arrays must live until the next call.
   void set_sites(const CGAL::PowerRTF::Sites_arrays<Real>& sites);
   /// The same sites with new weights.

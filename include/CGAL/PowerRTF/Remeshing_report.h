@@ -103,7 +103,7 @@ struct Stage_seconds {
 struct Device_report {
   std::string name;      ///< of the GPU; empty: the CPU
   double seconds = 0;    ///< on the device, from the upload of the first samples to the last cells
-  std::size_t bytes = 0; ///< of memory held on the device
+  std::size_t bytes = 0; ///< the most that was held on the device at a time
 };
 
 /// One outer iteration (one pass of Algorithm 3's loop).

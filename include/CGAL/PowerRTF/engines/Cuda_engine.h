@@ -11,8 +11,6 @@
 #include <CGAL/tags.h>
 
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -20,19 +18,17 @@ namespace CGAL::PowerRTF {
 template <class Real>
 struct Make_cuda_engine {
   using Concurrency_tag = Parallel_if_available_tag;
-  static void check(const Remeshing_options& options)
+  static constexpr Cuda_precision precision = sizeof(Real) == sizeof(float)
+                                                  ? Cuda_precision::single_precision
+                                                  : Cuda_precision::double_precision;
+  static void check(const Run_sizes& sizes, const Remeshing_options& options)
   {
-    const std::vector<Cuda_device> devices = cuda_devices();
-    if (options.device < 0 || options.device >= int(devices.size()))
-      throw Cuda_error("there is no GPU number " + std::to_string(options.device) +
-                       ": this machine has " + std::to_string(devices.size()));
+    check_cuda_device(sizes, options, precision);
   }
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
                                            const Remeshing_options& options)
   {
-    return make_cuda_engine(surface, options,
-                            sizeof(Real) == sizeof(float) ? Cuda_precision::single_precision
-                                                          : Cuda_precision::double_precision);
+    return make_cuda_engine(surface, options, precision);
   }
 };
 

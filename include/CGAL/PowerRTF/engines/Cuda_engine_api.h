@@ -44,6 +44,14 @@ void release_cuda_memory(int device = 0);
 /// Numbers that cells are computed in; sums are always double.
 enum class Cuda_precision { single_precision, double_precision };
 
+/// The memory of the GPU in bytes that a run takes, but for some per cent.
+std::size_t cuda_memory(const Run_sizes& sizes, const Remeshing_options& options,
+                        Cuda_precision precision);
+/// \throws Cuda_error when GPU number `options.device` cannot be used or has less memory free than
+/// the run takes, with how many samples would fit
+void check_cuda_device(const Run_sizes& sizes, const Remeshing_options& options,
+                       Cuda_precision precision);
+
 /// An engine on GPU number `options.device`. \throws Cuda_error
 std::unique_ptr<Engine_base> make_cuda_engine(const Packed_surface& surface,
                                               const Remeshing_options& options,

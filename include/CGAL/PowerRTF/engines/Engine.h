@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
 #include <CGAL/PowerRTF/optimization/position_steps.h>
 #include <CGAL/PowerRTF/optimization/weight_steps.h>
@@ -45,6 +46,30 @@ public:
     m_scalar.allocate(m_backend, 1);
   }
 
+  /// The most memory that a run holds at a time on a device, its backend's own included; see
+  /// Engine_memory.h.
+  static std::size_t bytes(const Run_sizes& sizes, const Remeshing_options& options);
+
+  /// Of n cells and the sites that clip them, but for what only some methods need; see
+  /// listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t cells, std::size_t sites, bool has_patches,
+                             bool has_features)
+  {
+    using E = Engine;
+    f(&E::m_sites, sites);
+    f(&E::m_normals, sites);
+    f(&E::m_facets, sites);
+    if (has_patches) f(&E::m_patches, sites);
+    if (has_features)
+      for (auto array : {&E::m_next, &E::m_previous}) f(array, sites);
+    for (auto array : {&E::m_density, &E::m_density_root}) f(array, sites);
+    for (auto array : {&E::m_area, &E::m_mass, &E::m_nearest, &E::m_sixth, &E::m_weights_before})
+      f(array, cells);
+    for (auto array : {&E::m_offset, &E::m_step}) f(array, cells);
+    for (auto array : {&E::m_status, &E::m_is_left_out}) f(array, cells);
+  }
+
   std::unique_ptr<Lattice_field_base> make_lattice_field(const std::vector<Lattice_nodes>& levels,
                                                          bool is_even, std::uint64_t seed) override
   {
@@ -74,7 +99,6 @@ private:
   using Buffer = typename Backend::template Buffer<T>;
   static constexpr int short_memory = 5; // of L-BFGS: the default
 
-  void allocate();
   void make_builder();
   void sort(const Engine_samples& samples);
   void upload_boundaries(const Engine_samples& samples);
@@ -162,6 +186,13 @@ private:
     double residual = std::numeric_limits<double>::infinity();
     Buffer<Site<Real>> sites;
     Buffer<int> facets;
+
+    template <class F>
+    static void for_each_array(F&& f, std::size_t sites)
+    {
+      f(&Best_state::sites, sites);
+      f(&Best_state::facets, sites);
+    }
   } m_best;
 
   Buffer<Cell_summary> m_summary;
@@ -178,6 +209,7 @@ private:
 
 } // namespace CGAL::PowerRTF
 
+#include <CGAL/PowerRTF/engines/Engine_memory.h>
 #include <CGAL/PowerRTF/engines/Engine_samples.h>
 #include <CGAL/PowerRTF/engines/Engine_steps.h>
 

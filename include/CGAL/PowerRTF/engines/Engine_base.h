@@ -51,6 +51,21 @@ struct Packed_surface {
   }
 };
 
+/// Whether a rule looks at the vertices nearest to a point.
+inline bool asks_for_vertices(const Remeshing_options& options)
+{
+  return options.projection == Projection::nearest_vertices ||
+         options.attributes == Attributes::nearest_vertices;
+}
+
+/// What decides, with the options, how much memory a run takes.
+struct Run_sizes {
+  std::size_t samples = 0;
+  std::size_t facets = 0, vertices = 0; ///< of the surface
+  bool has_patches = false;             ///< several
+  bool is_even = true;                  ///< the density is the same everywhere
+};
+
 /// The samples as arrays: the first `cells` have cells and move; the others only clip.
 struct Engine_samples {
   std::vector<Vec3d> points, normals;

@@ -47,7 +47,7 @@ void Engine<R, B, C>::set_samples(const Engine_samples& samples)
   m_cells = samples.cells;
   m_size = int(samples.size());
   m_has_patches = !samples.patches.empty();
-  allocate();
+  internal::allocate_listed(m_backend, *this, m_cells, m_size, m_has_patches, has_features());
   m_best.residual = std::numeric_limits<double>::infinity();
   forget_lbfgs();
   make_builder();
@@ -64,22 +64,6 @@ void Engine<R, B, C>::make_builder()
 {
   const double radius = first_search_radius(m_options.neighbors, m_area_of_surface, m_size);
   m_builder.emplace(m_backend, m_size, m_cos_angle, R(radius), m_options);
-}
-
-template <class R, class B, class C>
-void Engine<R, B, C>::allocate()
-{
-  const std::size_t n = m_cells, m = m_size;
-  for (Buffer<R>* b : {&m_density, &m_density_root}) b->allocate(m_backend, m);
-  for (Buffer<R>* b : {&m_area, &m_mass, &m_nearest, &m_sixth, &m_weights_before})
-    b->allocate(m_backend, n);
-  m_sites.allocate(m_backend, m);
-  m_normals.allocate(m_backend, m);
-  m_facets.allocate(m_backend, m);
-  if (m_has_patches) m_patches.allocate(m_backend, m);
-  m_offset.allocate(m_backend, n);
-  m_step.allocate(m_backend, n);
-  m_status.allocate(m_backend, n);
 }
 
 /// The samples with cells along a space-filling curve. Those that only clip are not sorted, so that
@@ -129,8 +113,6 @@ void Engine<R, B, C>::upload_boundaries(const Engine_samples& samples)
   std::vector<int> previous(m_size, -1);
   for (int i = 0; i < m_size; ++i)
     if (samples.next[i] >= 0) previous[samples.next[i]] = i;
-  m_next.allocate(m_backend, m_size);
-  m_previous.allocate(m_backend, m_size);
   m_backend.upload(m_next.data(), samples.next.data(), m_size);
   m_backend.upload(m_previous.data(), previous.data(), m_size);
 }

@@ -139,7 +139,6 @@ template <class R, class B, class C>
 void Engine<R, B, C>::choose_left_out()
 {
   if (m_is_left_out_known) return;
-  m_is_left_out.allocate(m_backend, m_cells);
   finish_cells();
   leave_out_unequalizable(m_backend, m_cells, usable_cells(), m_is_left_out.data(),
                           m_scalar.data());
@@ -197,8 +196,7 @@ double Engine<R, B, C>::remember_best()
   const double residual = summary().residual;
   if (residual < m_best.residual) {
     m_best.residual = residual;
-    m_best.sites.allocate(m_backend, m_size);
-    m_best.facets.allocate(m_backend, m_size);
+    internal::allocate_listed(m_backend, m_best, m_size);
     copy_state(m_backend, m_size, m_best.sites.data(), m_best.facets.data(), m_sites.data(),
                m_facets.data());
   }

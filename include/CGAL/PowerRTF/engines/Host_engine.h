@@ -15,7 +15,7 @@ namespace CGAL::PowerRTF {
 template <class Real, class Construction, class ConcurrencyTag>
 struct Make_host_engine {
   using Concurrency_tag = ConcurrencyTag;
-  static void check(const Remeshing_options&) {}
+  static void check(const Run_sizes&, const Remeshing_options&) {}
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
                                            const Remeshing_options& options);
 };

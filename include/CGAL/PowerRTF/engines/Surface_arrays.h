@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 
 #include <cstddef>
 #include <type_traits>
@@ -30,15 +31,42 @@ public:
 
   const Surface_view<Real>& view() const { return m_view; }
 
+  /// See listed_arrays.h. `has_vertex_tree`: for rules that ask for the nearest vertices.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t facets, std::size_t vertices, bool has_patches,
+                             bool has_vertex_tree)
+  {
+    using S = Surface_arrays;
+    f(&S::m_facets, facets);
+    f(&S::m_attributes, vertices);
+    f(&S::m_corners, 3 * facets);
+    f(&S::m_facet_nodes, Packed_tree_layout(int(facets)).nodes());
+    if (has_patches) f(&S::m_patches, facets);
+    if (!has_vertex_tree) return;
+    f(&S::m_vertices, vertices);
+    f(&S::m_vertex_nodes, Packed_tree_layout(int(vertices)).nodes());
+    f(&S::m_first_facet, vertices + 1);
+    f(&S::m_vertex_facets, 3 * facets);
+  }
+  /// What it takes on a device.
+  static std::size_t bytes(const Run_sizes& sizes, const Remeshing_options& options)
+  {
+    const bool has_vertex_tree = asks_for_vertices(options);
+    const std::size_t near = Backend::works_by_warps && has_vertex_tree
+                                 ? internal::bytes_of_listed<Near_vertices>(sizes.vertices)
+                                 : 0;
+    return near + internal::bytes_of_listed<Surface_arrays>(sizes.facets, sizes.vertices,
+                                                            sizes.has_patches, has_vertex_tree);
+  }
+
   /// Makes the lists of near vertices, for searches by warps: 260 bytes per vertex (`float`).
   void list_near_vertices(Backend& backend)
   {
     constexpr int capacity = Surface_view<Real>::near_vertices;
     const int n = m_view.vertex_tree.items;
-    m_near_lists.allocate(backend, std::size_t(n) * capacity);
-    m_near_reach.allocate(backend, n);
-    int* const lists = m_near_lists.data();
-    Real* const reach = m_near_reach.data();
+    internal::allocate_listed(backend, m_near, n);
+    int* const lists = m_near.lists.data();
+    Real* const reach = m_near.reach.data();
     const Surface_view<Real> view = m_view;
     backend.for_each(n, [=] CGAL_POWER_RTF_HD(int v) {
       const Vec3<Real> p = view.vertices[v];
@@ -55,52 +83,64 @@ private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
+  struct Near_vertices {
+    Buffer<int> lists;
+    Buffer<Real> reach;
+
+    template <class F>
+    static void for_each_array(F&& f, std::size_t vertices)
+    {
+      f(&Near_vertices::lists, vertices * Surface_view<Real>::near_vertices);
+      f(&Near_vertices::reach, vertices);
+    }
+  };
+
   void upload(Backend& backend, const Packed_surface& in)
   {
     const Surface_view<double> view = in.view();
-    const std::size_t facets = view.facet_tree.items, vertices = in.attributes.size();
+    const bool has_tree = !in.vertices.empty();
+    internal::allocate_listed(backend, *this, std::size_t(view.facet_tree.items),
+                              in.attributes.size(), view.patches != nullptr, has_tree);
     m_view.facet_tree = view.facet_tree;
     m_view.vertex_tree = view.vertex_tree;
-    m_view.facets = upload(backend, m_facets, facets, [&](std::size_t k) {
+    m_view.facets = upload_each(backend, m_facets, [&](std::size_t k) {
       const Facet_corners<double>& f = view.facets[k];
       return Facet_corners<Real>{to_real<Real>(f.a), to_real<Real>(f.b), to_real<Real>(f.c),
                                  to_real<Real>(f.normal)};
     });
-    m_view.attributes = upload(backend, m_attributes, vertices, [&](std::size_t v) {
+    m_view.attributes = upload_each(backend, m_attributes, [&](std::size_t v) {
       const Vertex_attributes<double>& a = view.attributes[v];
       return Vertex_attributes<Real>{to_real<Real>(a.normal), Real(a.density)};
     });
-    m_view.vertices = upload(backend, m_vertices, in.vertices.size(),
-                             [&](std::size_t v) { return to_real<Real>(view.vertices[v]); });
-    m_view.facet_vertices = upload(backend, m_corners, view.facet_vertices, 3 * facets);
-    m_view.patches = upload(backend, m_patches, view.patches, view.patches ? facets : 0);
-    m_view.facet_nodes = upload(backend, m_facet_nodes, view.facet_nodes, view.facet_tree.nodes());
-    m_view.vertex_nodes =
-        upload(backend, m_vertex_nodes, view.vertex_nodes, in.vertex_nodes.size());
-    m_view.first_facet = upload(backend, m_first_facet, view.first_facet, in.first_facet.size());
-    m_view.vertex_facets =
-        upload(backend, m_vertex_facets, view.vertex_facets, in.vertex_facets.size());
+    m_view.facet_vertices = upload(backend, m_corners, view.facet_vertices);
+    m_view.facet_nodes = upload(backend, m_facet_nodes, view.facet_nodes);
+    if (view.patches) m_view.patches = upload(backend, m_patches, view.patches);
+    if (!has_tree) return;
+    m_view.vertices = upload_each(backend, m_vertices,
+                                  [&](std::size_t v) { return to_real<Real>(view.vertices[v]); });
+    m_view.vertex_nodes = upload(backend, m_vertex_nodes, view.vertex_nodes);
+    m_view.first_facet = upload(backend, m_first_facet, view.first_facet);
+    m_view.vertex_facets = upload(backend, m_vertex_facets, view.vertex_facets);
   }
 
+  /// As many items as the buffer has.
   template <class T>
-  static const T* upload(Backend& backend, Buffer<T>& buffer, const T* items, std::size_t n)
+  static const T* upload(Backend& backend, Buffer<T>& buffer, const T* items)
   {
-    if (n == 0) return nullptr;
-    buffer.allocate(backend, n);
-    backend.upload(buffer.data(), items, n);
+    backend.upload(buffer.data(), items, buffer.size());
     return buffer.data();
   }
-  /// The items `item(i)`, i in [0, n).
+  /// The items `item(i)`.
   template <class T, class Item>
-  static const T* upload(Backend& backend, Buffer<T>& buffer, std::size_t n, const Item& item)
+  static const T* upload_each(Backend& backend, Buffer<T>& buffer, const Item& item)
   {
     std::vector<T> items;
-    items.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    items.reserve(buffer.size());
+    for (std::size_t i = 0; i < buffer.size(); ++i) {
       internal::Cancellation::poll_now_and_then();
       items.push_back(item(i));
     }
-    return upload(backend, buffer, items.data(), n);
+    return upload(backend, buffer, items.data());
   }
 
   Surface_view<Real> m_view;
@@ -109,8 +149,8 @@ private:
   Buffer<Child_boxes> m_facet_nodes, m_vertex_nodes;
   Buffer<Vertex_attributes<Real>> m_attributes;
   Buffer<Vec3<Real>> m_vertices;
-  Buffer<int> m_first_facet, m_vertex_facets, m_near_lists;
-  Buffer<Real> m_near_reach;
+  Buffer<int> m_first_facet, m_vertex_facets;
+  Near_vertices m_near;
 };
 
 } // namespace CGAL::PowerRTF

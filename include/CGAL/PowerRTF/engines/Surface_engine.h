@@ -59,6 +59,7 @@ protected:
   Surface_engine_base(const Surface& surface, const Remeshing_options& options, Make make,
                       internal::Concurrency concurrency);
   ~Surface_engine_base();
+  static Run_sizes run_sizes(const Surface& surface, const Remeshing_options& options);
 
 private:
   Engine_base& engine();
@@ -76,7 +77,7 @@ private:
 
 /// \cgalModels `PowerRTFEngine`
 ///
-/// \tparam Maker `Maker::check(options)` throws what keeps the engine from working;
+/// \tparam Maker `Maker::check(run_sizes, options)` throws what keeps the engine from working;
 /// `Maker::make(packed_surface, options)` returns a `std::unique_ptr<Engine_base>`;
 /// `Maker::Concurrency_tag` is that of the host's work.
 template <class Maker>
@@ -86,7 +87,7 @@ public:
   Surface_engine(const Surface& surface, const Remeshing_options& options)
       : Surface_engine_base(surface, options, &Maker::make, typename Maker::Concurrency_tag())
   {
-    Maker::check(options);
+    Maker::check(run_sizes(surface, options), options);
   }
 };
 

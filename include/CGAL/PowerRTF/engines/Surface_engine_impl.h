@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
 #include <CGAL/PowerRTF/engines/packed_surface.h>
+#include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 
 #include <cmath>
@@ -25,6 +26,13 @@ Surface_engine_base::Surface_engine_base(const Surface& surface, const Remeshing
 {}
 
 CGAL_POWER_RTF_INLINE Surface_engine_base::~Surface_engine_base() = default;
+
+CGAL_POWER_RTF_INLINE Run_sizes Surface_engine_base::run_sizes(const Surface& surface,
+                                                               const Remeshing_options& options)
+{
+  return {options.number_of_samples, surface.triangles.size(), surface.points.size(),
+          !surface.facet_patches.empty(), has_uniform_density(surface)};
+}
 
 CGAL_POWER_RTF_INLINE Cell_counts Surface_engine_base::cell_counts() const
 {

@@ -54,9 +54,7 @@ inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& t
     const Triangle& t = surface.triangles[tree.order()[k]];
     std::copy(t.begin(), t.end(), &result.facet_vertices[3 * k]);
   });
-  if (options.projection == Projection::nearest_vertices ||
-      options.attributes == Attributes::nearest_vertices)
-    add_vertex_tree(surface, tree, result);
+  if (asks_for_vertices(options)) add_vertex_tree(surface, tree, result);
   return result;
 }
 

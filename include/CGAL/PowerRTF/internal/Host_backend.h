@@ -27,6 +27,7 @@ class Host_backend {
 public:
   static constexpr bool is_host = true; ///< it works in the memory of the host
   static constexpr bool works_by_warps = false;
+  static constexpr int max_resident = 0;
   static internal::Concurrency concurrency() { return ConcurrencyTag(); }
 
   /// Memory that is freed with it. Its contents are lost when it grows.

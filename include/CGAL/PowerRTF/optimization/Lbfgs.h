@@ -11,6 +11,7 @@
 
 #include <CGAL/PowerRTF/geometry/vector.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 
 #include <cstddef>
 
@@ -163,13 +164,20 @@ public:
     m_products.allocate(backend, 1);
   }
 
+  /// Of n points; see listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t n)
+  {
+    f(&Lbfgs::m_steps, n * slots);
+    f(&Lbfgs::m_changes, n * slots);
+    f(&Lbfgs::m_last_points, n);
+    f(&Lbfgs::m_last_gradient, n);
+  }
+
   /// `memory`: pairs to keep, at most `Memory`.
   void resize(int n, int memory)
   {
-    m_steps.allocate(m_backend, std::size_t(n) * slots);
-    m_changes.allocate(m_backend, std::size_t(n) * slots);
-    m_last_points.allocate(m_backend, n);
-    m_last_gradient.allocate(m_backend, n);
+    internal::allocate_listed(m_backend, *this, n);
     m_n = n;
     m_pairs = memory;
     clear();

@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_OPTIMIZATION_MULTIGRID_H
 #define CGAL_POWER_RTF_OPTIMIZATION_MULTIGRID_H
 
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Laplacian_rows.h>
 
 #include <cstddef>
@@ -125,16 +126,23 @@ class Multigrid {
 public:
   explicit Multigrid(Backend& backend) : m_backend(backend) {}
 
+  /// What the levels of a matrix with n rows take.
+  static std::size_t bytes(int n)
+  {
+    std::size_t sum = internal::bytes_of_listed<Level>(n, true);
+    while (n > 1) {
+      n = aggregates(n);
+      sum += internal::bytes_of_listed<Level>(n, false);
+    }
+    return sum;
+  }
+
   /// Takes the matrix, which must live as long as `apply()` is called, and makes its levels.
   void set_rows(const Laplacian_rows<Real>& rows)
   {
     m_size = 0;
-    add_level().rows = rows;
+    add_level(rows.n).rows = rows;
     while (last().rows.n > 1) coarsen(last().rows);
-    for (std::size_t l = 0; l < m_size; ++l) {
-      m_levels[l]->smoothed.allocate(m_backend, m_levels[l]->rows.n);
-      m_levels[l]->result.allocate(m_backend, m_levels[l]->rows.n);
-    }
   }
 
   /// Approximates the solution for the right side r by one V-cycle, a linear operator that is
@@ -170,26 +178,41 @@ private:
     Buffer<double> diagonal;
     Buffer<double> residual;       // the right side; not of the first level
     Buffer<Real> smoothed, result; // after a first step of Jacobi's method; in the end
+
+    template <class F>
+    static void for_each_array(F&& f, std::size_t n, bool is_first)
+    {
+      f(&Level::smoothed, n);
+      f(&Level::result, n);
+      if (is_first) return;
+      f(&Level::size, n);
+      f(&Level::column, n * Laplacian_rows<Real>::capacity);
+      f(&Level::value, n * Laplacian_rows<Real>::capacity);
+      f(&Level::diagonal, n);
+      f(&Level::residual, n);
+    }
   };
 
+  static int aggregates(int n)
+  {
+    return (n + internal::multigrid_aggregate - 1) / internal::multigrid_aggregate;
+  }
+
   Level& last() { return *m_levels[m_size - 1]; }
-  Level& add_level()
+  Level& add_level(int n)
   {
     if (m_size == m_levels.size()) m_levels.push_back(std::make_unique<Level>());
-    return *m_levels[m_size++];
+    Level& level = *m_levels[m_size];
+    internal::allocate_listed(m_backend, level, n, m_size == 0);
+    ++m_size;
+    return level;
   }
 
   /// Adds the level of the aggregates.
   void coarsen(const Laplacian_rows<Real>& fine)
   {
-    constexpr int capacity = Laplacian_rows<Real>::capacity;
-    const int n = (fine.n + internal::multigrid_aggregate - 1) / internal::multigrid_aggregate;
-    Level& level = add_level();
-    level.size.allocate(m_backend, n);
-    level.column.allocate(m_backend, std::size_t(n) * capacity);
-    level.value.allocate(m_backend, std::size_t(n) * capacity);
-    level.diagonal.allocate(m_backend, n);
-    level.residual.allocate(m_backend, n);
+    const int n = aggregates(fine.n);
+    Level& level = add_level(n);
     level.rows = {level.size.data(), level.column.data(), level.value.data(), level.diagonal.data(),
                   n};
     internal::aggregate_rows(m_backend, fine, level.rows);

@@ -89,6 +89,19 @@ public:
     m_state.allocate(backend, 1);
   }
 
+  /// Of n unknowns, without the preconditioner's; see listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t n)
+  {
+    f(&Multigrid_gradients::m_directions, 2 * n);
+    f(&Multigrid_gradients::m_product, n);
+  }
+  /// What n unknowns take.
+  static std::size_t bytes(int n)
+  {
+    return internal::bytes_of_listed<Multigrid_gradients>(n) + Multigrid<Real, Backend>::bytes(n);
+  }
+
   /// Solves for x. `r`: the right side before, the residual after. It is enough where all residuals
   /// are at most `limits` (or null), or their norm is at most `tolerance` times the first.
   /// \returns the number of iterations; -1 if there were numbers that are none, x is then 0.
@@ -111,8 +124,9 @@ private:
 
   Backend& m_backend;
   Multigrid<Real, Backend> m_multigrid;
-  int m_now = 0; // which of the two directions
-  Buffer<double> m_direction[2], m_product;
+  int m_now = 0;               // which of the two directions
+  Buffer<double> m_directions; // one after the other
+  Buffer<double> m_product;
   Buffer<State> m_state;
 };
 
@@ -120,19 +134,18 @@ template <class Real, class Backend>
 int Multigrid_gradients<Real, Backend>::solve(const Laplacian_rows<Real>& rows, double* x,
                                               double* r, const double* limits, double tolerance)
 {
-  for (Buffer<double>* b : {&m_direction[0], &m_direction[1], &m_product})
-    b->allocate(m_backend, rows.n);
+  internal::allocate_listed(m_backend, *this, rows.n);
   m_multigrid.set_rows(rows);
-  internal::begin_gradients(m_backend, rows, x, r, limits, m_direction[m_now].data(),
-                            m_state.data());
+  double* const directions[] = {m_directions.data(), m_directions.data() + rows.n};
+  internal::begin_gradients(m_backend, rows, x, r, limits, directions[m_now], m_state.data());
   State s = state();
   const double enough = tolerance * tolerance * s.squares;
   int iterations = 0;
   for (; iterations < max_iterations && s.squares > enough && s.above > 0; ++iterations) {
     const Real* const z = m_multigrid.apply(r);
-    const double* const before = m_direction[m_now].data();
+    const double* const before = directions[m_now];
     m_now = 1 - m_now;
-    double *const direction = m_direction[m_now].data(), *const product = m_product.data();
+    double *const direction = directions[m_now], *const product = m_product.data();
     internal::find_direction(m_backend, rows, r, z, iterations == 0, before, direction, product,
                              m_state.data());
     internal::step_along(m_backend, rows.n, direction, product, x, r, limits, m_state.data());

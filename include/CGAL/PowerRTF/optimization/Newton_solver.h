@@ -10,6 +10,7 @@
 
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Multigrid_gradients.h>
 #include <CGAL/PowerRTF/optimization/Resident_gradients.h>
 #include <CGAL/PowerRTF/optimization/component_trees.h>
@@ -124,12 +125,32 @@ public:
     m_scalars.allocate(backend, 4);
   }
 
+  /// Of n cells, without those of the gradients; see listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t n)
+  {
+    using S = Newton_solver;
+    constexpr std::size_t row = Laplacian_rows<Row>::capacity;
+    f(&S::m_edge_count, n);
+    f(&S::m_edge_neighbor, n * edge_capacity);
+    f(&S::m_edge_ratio, n * edge_capacity);
+    for (auto array : {&S::m_row_size, &S::m_label, &S::m_is_anchored}) f(array, n);
+    f(&S::m_column, n * row);
+    f(&S::m_value, n * row);
+    for (auto array : {&S::m_diagonal, &S::m_x, &S::m_r, &S::m_limits}) f(array, n);
+    f(&S::m_exchanged, n <= Backend::max_resident ? 2 * n : 0);
+  }
+  /// What n cells take, all of them in one component.
+  static std::size_t bytes(int n)
+  {
+    return internal::bytes_of_listed<Newton_solver>(n) +
+           (n <= Backend::max_resident ? 0 : Multigrid_gradients<Row, Backend>::bytes(n));
+  }
+
   /// Where `build()` shall write the edges of n cells.
   void add_outputs(int n, Cell_outputs<Real>& out)
   {
-    m_edge_count.allocate(m_backend, n);
-    m_edge_neighbor.allocate(m_backend, std::size_t(n) * edge_capacity);
-    m_edge_ratio.allocate(m_backend, std::size_t(n) * edge_capacity);
+    internal::allocate_listed(m_backend, *this, n);
     out.edge_count = m_edge_count.data();
     out.edge_neighbor = m_edge_neighbor.data();
     out.edge_ratio = m_edge_ratio.data();
@@ -146,7 +167,6 @@ public:
   const double* direction() const { return m_x.data(); }
 
 private:
-  static constexpr int max_resident = 300000; ///< threads that a GPU runs at once
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
   using Row = float; ///< of the matrix: iterations wait for memory
@@ -169,7 +189,8 @@ private:
   Buffer<Real> m_edge_ratio;
   Buffer<int> m_row_size, m_column, m_label, m_is_anchored;
   Buffer<Row> m_value;
-  Buffer<double> m_diagonal, m_x, m_r, m_exchanged[2], m_limits, m_scalars;
+  Buffer<double> m_diagonal, m_x, m_r, m_limits, m_scalars;
+  Buffer<double> m_exchanged; // see `Resident_gradients`: one after the other
   Multigrid_gradients<Row, Backend> m_gradients;
   Buffer<long long> m_sums[2];
 };
@@ -179,12 +200,7 @@ void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* de
                                          const unsigned char* keeps_area, double capacity_tolerance,
                                          bool find_components)
 {
-  constexpr std::size_t capacity = Laplacian_rows<Row>::capacity;
   m_n = n;
-  for (Buffer<double>* b : {&m_diagonal, &m_x, &m_r, &m_limits}) b->allocate(m_backend, n);
-  for (Buffer<int>* b : {&m_row_size, &m_label, &m_is_anchored}) b->allocate(m_backend, n);
-  m_column.allocate(m_backend, n * capacity);
-  m_value.allocate(m_backend, n * capacity);
   assemble_laplacian(m_backend, edges(), rows());
   if (find_components)
     m_is_connected =
@@ -207,12 +223,11 @@ void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* de
 template <class Real, class Backend>
 void Newton_solver<Real, Backend>::iterate()
 {
-  if (m_n <= max_resident) {
-    for (Buffer<double>& b : m_exchanged) b.allocate(m_backend, m_n);
+  if (m_n <= Backend::max_resident) {
     const Resident_gradients<Row> resident{rows(),
                                            m_x.data(),
                                            m_r.data(),
-                                           {m_exchanged[0].data(), m_exchanged[1].data()},
+                                           {m_exchanged.data(), m_exchanged.data() + m_n},
                                            m_limits.data(),
                                            tolerance,
                                            200 + 4 * int(std::sqrt(double(m_n)))};

@@ -6,11 +6,13 @@
 #define CGAL_POWER_RTF_SAMPLING_LATTICE_FIELD_H
 
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
 #include <CGAL/PowerRTF/sampling/orientation_field.h>
 #include <CGAL/PowerRTF/sampling/position_field.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -76,6 +78,20 @@ public:
       m_levels.back().set_nodes(m_backend, nodes, reach);
       reach *= 2;
     }
+  }
+
+  /// The most that fields for so many points hold at a time on a device: while the finest level's
+  /// points are placed, or chosen.
+  static std::size_t bytes(std::size_t points, bool is_even)
+  {
+    const std::vector<std::size_t> sizes = lattice_levels(points);
+    const std::size_t n = sizes.front(), coarser = sizes.size() > 1 ? sizes[1] : 0;
+    std::size_t sum = Level::edges_bytes(n) + Level::solved_bytes(n, !is_even);
+    for (const std::size_t size : sizes) sum += Level::given_bytes(size);
+    const std::size_t placing = n * sizeof(Stored_waves) + Level::solved_bytes(coarser, !is_even);
+    const std::size_t choosing = n * (sizeof(Seen_point) + sizeof(unsigned char) + sizeof(int)) +
+                                 points * sizeof(Seen_point);
+    return sum + (std::max)(placing, choosing);
   }
 
   void solve(float factor) override
@@ -183,15 +199,37 @@ private:
       return v;
     }
 
+    /// Calls `f(array, nodes' array)`, but for those of sites.
+    template <class F>
+    static void for_each_given(F&& f)
+    {
+      f(&Level::points, &Lattice_nodes::points);
+      f(&Level::normals, &Lattice_nodes::normals);
+      f(&Level::components, &Lattice_nodes::components);
+      f(&Level::spacing, &Lattice_nodes::spacing);
+    }
+    // What n free nodes take on a device: as they come; in between; until the finer level has it.
+    static std::size_t given_bytes(std::size_t n)
+    {
+      std::size_t bytes = 0;
+      for_each_given([&](auto array, auto) { bytes += n * internal::item_size(array); });
+      return bytes;
+    }
+    static std::size_t edges_bytes(std::size_t n)
+    {
+      return n * Lattice_view::degree * sizeof(Lattice_edge);
+    }
+    static std::size_t solved_bytes(std::size_t n, bool is_turning)
+    {
+      return n * ((is_turning ? 2 : 1) * sizeof(Vec3f) + sizeof(Stored_waves));
+    }
+
     void set_nodes(Backend& backend, const Lattice_nodes& nodes, float neighbor_reach)
     {
       size = nodes.size();
       free = nodes.free;
       reach = neighbor_reach;
-      points.set(backend, nodes.points);
-      normals.set(backend, nodes.normals);
-      components.set(backend, nodes.components);
-      spacing.set(backend, nodes.spacing);
+      for_each_given([&](auto to, auto from) { (this->*to).set(backend, nodes.*from); });
       site_directions = nodes.directions.data();
       is_directed.set(backend, nodes.is_directed);
     }

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/sampling/lattice_points.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -41,6 +42,19 @@ struct Lattice_nodes {
     is_directed.resize(sites);
   }
 };
+
+constexpr double nodes_per_lattice_point = 4;
+
+/// The free nodes of each level, from fine to coarse, for a lattice of so many points.
+inline std::vector<std::size_t> lattice_levels(std::size_t points)
+{
+  constexpr double coarsening = 4, coarsest = 64;
+  std::vector<std::size_t> sizes;
+  for (double size = nodes_per_lattice_point * static_cast<double>(points);; size /= coarsening) {
+    sizes.push_back(static_cast<std::size_t>(std::ceil(size)));
+    if (size <= coarsest) return sizes;
+  }
+}
 
 /// Points of the lattice, and the node that each is nearest to.
 struct Chosen_points {

@@ -3,7 +3,7 @@
 //
 // Samples that begin as a hexagonal lattice wherever the surface lets them:
 //
-//   put nodes on the surface, `nodes_per_sample` times as many as samples
+//   put nodes on the surface, `nodes_per_lattice_point` times as many as samples
 //   find the directions of the rows on them (orientation_field.h)
 //   repeat: find the places of the lattice's points (position_field.h), count them, and scale the
 //     spacing, until there are n of them but for 3.5 %
@@ -91,8 +91,8 @@ public:
   }
 
 private:
-  static constexpr double nodes_per_sample = 4, coarsening = 4, tolerance = 0.035;
-  static constexpr int coarsest_level = 64, max_scalings = 2;
+  static constexpr double tolerance = 0.035;
+  static constexpr int max_scalings = 2;
   static constexpr std::size_t min_lattice = 50; // samples of a component
   static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
   static constexpr double cos_same_side = 0.2;   // of normals
@@ -121,18 +121,17 @@ private:
   void make_nodes()
   {
     const Surface_strata strata(m_surface, m_component, m_shares, m_backend.concurrency());
-    double count = nodes_per_sample * static_cast<double>(m_size);
-    if (count + static_cast<double>(m_features.sites.size()) >= Lattice_edge::none)
+    const double most = nodes_per_lattice_point * static_cast<double>(m_size);
+    if (most + static_cast<double>(m_features.sites.size()) >= Lattice_edge::none)
       throw Invalid_input_error(
           std::to_string(m_size) +
           " samples are more than a lattice can have: use another `sampling`");
-    for (int level = 0;; ++level, count /= coarsening) {
-      const std::size_t stride = std::size_t(1) << level; // as much farther apart as nodes
+    for (const std::size_t count : lattice_levels(m_size)) {
+      const std::size_t stride = std::size_t(1) << m_levels.size(); // twice as far apart each
       const std::size_t sites = (m_features.sites.size() + stride - 1) / stride;
       m_levels.emplace_back();
-      add_strata(strata, static_cast<int>(std::ceil(count)), sites, m_levels.back());
+      add_strata(strata, static_cast<int>(count), sites, m_levels.back());
       add_sites(stride, m_levels.back());
-      if (count <= coarsest_level) break;
     }
   }
 
