@@ -90,6 +90,7 @@ TEST_CASE("after memory has run out all goes on as before")
   Cuda_backend backend(0);
   const std::vector<double> before = work(backend, 100000, 20);
   const std::size_t bytes = backend.bytes();
+  release_cuda_memory(0);
   Cuda_backend::Buffer<char> all;
   CHECK_THROWS_WITH_AS(all.allocate(backend, free_on_device() * 2),
                        doctest::Contains("the memory of the GPU does not suffice"), Cuda_error);
