@@ -167,6 +167,31 @@ TEST_CASE("sheets that touch in a vertex still touch there, and in nothing else"
   }
 }
 
+TEST_CASE("a closed sheet that touches itself is one as it was given, several are a network")
+{
+  // Two opposite neighbors of a vertex meet above it: two edges are one for who merges vertices.
+  Soup pinched = shapes::icosphere(3);
+  const int middle = 500;
+  std::map<int, int> ring;
+  for (const Triangle& t : pinched.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (t[k] == middle) ring[t[(k + 1) % 3]] = t[(k + 2) % 3];
+  REQUIRE(ring.size() == 6);
+  const int a = ring.begin()->first, b = ring[ring[ring[a]]];
+  pinched.points[a] = pinched.points[b] = 1.2 * pinched.points[middle];
+  REQUIRE(crowded_edges(shapes::merged(pinched).triangles).size() == 1);
+
+  const auto prepared = [](const Soup& soup, Remeshing_report& report) {
+    return prepare_surface(soup.points, soup.triangles, options_for(Intersections::keep), report);
+  };
+  Remeshing_report one, two;
+  CHECK(prepared(pinched, one).points.size() == pinched.points.size());
+  CHECK(one.repairs.duplicate_vertices == 0);
+  const Soup cubes = shapes::joined(shapes::box(3), shapes::translated(shapes::box(3), {2, 2, 0}));
+  CHECK(prepared(cubes, two).seams.size() > 0);
+  CHECK(two.repairs.duplicate_vertices == 4);
+}
+
 TEST_CASE("sheets nearer to each other than their triangles' edges do not intersect")
 {
   Soup edge = shapes::rotated(shapes::box(3), 0.7); // one that a square cuts off a little below it

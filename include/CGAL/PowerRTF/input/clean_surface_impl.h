@@ -21,6 +21,7 @@
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/connected_components.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 
 #include <algorithm>
@@ -239,6 +240,7 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
 struct Repair_attempt {
   bool merges; ///< vertices at the same place
   Manifold_repair allowed;
+  bool is_of_pinches = false; ///< only where merging would join no parts that are given apart
 };
 
 inline std::vector<Repair_attempt> repair_attempts(Repair repair, Non_manifold non_manifold,
@@ -247,15 +249,35 @@ inline std::vector<Repair_attempt> repair_attempts(Repair repair, Non_manifold n
   using Allowed = Manifold_repair;
   std::vector<Repair_attempt> attempts{
       {true, repair == Repair::yes ? Allowed::orient : Allowed::none}};
-  if (repair == Repair::yes && non_manifold == Non_manifold::keep)
+  // Sheets that touch are right as they were given if they are closed without merging: first of all
+  // one that touches itself, then several, which a network would join.
+  if (repair == Repair::yes && non_manifold == Non_manifold::keep) {
+    if (has_duplicates) attempts.push_back({false, Allowed::orient, true});
     attempts.push_back({true, Allowed::network});
-  // Sheets that touch are right as they were given if they are closed without merging.
+  }
   if (has_duplicates) attempts.push_back({false, attempts[0].allowed});
   if (repair == Repair::yes && non_manifold == Non_manifold::split) {
     attempts.push_back({true, Allowed::split});
     attempts.push_back({true, Allowed::split_double});
   }
   return attempts;
+}
+
+/// The number of connected parts of the polygons, and of vertices that none has; `vertex[v]` stands
+/// for corner `v`.
+inline int number_of_parts(const Polygon_soup& soup, const std::vector<int>& vertex,
+                           Concurrency concurrency)
+{
+  const int vertices = static_cast<int>(vertex.size());
+  const int polygons = static_cast<int>(soup.first.size()) - 1;
+  return connected_components(concurrency, vertices + polygons,
+                              [&](int i, const auto& link) {
+                                if (i < vertices) return link(vertex[i]);
+                                const int k = i - vertices;
+                                for (int c = soup.first[k]; c < soup.first[k + 1]; ++c)
+                                  link(soup.corners[c]);
+                              })
+      .second;
 }
 
 CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair repair,
@@ -275,7 +297,11 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
   }
 
   std::string reason;
-  for (const auto& [merges, allowed] : repair_attempts(repair, non_manifold, duplicates > 0)) {
+  for (const auto& [merges, allowed, is_of_pinches] :
+       repair_attempts(repair, non_manifold, duplicates > 0)) {
+    if (is_of_pinches && number_of_parts(soup, vertex, concurrency) !=
+                             number_of_parts(soup, own_vertex, concurrency))
+      continue;
     Repair_counts counts = repairs;
     counts.unused_vertices += unused;
     if (merges) counts.duplicate_vertices += duplicates;
