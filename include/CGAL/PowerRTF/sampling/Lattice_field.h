@@ -141,7 +141,7 @@ public:
 private:
   // More make no better meshes (kitten, homer, fertility, rocker arm; n = 3000).
   static constexpr int coarsest_sweeps = 100, direction_sweeps = 10, wave_sweeps = 12,
-                       last_wave_sweeps = 6;
+                       last_wave_sweeps = 8;
   static constexpr float wave_acceleration = 1.6f; // without: 30 and 15 sweeps
   static constexpr int turning_sweeps = 3;
   static constexpr float neighbor_reach = 1.04f;    // of 4 nodes per point: 15 others are within
