@@ -71,9 +71,7 @@ struct Start {
 /// What decides how much memory a run takes.
 inline Run_sizes sizes_of(const Case& c, const Start& start)
 {
-  const Surface& surface = start.patches->surface();
-  return {c.options.number_of_samples, surface.triangles.size(), surface.points.size(),
-          !surface.facet_patches.empty(), has_uniform_density(surface)};
+  return Surface_engine_base::run_sizes(start.patches->surface(), c.options);
 }
 
 /// The most memory that an engine on a device holds in a run with all kinds of steps.

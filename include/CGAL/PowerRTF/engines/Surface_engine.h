@@ -51,6 +51,9 @@ public:
   Device_report device_report() const { return m_engine->device_report(); }
   const Facet_tree& facet_tree();
 
+  /// What decides how much memory a run takes on a device.
+  static Run_sizes run_sizes(const Surface& surface, const Remeshing_options& options);
+
 protected:
   using Make = std::unique_ptr<Engine_base> (*)(const Packed_surface&, const Remeshing_options&);
 
@@ -59,7 +62,6 @@ protected:
   Surface_engine_base(const Surface& surface, const Remeshing_options& options, Make make,
                       internal::Concurrency concurrency);
   ~Surface_engine_base();
-  static Run_sizes run_sizes(const Surface& surface, const Remeshing_options& options);
 
 private:
   Engine_base& engine();
