@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <iostream>
 #include <memory>
-#include <utility>
 
 using namespace engine_comparison;
 
@@ -27,43 +26,31 @@ class Counting_backend : public Backend {
 public:
   static constexpr bool is_host = false;
 
+  /// Bytes that count for as long as it lives.
+  struct Uncount {
+    std::size_t bytes;
+    void operator()(Counting_backend* backend) const { backend->m_bytes -= bytes; }
+  };
+  using Count = std::unique_ptr<Counting_backend, Uncount>;
+
   template <class T>
   class Buffer {
   public:
-    Buffer() = default;
-    Buffer(Buffer&& other) noexcept { swap(other); }
-    Buffer& operator=(Buffer&& other) noexcept
-    {
-      Buffer(std::move(other)).swap(*this);
-      return *this;
-    }
-    ~Buffer() { count(0); }
     void allocate(Counting_backend& backend, std::size_t n)
     {
-      m_backend = &backend;
       m_items.allocate(backend, n);
-      count(std::max(n, m_counted));
+      if (n * sizeof(T) > m_count.get_deleter().bytes) {
+        m_count.reset();
+        m_count = backend.counted(n * sizeof(T));
+      }
     }
     T* data() { return m_items.data(); }
     const T* data() const { return m_items.data(); }
     std::size_t size() const { return m_items.size(); }
 
   private:
-    void swap(Buffer& other) noexcept
-    {
-      std::swap(m_backend, other.m_backend);
-      std::swap(m_counted, other.m_counted);
-      std::swap(m_items, other.m_items);
-    }
-    void count(std::size_t n)
-    {
-      if (m_backend) m_backend->count(n * sizeof(T), m_counted * sizeof(T));
-      m_counted = n;
-    }
-
-    Counting_backend* m_backend = nullptr;
-    std::size_t m_counted = 0;
     Backend::Buffer<T> m_items;
+    Count m_count;
   };
 
   std::size_t bytes() const { return m_most; }
@@ -71,10 +58,11 @@ public:
   static std::size_t sort_bytes(int) { return 0; }
 
 private:
-  void count(std::size_t now, std::size_t before)
+  Count counted(std::size_t bytes)
   {
-    m_bytes += now - before;
+    m_bytes += bytes;
     m_most = std::max(m_most, m_bytes);
+    return {this, {bytes}};
   }
 
   std::size_t m_bytes = 0, m_most = 0;
