@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The program's large blocks of memory on huge pages, where Linux has them: 300 000 samples fault
-// on 270 000 small pages, and while the kernel makes these, threads wait for each other.
+// The program's large blocks of memory on huge pages, where Linux has them: while the kernel makes
+// small ones, threads wait for each other.
 #ifdef __linux__
 
 #include <cstddef>

@@ -116,7 +116,7 @@ Result remesh_with(tools::Run& run, const Input& input, Surface surface, Python_
 
 #ifdef CGAL_LINKED_WITH_TBB
 /// The arena of this thread's calls with so many threads; 0: all. It is kept: on a busy machine TBB
-/// (2021.8) frees no arena whose workers leave late, 7 kB a call.
+/// (2021.8) does not free an arena whose workers leave late.
 tbb::task_arena& own_arena(int threads)
 {
   thread_local std::map<int, tbb::task_arena> arenas;
