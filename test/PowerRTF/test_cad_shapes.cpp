@@ -126,10 +126,11 @@ TEST_CASE("a cone keeps its tip, in few long facets and in many")
       CAPTURE(rows);
       CAPTURE(samples);
       // Three triangles at the tip have angles of 38 degrees there: whether a vertex is on it is a
-      // matter of the start.
+      // matter of the start, so the mean of a few says little.
+      constexpr unsigned starts = 16;
       double mean = 0;
-      for (const unsigned seed : {0, 1, 2, 3})
-        mean += largest_distance(shapes::cone(64, 1, 3, rows), samples, seed) / 4;
+      for (unsigned seed = 0; seed < starts; ++seed)
+        mean += largest_distance(shapes::cone(64, 1, 3, rows), samples, seed) / starts;
       CHECK(mean <= 0.5);
     }
 }
