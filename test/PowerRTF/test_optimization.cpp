@@ -31,7 +31,9 @@ struct Capacity_edge {
 std::vector<double> newton_direction(const std::vector<double>& areas,
                                      const std::vector<double>& density,
                                      const std::vector<Capacity_edge>& edges,
-                                     const std::vector<unsigned char>& keeps_area)
+                                     const std::vector<unsigned char>& keeps_area,
+                                     double capacity_tolerance = 0,
+                                     const Newton_goal& goal = global_newton_goal)
 {
   const int n = int(areas.size());
   Backend backend;
@@ -45,7 +47,7 @@ std::vector<double> newton_direction(const std::vector<double>& areas,
     out.edge_neighbor[place] = e.j;
     out.edge_ratio[place] = e.ratio;
   }
-  solver.solve(n, areas.data(), density.data(), keeps_area.data(), 0, true);
+  solver.solve(n, areas.data(), density.data(), keeps_area.data(), capacity_tolerance, goal, true);
   return {solver.direction(), solver.direction() + n};
 }
 
@@ -117,6 +119,35 @@ TEST_CASE("Newton's direction in closed form")
       {1, 3, 10, 10}, {1, 1, 1, 1}, {{0, 1, 1}, {1, 0, 1}, {2, 3, 1}, {3, 2, 1}}, {0, 0, 0, 0});
   CHECK(apart[0] == Approx(1).epsilon(1e-6));
   CHECK(std::abs(apart[2]) < 1e-9);
+}
+
+TEST_CASE("Newton's direction for shares within a slack")
+{
+  const std::vector<Capacity_edge> edges = {{0, 1, 1}, {1, 0, 1}};
+  // The mean is 2, so the targets are 1.5 and 2.5; L + diag L / 2 is [.75 -.5; -.5 .75].
+  const std::vector<double> direction =
+      newton_direction({1, 3}, {1, 1}, edges, {0, 0}, 0.5, {0.5, 1});
+  CHECK(direction[0] == Approx(0.5 / 1.25).epsilon(1e-6));
+  CHECK(direction[1] == Approx(-0.5 / 1.25).epsilon(1e-6));
+  for (double dw : newton_direction({1.6, 2.4}, {1, 1}, edges, {0, 0}, 0.5, {0.5, 1}))
+    CHECK(dw == 0); // both are near enough
+  // One cell of many is too small: only those around it change.
+  const int n = 4000, middle = n / 2;
+  std::vector<double> areas(n, 1), density(n, 1);
+  areas[middle] = 0.5;
+  std::vector<Capacity_edge> chain;
+  for (int i = 0; i < n; ++i)
+    for (const int j : {(i + 1) % n, (i + n - 1) % n}) chain.push_back({i, j, 1});
+  const auto reach = [&](const Newton_goal& goal) { // the largest change far away, of the largest
+    const std::vector<double> direction =
+        newton_direction(areas, density, chain, std::vector<unsigned char>(n, 0), 0.04, goal);
+    double far = 0;
+    for (int i = 0; i < n; ++i)
+      if (std::abs(i - middle) > n / 4) far = std::max(far, std::abs(direction[i]));
+    return far / direction[middle];
+  };
+  CHECK(reach(local_newton_goal) < 1e-3);
+  CHECK(reach(global_newton_goal) > 0.1);
 }
 
 TEST_CASE("Newton's direction for many cells: the residual falls as far as is promised")

@@ -204,6 +204,7 @@ private:
   bool m_are_edges_wanted = false, m_are_edges_known = false; // of the cells, by Newton's steps
   bool m_are_distances_known = false, m_are_components_known = false, m_is_left_out_known = false;
   bool m_has_newton_overshot = false;
+  Newton_goal m_newton_goal = local_newton_goal;
   std::size_t m_constructions = 0;
 };
 

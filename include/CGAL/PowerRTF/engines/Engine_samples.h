@@ -135,6 +135,7 @@ void Engine<R, B, C>::set_sites()
   m_builder->set_sites(sites());
   m_are_distances_known = m_are_components_known = m_is_left_out_known = false;
   m_has_newton_overshot = false;
+  m_newton_goal = local_newton_goal;
   forget_summary();
 }
 

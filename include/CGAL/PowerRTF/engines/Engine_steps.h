@@ -163,7 +163,7 @@ bool Engine<R, B, C>::newton_weights()
     const Capacity_statistics before = summary().capacity;
     if (!(before.mean > 0)) return false; // all cells are left out
     newton().solve(m_cells, m_area.data(), m_density.data(), m_is_left_out.data(),
-                   m_options.capacity_tolerance, !m_are_components_known);
+                   m_options.capacity_tolerance, m_newton_goal, !m_are_components_known);
     m_are_components_known = true;
     gather_weights(m_backend, m_cells, m_sites.data(), m_weights_before.data());
     for (const double step : newton_weight_steps) {
@@ -171,10 +171,13 @@ bool Engine<R, B, C>::newton_weights()
       take_step(step);
       const Capacity_statistics after = summary().capacity;
       m_has_newton_overshot = step == 1 && has_overshot(before, after);
-      if (after.least > least_capacity(before) && after.rms < before.rms) return true;
+      if (!(after.least > least_capacity(before) && after.rms < before.rms)) continue;
+      if (step < 1 && has_stagnated(before, after)) m_newton_goal = global_newton_goal;
+      return true;
     }
     is_worth_another = leave_out_vanishing(m_backend, m_cells, usable_cells(), before,
-                                           m_is_left_out.data(), m_scalar.data());
+                                           m_is_left_out.data(), m_scalar.data()) ||
+                       confine(m_newton_goal);
     take_step(0);
   }
   return false;

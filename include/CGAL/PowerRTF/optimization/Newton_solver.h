@@ -14,6 +14,7 @@
 #include <CGAL/PowerRTF/optimization/Multigrid_gradients.h>
 #include <CGAL/PowerRTF/optimization/Resident_gradients.h>
 #include <CGAL/PowerRTF/optimization/component_trees.h>
+#include <CGAL/PowerRTF/optimization/newton_step_rules.h>
 
 #include <cmath>
 #include <cstddef>
@@ -42,13 +43,16 @@ template <class Real>
 struct Area_targets {
   const Real *area, *density;
   const unsigned char* keeps_area;
-  double part; ///< of its target, that an area may be off
+  double slack; ///< part of its share by which an area's target may differ from it
+  double part;  ///< of its target, that an area may be off
   double *residual, *limit;
 
   CGAL_POWER_RTF_HD void set(int i, double ratio) const
   {
-    const double target = keeps_area[i] ? double(area[i]) : ratio / density[i];
-    residual[i] = target - area[i];
+    const double own = area[i], share = keeps_area[i] ? own : ratio / density[i];
+    const double least = share * (1 - slack), most = share * (1 + slack);
+    const double target = own < least ? least : own > most ? most : own;
+    residual[i] = target - own;
     limit[i] = part * target;
   }
 };
@@ -105,10 +109,11 @@ void subtract_component_means(Backend& backend, int n, double* x, const Componen
   });
 }
 
-/// Solves L dw = target - area for the cells' weights, L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4 with
-/// e_ij the length of the edge in cell i and d_ij the tangential distance of site j: when w_i
-/// grows, the line moves by dw_i / (2 d_ij). On each connected component of the cells the target
-/// areas are c / rho_i with c such that the component's area is kept.
+/// Solves (L + s diag L) dw = target - area for the cells' weights, L_ij = -(e_ij/d_ij + e_ji/d_ji)
+/// / 4 with e_ij the length of the edge in cell i and d_ij the tangential distance of site j: when
+/// w_i grows, the line moves by dw_i / (2 d_ij). On each connected component of the cells the
+/// shares are c / rho_i with c such that the component's area is kept; a target is its share, or
+/// the nearest area within the slack around it. See newton_step_rules.h.
 template <class Real, class Backend>
 class Newton_solver {
 public:
@@ -161,7 +166,7 @@ public:
   /// the system cannot be solved. Cells with `keeps_area[i]` have their own area as the target.
   /// `find_components`: the cells may hang together in another way than last time.
   void solve(int n, const Real* area, const Real* density, const unsigned char* keeps_area,
-             double capacity_tolerance, bool find_components);
+             double capacity_tolerance, const Newton_goal& goal, bool find_components);
 
   /// n weights' changes; their mean on each component is 0 if nothing fixes it.
   const double* direction() const { return m_x.data(); }
@@ -198,10 +203,10 @@ private:
 template <class Real, class Backend>
 void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* density,
                                          const unsigned char* keeps_area, double capacity_tolerance,
-                                         bool find_components)
+                                         const Newton_goal& goal, bool find_components)
 {
   m_n = n;
-  assemble_laplacian(m_backend, edges(), rows());
+  assemble_laplacian(m_backend, edges(), goal.screening * capacity_tolerance, rows());
   if (find_components)
     m_is_connected =
         PowerRTF::find_components(m_backend, rows(), edges(), components(), m_scalars.data()) == 1;
@@ -210,7 +215,7 @@ void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* de
   long long* const sums[] = {m_is_connected ? nullptr : m_sums[0].data(),
                              m_is_connected ? nullptr : m_sums[1].data()};
   set_area_targets(m_backend, n,
-                   Area_targets<Real>{area, density, keeps_area,
+                   Area_targets<Real>{area, density, keeps_area, goal.slack * capacity_tolerance,
                                       part_of_interval * capacity_tolerance, m_r.data(),
                                       m_limits.data()},
                    m_label.data(), m_scalars.data(), sums[0], sums[1]);
