@@ -125,6 +125,13 @@ public:
     check(cudaGetLastError(), "starting a kernel");
   }
 
+  /// Calls `f(i)` for i in [0, n) in the host's memory.
+  template <class F>
+  static void for_each_on_host(int n, F&& f)
+  {
+    for (int i = 0; i < n; ++i) f(i);
+  }
+
   /// Calls `f(i, lanes)` for i in [0, n): by eight lanes each when there are few items.
   template <class F>
   void for_each_by_lanes(int n, F f)

@@ -20,6 +20,7 @@
 #include <CGAL/PowerRTF/cells/Edge_chain.h>
 #include <CGAL/PowerRTF/cells/Sites_view.h>
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,7 @@ public:
               const std::vector<Real>& radii)
   {
     if (int(m_lists.size()) != cells)
-      clear(view, cells); // the radii are guessed
+      clear(backend, view, cells); // the radii are guessed
     else if (m_is_out_of_date)
       make(backend, view, radii);
     track(backend, view);
@@ -204,13 +205,16 @@ private:
     return cos_angle <= -1 || dot(view.normals[i], view.normals[j]) > cos_angle;
   }
 
-  void clear(const Sites_view<Real>& view, int cells)
+  void clear(Backend& backend, const Sites_view<Real>& view, int cells)
   {
-    m_lists.assign(cells, List());
-    m_near.assign((cells + arity - 1) / arity, Near_leaves());
-    m_misses.assign(m_near.size(), 0);
-    m_then.resize(view.size());
-    m_leaf_changes.resize(view.tree.nodes(0));
+    const auto resize = [&](auto& items, int n) {
+      internal::resize_in_parallel(backend.concurrency(), items, n);
+    };
+    resize(m_lists, cells);
+    resize(m_near, (cells + arity - 1) / arity);
+    resize(m_misses, int(m_near.size()));
+    resize(m_then, view.size());
+    resize(m_leaf_changes, view.tree.nodes(0));
   }
 
   void make(Backend& backend, const Sites_view<Real>& view, const std::vector<Real>& radii)

@@ -68,10 +68,10 @@ struct Run_sizes {
 
 /// The samples as arrays: the first `cells` have cells and move; the others only clip.
 struct Engine_samples {
-  std::vector<Vec3d> points, normals;
-  std::vector<int> facets;  ///< places in the tree
-  std::vector<int> patches; ///< empty: all on one patch
-  std::vector<double> density, weights;
+  internal::Unset_vector<Vec3d> points, normals;
+  internal::Unset_vector<int> facets;  ///< places in the tree
+  internal::Unset_vector<int> patches; ///< empty: all on one patch
+  internal::Unset_vector<double> density, weights;
   /// Of each sample the next one along its patch's boundary, or -1; empty when all have cells.
   std::vector<int> next;
   int cells = 0;

@@ -72,8 +72,8 @@ template <class R, class B, class C>
 void Engine<R, B, C>::sort(const Engine_samples& samples)
 {
   const int n = m_cells, m = m_size;
-  std::vector<Site<R>> sites(m);
-  for (int i = 0; i < m; ++i) sites[i] = {to_real<R>(samples.points[i]), R(0)};
+  internal::Unset_vector<Site<R>> sites(m);
+  m_backend.for_each_on_host(m, [&](int i) { sites[i] = {to_real<R>(samples.points[i]), R(0)}; });
   m_backend.upload(m_sites.data(), sites.data(), m);
   Buffer<std::uint64_t> codes;
   Buffer<int> places;
@@ -87,17 +87,17 @@ void Engine<R, B, C>::sort(const Engine_samples& samples)
   std::iota(order.begin(), order.end(), 0);
   m_backend.download(order.data(), places.data(), n);
 
-  std::vector<int> facets(m), patches;
-  std::vector<Vec3<R>> normals(m);
-  std::vector<R> density(m);
-  for (int i = 0; i < m; ++i) {
+  internal::Unset_vector<int> facets(m), patches(m_has_patches ? m : 0);
+  internal::Unset_vector<Vec3<R>> normals(m);
+  internal::Unset_vector<R> density(m);
+  m_backend.for_each_on_host(m, [&](int i) {
     const int k = order[i];
     sites[i] = {to_real<R>(samples.points[k]), R(0)};
     facets[i] = samples.facets[k];
     normals[i] = to_real<R>(samples.normals[k]);
     density[i] = R(samples.density[k]);
-    if (m_has_patches) patches.push_back(samples.patches[k]);
-  }
+    if (m_has_patches) patches[i] = samples.patches[k];
+  });
   m_backend.upload(m_sites.data(), sites.data(), m);
   m_backend.upload(m_facets.data(), facets.data(), m);
   m_backend.upload(m_normals.data(), normals.data(), m);
@@ -144,9 +144,9 @@ Engine_samples Engine<R, B, C>::samples()
 {
   Engine_samples s;
   s.cells = m_cells;
-  std::vector<Site<R>> sites(m_size);
-  std::vector<Vec3<R>> normals(m_size);
-  std::vector<R> density(m_size);
+  internal::Unset_vector<Site<R>> sites(m_size);
+  internal::Unset_vector<Vec3<R>> normals(m_size);
+  internal::Unset_vector<R> density(m_size);
   s.facets.resize(m_size);
   m_backend.download(sites.data(), m_sites.data(), m_size);
   m_backend.download(normals.data(), m_normals.data(), m_size);
@@ -156,12 +156,14 @@ Engine_samples Engine<R, B, C>::samples()
     s.patches.resize(m_size);
     m_backend.download(s.patches.data(), m_patches.data(), m_size);
   }
-  for (int i = 0; i < m_size; ++i) {
-    s.points.push_back(to_double(sites[i].point));
-    s.weights.push_back(sites[i].weight);
-    s.normals.push_back(to_double(normals[i]));
-    s.density.push_back(density[i]);
-  }
+  for (auto v : {&s.points, &s.normals}) v->resize(m_size);
+  for (auto v : {&s.weights, &s.density}) v->resize(m_size);
+  m_backend.for_each_on_host(m_size, [&](int i) {
+    s.points[i] = to_double(sites[i].point);
+    s.weights[i] = sites[i].weight;
+    s.normals[i] = to_double(normals[i]);
+    s.density[i] = density[i];
+  });
   return s;
 }
 

@@ -83,12 +83,19 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
   const Samples sites = joined(samples, features.sites);
   m_sites = sites.size();
   Engine_samples to;
-  to.points = sites.points;
-  to.normals = sites.normals;
-  to.density = sites.density;
-  for (const int f : sites.facets) to.facets.push_back(m_tree->place(f));
-  if (!m_surface.facet_patches.empty())
-    for (const int f : sites.facets) to.patches.push_back(m_surface.facet_patches[f]);
+  const bool has_patches = !m_surface.facet_patches.empty();
+  for (auto v : {&to.points, &to.normals}) v->resize(m_sites);
+  to.density.resize(m_sites);
+  to.facets.resize(m_sites);
+  if (has_patches) to.patches.resize(m_sites);
+  internal::for_each_index(m_concurrency, int(m_sites), [&](int i) {
+    const int f = sites.facets[i];
+    to.points[i] = sites.points[i];
+    to.normals[i] = sites.normals[i];
+    to.density[i] = sites.density[i];
+    to.facets[i] = m_tree->place(f);
+    if (has_patches) to.patches[i] = m_surface.facet_patches[f];
+  });
   to.cells = static_cast<int>(m_size);
   if (features.sites.size() > 0) {
     to.next.assign(sites.size(), -1);
@@ -101,17 +108,24 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
 CGAL_POWER_RTF_INLINE Samples Surface_engine_base::gather(std::size_t count) const
 {
   const Engine_samples from = m_engine->samples();
-  const auto first = [&](const auto& items) {
-    return std::decay_t<decltype(items)>(items.begin(),
-                                         items.begin() + (items.empty() ? 0 : count));
-  };
   Samples to;
-  to.points = first(from.points);
-  to.normals = first(from.normals);
-  to.density = first(from.density);
-  to.weights = first(from.weights);
-  to.patches = first(from.patches);
-  for (std::size_t i = 0; i < count; ++i) to.facets.push_back(m_tree->order()[from.facets[i]]);
+  const auto resize = [&](auto& items, bool is_there) {
+    if (is_there) internal::resize_in_parallel(m_concurrency, items, count);
+  };
+  resize(to.points, true);
+  resize(to.normals, true);
+  resize(to.density, true);
+  resize(to.weights, true);
+  resize(to.facets, true);
+  resize(to.patches, !from.patches.empty());
+  internal::for_each_index(m_concurrency, int(count), [&](int i) {
+    to.points[i] = from.points[i];
+    to.normals[i] = from.normals[i];
+    to.density[i] = from.density[i];
+    to.weights[i] = from.weights[i];
+    to.facets[i] = m_tree->order()[from.facets[i]];
+    if (!to.patches.empty()) to.patches[i] = from.patches[i];
+  });
   return to;
 }
 

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -25,8 +26,8 @@ class Box_tree {
 public:
   /// `boxes`: finite.
   Box_tree(const std::vector<Box3<double>>& boxes, Concurrency concurrency)
-      : m_concurrency(concurrency), m_tree(int(boxes.size())), m_items(boxes.size()),
-        m_boxes(boxes.size()), m_nodes(m_tree.nodes())
+      : m_concurrency(concurrency), m_tree(int(boxes.size())), m_boxes(boxes.size()),
+        m_nodes(m_tree.nodes())
   {
     if (boxes.empty()) return;
     sort_items(boxes);
@@ -47,7 +48,7 @@ public:
   std::vector<std::pair<int, int>> pairs(IsWanted&& is_wanted, Test&& test) const
   {
     constexpr int leaves_per_chunk = 16;
-    std::vector<char> wanted(m_items.size()); // by place in the tree
+    Unset_vector<char> wanted(m_items.size()); // by place in the tree
     for_each_index(m_concurrency, int(wanted.size()),
                    [&](int place) { wanted[place] = is_wanted(m_items[place]); });
     const int leaves = m_tree.levels > 0 ? m_tree.nodes(0) : 0;
@@ -64,7 +65,7 @@ public:
 private:
   void sort_items(const std::vector<Box3<double>>& boxes)
   {
-    std::vector<Vec3d> centers(boxes.size());
+    Unset_vector<Vec3d> centers(boxes.size());
     for_each_index(m_concurrency, int(boxes.size()),
                    [&](int i) { centers[i] = 0.5 * boxes[i].lo + 0.5 * boxes[i].hi; });
     m_items = spatial_order(centers, m_concurrency);
@@ -74,7 +75,7 @@ private:
 
   // Those with a wanted box in a leaf; of two wanted ones the first in the tree finds the other.
   template <class Test>
-  void find_pairs(int leaf, const std::vector<char>& wanted, Test&& test,
+  void find_pairs(int leaf, const Unset_vector<char>& wanted, Test&& test,
                   std::vector<std::pair<int, int>>& found) const
   {
     const int first = m_tree.children_begin(leaf), last = m_tree.children_end(0, leaf);
@@ -96,9 +97,9 @@ private:
 
   Concurrency m_concurrency;
   Packed_tree_layout m_tree;
-  std::vector<int> m_items;          // by place in the tree
-  std::vector<Box3<double>> m_boxes; // by place
-  std::vector<Box3<double>> m_nodes;
+  std::vector<int> m_items;           // by place in the tree
+  Unset_vector<Box3<double>> m_boxes; // by place
+  Unset_vector<Box3<double>> m_nodes;
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/geometry/Box_tree.h>
 #include <CGAL/PowerRTF/geometry/triangles_intersect.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -54,8 +55,9 @@ public:
   std::vector<Pair> find_where(const Faces& faces, IsWanted&& is_wanted) const
   {
     const std::vector<Face> all(std::begin(faces), std::end(faces));
-    std::vector<Box3<double>> boxes(all.size());
-    std::vector<char> is_flat(all.size());
+    std::vector<Box3<double>> boxes;
+    resize_in_parallel(m_concurrency, boxes, all.size());
+    Unset_vector<char> is_flat(all.size());
     for_each_index(m_concurrency, int(all.size()), [&](int i) {
       const Triangle_points p = m_triangles.points(m_triangles.corners(all[i]));
       is_flat[i] = has_no_area(p);

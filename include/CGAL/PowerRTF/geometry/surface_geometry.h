@@ -45,9 +45,9 @@ inline void compute_geometry(Surface& surface, internal::Concurrency concurrency
 {
   const int facets = static_cast<int>(surface.triangles.size());
   const int vertices = static_cast<int>(surface.points.size());
-  surface.facet_normals.resize(facets);
-  surface.facet_areas.resize(facets);
-  surface.vertex_normals.resize(vertices);
+  internal::resize_in_parallel(concurrency, surface.facet_normals, facets);
+  internal::resize_in_parallel(concurrency, surface.facet_areas, facets);
+  internal::resize_in_parallel(concurrency, surface.vertex_normals, vertices);
   constexpr double pi = 3.14159265358979323846;
 
   internal::Unset_vector<std::array<double, 3>> angles(facets); // 0: the facet is degenerate

@@ -217,8 +217,10 @@ private:
     const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
       return !reaches || is_in_reach(Face(f), some, *reaches);
     });
-    std::vector<Vec3d> points(3 * faces.size());
-    std::vector<Triangle> triangles(faces.size());
+    std::vector<Vec3d> points;
+    std::vector<Triangle> triangles;
+    resize_in_parallel(concurrency, points, 3 * faces.size());
+    resize_in_parallel(concurrency, triangles, faces.size());
     for_each_index(concurrency, int(faces.size()), [&](int k) {
       const auto corners = m_mesh->points(topology().halfedge(Face(faces[k])));
       std::copy(corners.begin(), corners.end(), &points[3 * k]);

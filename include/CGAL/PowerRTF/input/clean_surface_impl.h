@@ -41,14 +41,18 @@ inline Triangle_soup triangle_soup(const std::vector<Vec3d>& points,
                                    std::vector<Triangle>&& triangles, Concurrency concurrency)
 {
   constexpr std::size_t max_unsorted = 1 << 16;
-  Triangle_soup soup{points, std::move(triangles), {}, {}, {}, {}};
-  soup.originals.resize(points.size());
-  std::iota(soup.originals.begin(), soup.originals.end(), 0);
-  if (soup.triangles.size() <= max_unsorted) return soup;
+  Triangle_soup soup{{}, std::move(triangles), {}, {}, {}, {}};
+  if (soup.triangles.size() <= max_unsorted) {
+    soup.points = points;
+    soup.originals.resize(points.size());
+    std::iota(soup.originals.begin(), soup.originals.end(), 0);
+    return soup;
+  }
   const int vertices = static_cast<int>(points.size()),
             facets = static_cast<int>(soup.triangles.size());
   soup.originals = spatial_order(points, concurrency);
-  std::vector<int> places(vertices);
+  resize_in_parallel(concurrency, soup.points, vertices);
+  Unset_vector<int> places(vertices);
   for_each_index(concurrency, vertices, [&](int v) {
     places[soup.originals[v]] = v;
     soup.points[v] = points[soup.originals[v]];
@@ -60,7 +64,8 @@ inline Triangle_soup triangle_soup(const std::vector<Vec3d>& points,
       concurrency, facets, points.size(),
       [&](int f) { return *std::min_element(soup.triangles[f].begin(), soup.triangles[f].end()); },
       [](int f) { return f; });
-  std::vector<Triangle> sorted(facets);
+  std::vector<Triangle> sorted;
+  resize_in_parallel(concurrency, sorted, facets);
   for_each_index(concurrency, facets,
                  [&](int k) { sorted[k] = soup.triangles[at_least_vertex.entries[k]]; });
   soup.triangles.swap(sorted);

@@ -75,7 +75,7 @@ inline std::vector<Triangle> triangulated(const Polygon_soup& soup,
            corner(k, 1) != corner(k, 2) && corner(k, 2) != corner(k, 0);
   };
   if (select(concurrency, polygons, [&](int k) { return !is_triangle(k); }).empty()) {
-    triangles.resize(polygons);
+    resize_in_parallel(concurrency, triangles, polygons);
     for_each_index(concurrency, polygons, [&](int k) {
       triangles[k] = {corner(k, 0), corner(k, 1), corner(k, 2)};
     });
@@ -123,7 +123,7 @@ inline Boxed_points boxed_points(const Polygon_soup& soup, Concurrency concurren
   for_each_index(concurrency, static_cast<int>(soup.corners.size()),
                  [&](int c) { atomic_store(&used[soup.corners[c]], 1); });
   result.normalization = unit_box(soup.points, used, concurrency);
-  result.points.resize(soup.points.size());
+  resize_in_parallel(concurrency, result.points, soup.points.size());
   for_each_index(concurrency, static_cast<int>(soup.points.size()), [&](int v) {
     result.points[v] = used[v] ? result.normalization.to_inside(soup.points[v]) : Vec3d{0, 0, 0};
   });
