@@ -39,7 +39,7 @@ void write_cells(std::ostream& out, Format format, Encoding encoding,
     std::vector<int> polygon(cell.vertices.size());
     std::iota(polygon.begin(), polygon.end(), static_cast<int>(data.points.size()));
     for (const auto& p : cell.vertices) data.points.push_back(normalization.to_outside(p));
-    data.polygons.push_back(std::move(polygon));
+    data.polygons.add(polygon);
     sample.integers.push_back(static_cast<int>(i));
     status.integers.push_back(static_cast<int>(cell.status));
     weight.values.push_back(square * cell.weight);

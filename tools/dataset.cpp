@@ -4,7 +4,7 @@
 
 #include "Text.h"
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <ostream>
@@ -117,8 +117,9 @@ void ply_fields(Rows& rows, const std::vector<Field>& fields, std::size_t i)
 /// Whether a byte holds the number of vertices of every polygon.
 bool has_small_polygons(const Dataset& data)
 {
-  return std::all_of(data.polygons.begin(), data.polygons.end(),
-                     [](const std::vector<int>& polygon) { return polygon.size() < 256; });
+  for (std::size_t i = 0; i < data.polygons.size(); ++i)
+    if (data.polygons[i].size() > 255) return false;
+  return true;
 }
 
 void ply_header(Streamed_text& text, const Dataset& data, Encoding encoding)
@@ -150,7 +151,7 @@ void ply_body(Rows rows, const Dataset& data)
     rows.end_row();
   }
   for (std::size_t i = 0; i < data.polygons.size(); ++i) {
-    const std::vector<int>& polygon = data.polygons[i];
+    const Index_lists::List polygon = data.polygons[i];
     small_polygons ? rows.add(static_cast<std::uint8_t>(polygon.size()))
                    : rows.add(static_cast<int>(polygon.size()));
     for (const int v : polygon) rows.add(v);
@@ -202,18 +203,18 @@ void vtp_fields(Streamed_text& text, const std::vector<Field>& fields)
 }
 
 /// A section of VTP cells: connectivity and offsets.
-void vtp_cells(Streamed_text& text, const char* section, const std::vector<std::vector<int>>& cells)
+void vtp_cells(Streamed_text& text, const char* section, const Index_lists& cells)
 {
   text << "<" << section << ">\n";
   vtp_array_begin(text, "Int64", "connectivity");
-  for (const auto& cell : cells) {
-    for (const int v : cell) text << v << " ";
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const int v : cells[i]) text << v << " ";
     text << "\n";
   }
   vtp_array_end(text);
   vtp_array_begin(text, "Int64", "offsets");
   std::size_t end = 0;
-  for (const auto& cell : cells) text << (end += cell.size()) << "\n";
+  for (std::size_t i = 0; i < cells.size(); ++i) text << (end += cells[i].size()) << "\n";
   vtp_array_end(text);
   text << "</" << section << ">\n";
 }
@@ -238,9 +239,9 @@ void write_vtp(std::ostream& out, const Dataset& data)
 {
   Streamed_text text(out);
   // points without polygons are drawn only when each is a cell of its own
-  std::vector<std::vector<int>> dots = data.dots;
+  Index_lists dots = data.dots;
   if (dots.empty() && data.lines.empty() && data.polygons.empty())
-    for (std::size_t i = 0; i < data.points.size(); ++i) dots.push_back({static_cast<int>(i)});
+    for (std::size_t i = 0; i < data.points.size(); ++i) dots.add(std::array{static_cast<int>(i)});
   text << "<?xml version=\"1.0\"?>\n"
           "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
           "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\""

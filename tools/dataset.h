@@ -11,6 +11,7 @@
 
 #include <CGAL/PowerRTF/geometry/vector.h>
 
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -27,11 +28,45 @@ struct Field {
   Number_type type = Number_type::float64;         ///< that `values` are rounded to
 };
 
+/// Lists of indices, one after the other in memory.
+class Index_lists {
+public:
+  struct List {
+    const int *first, *last;
+
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+    std::size_t size() const { return static_cast<std::size_t>(last - first); }
+  };
+
+  template <class Indices>
+  void add(const Indices& indices)
+  {
+    m_indices.insert(m_indices.end(), indices.begin(), indices.end());
+    m_ends.push_back(m_indices.size());
+  }
+  void reserve(std::size_t lists, std::size_t indices)
+  {
+    m_ends.reserve(lists + 1);
+    m_indices.reserve(indices);
+  }
+  std::size_t size() const { return m_ends.size() - 1; }
+  bool empty() const { return size() == 0; }
+  List operator[](std::size_t i) const
+  {
+    return {m_indices.data() + m_ends[i], m_indices.data() + m_ends[i + 1]};
+  }
+
+private:
+  std::vector<int> m_indices;
+  std::vector<std::size_t> m_ends{0};
+};
+
 struct Dataset {
   std::vector<CGAL::PowerRTF::Vec3d> points;
   std::vector<CGAL::PowerRTF::Vec3d> normals; ///< of the points; or none
-  std::vector<std::vector<int>> polygons;     ///< indices into `points`
-  std::vector<std::vector<int>> dots, lines;  ///< likewise; VTP only
+  Index_lists polygons;                       ///< of `points`
+  Index_lists dots, lines;                    ///< likewise; VTP only
   std::vector<Field> point_fields;
   std::vector<Field> cell_fields; ///< of the dots, the lines and the polygons, in this order
 };

@@ -4,6 +4,7 @@
 
 #include "dataset.h"
 
+#include <array>
 #include <cstddef>
 
 namespace tools {
@@ -33,13 +34,13 @@ void write_fields(std::ostream& out, const Lattice_fields& fields,
     dislocation.integers.push_back(of_point ? 0 : fields.dislocations[i]);
   };
   for (std::size_t k = 0; k < fields.points.size(); ++k) {
-    data.dots.push_back({add_point(fields.points[k])});
+    data.dots.add(std::array{add_point(fields.points[k])});
     add_values(fields.point_nodes[k], true);
   }
   for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
     const Vec3d half = 0.25 * fields.spacing[i] * fields.axes[i];
     const int from = add_point(fields.nodes[i] - half);
-    data.lines.push_back({from, add_point(fields.nodes[i] + half)});
+    data.lines.add(std::array{from, add_point(fields.nodes[i] + half)});
     add_values(static_cast<int>(i), false);
   }
   data.cell_fields = {node, is_point, normal, axis, spacing, index, dislocation};

@@ -153,7 +153,8 @@ void write_mesh(std::ostream& out, Format format, Encoding encoding,
     data.points = points;
     data.point_fields = fields_of(properties.vertices);
     data.cell_fields = fields_of(properties.faces);
-    for (const Triangle& t : triangles) data.polygons.emplace_back(t.begin(), t.end());
+    data.polygons.reserve(triangles.size(), 3 * triangles.size());
+    for (const Triangle& t : triangles) data.polygons.add(t);
     return format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
   }
   if (format == Format::off) return write_off(out, points, triangles);

@@ -19,15 +19,29 @@
 namespace CGAL::PowerRTF {
 namespace internal {
 
-inline std::vector<char> border_vertices(const Surface& surface)
+inline std::vector<char> border_vertices(const Surface& surface, Concurrency concurrency)
 {
   const std::vector<int>& opposite = surface.adjacency.opposite;
   std::vector<char> on_border(surface.points.size(), 0);
-  for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
-    if (opposite[h] == Facet_adjacency::none)
-      on_border[halfedge_source(surface.triangles, h)] =
-          on_border[halfedge_target(surface.triangles, h)] = 1;
+  for (const int h : select(concurrency, static_cast<int>(opposite.size()),
+                            [&](int h) { return opposite[h] == Facet_adjacency::none; }))
+    on_border[halfedge_source(surface.triangles, h)] =
+        on_border[halfedge_target(surface.triangles, h)] = 1;
   return on_border;
+}
+
+/// The vertices that are an end of one of the edges only.
+inline std::vector<int> single_ends(const std::vector<Edge>& edges)
+{
+  std::vector<int> ends, singles;
+  for (const Edge& e : edges) ends.insert(ends.end(), e.begin(), e.end());
+  std::sort(ends.begin(), ends.end());
+  for (auto v = ends.begin(); v != ends.end();) {
+    const auto next = std::find_if(v, ends.end(), [v](int u) { return u != *v; });
+    if (next - v == 1) singles.push_back(*v);
+    v = next;
+  }
+  return singles;
 }
 
 /// Removes dangling chains shorter than `shortest`, and pieces shorter than twice that in all.
@@ -40,8 +54,8 @@ inline void prune_creases(const Surface& surface, const std::vector<char>& on_bo
     return length(surface.points[creases[e][1]] - surface.points[creases[e][0]]);
   };
   std::vector<int> ends;
-  for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
-    if (graph.degree(v) == 1 && !on_border[v]) ends.push_back(v);
+  for (const int v : single_ends(creases))
+    if (!on_border[v]) ends.push_back(v);
   std::vector<int> chain;
   while (!ends.empty()) {
     int v = ends.back();
@@ -126,11 +140,10 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
     if (is_sharp) creases.push_back(sorted_edge(a, b));
   }
   if (creases.empty()) return {};
-  const std::vector<char> on_border = internal::border_vertices(surface);
-  const internal::Edge_graph graph(creases, surface.points.size());
-  std::size_t dangling = 0;
-  for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
-    dangling += graph.degree(v) == 1 && !on_border[v];
+  const std::vector<char> on_border = internal::border_vertices(surface, concurrency);
+  const std::vector<int> ends = internal::single_ends(creases);
+  const auto dangling = static_cast<std::size_t>(
+      std::count_if(ends.begin(), ends.end(), [&](int v) { return !on_border[v]; }));
   const bool clean =
       30 * dangling <= creases.size() || (6 * dangling <= creases.size() && soft <= sharp);
   if (!clean) return {};
