@@ -19,6 +19,7 @@ struct Laplacian_rows {
   Real* value; ///< -L_ij > 0
   double* diagonal;
   int n;
+  double screening = 0; ///< of the diagonal, that has been added to it
 
   CGAL_POWER_RTF_HD std::size_t place(int k, int i) const { return std::size_t(k) * n + i; }
   CGAL_POWER_RTF_HD double inverse_diagonal(int i) const

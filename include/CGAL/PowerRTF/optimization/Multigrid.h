@@ -137,12 +137,18 @@ public:
     return sum;
   }
 
-  /// Takes the matrix, which must live as long as `apply()` is called, and makes its levels.
+  /// Takes the matrix, which must live as long as `apply()` is called, and makes its levels: up to
+  /// aggregates over which a change fades, where the rows are screened. Larger ones would do harm,
+  /// as what is constant on them has no more energy than it should.
   void set_rows(const Laplacian_rows<Real>& rows)
   {
     m_size = 0;
     add_level(rows.n).rows = rows;
-    while (last().rows.n > 1) coarsen(last().rows);
+    constexpr double most = 0.5;
+    double cells = internal::multigrid_aggregate; // of the next level
+    for (; last().rows.n > 1 && cells * rows.screening < most;
+         cells *= internal::multigrid_aggregate)
+      coarsen(last().rows);
   }
 
   /// Approximates the solution for the right side r by one V-cycle, a linear operator that is

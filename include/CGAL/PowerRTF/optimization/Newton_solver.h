@@ -184,11 +184,13 @@ private:
   Component_view components() { return {m_label.data(), m_is_anchored.data()}; }
   Laplacian_rows<Row> rows()
   {
-    return {m_row_size.data(), m_column.data(), m_value.data(), m_diagonal.data(), m_n};
+    return {m_row_size.data(), m_column.data(), m_value.data(), m_diagonal.data(), m_n,
+            m_screening};
   }
 
   Backend& m_backend;
   int m_n = 0;
+  double m_screening = 0;
   bool m_is_connected = false;
   Buffer<int> m_edge_count, m_edge_neighbor;
   Buffer<Real> m_edge_ratio;
@@ -206,7 +208,8 @@ void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* de
                                          const Newton_goal& goal, bool find_components)
 {
   m_n = n;
-  assemble_laplacian(m_backend, edges(), goal.screening * capacity_tolerance, rows());
+  m_screening = goal.screening * capacity_tolerance;
+  assemble_laplacian(m_backend, edges(), rows());
   if (find_components)
     m_is_connected =
         PowerRTF::find_components(m_backend, rows(), edges(), components(), m_scalars.data()) == 1;

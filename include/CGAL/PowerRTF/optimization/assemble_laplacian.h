@@ -20,10 +20,10 @@ struct Cell_edges {
 };
 
 /// Writes the rows of L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4 with the diagonal that makes their sums
-/// 0, plus the edges with sites that have no cell: the weights of these stay. `screening`: this
-/// part of the diagonal is added to it.
+/// 0, plus the edges with sites that have no cell: the weights of these stay. The diagonal is
+/// screened.
 template <class Real, class Row, class Backend>
-void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges, double screening,
+void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges,
                         const Laplacian_rows<Row>& a)
 {
   constexpr int capacity = Laplacian_rows<Real>::capacity;
@@ -80,7 +80,7 @@ void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges, double 
       a.value[place * stride + i] = value;
     }
     for (int k = 0; k < size; ++k) sum += a.value[k * stride + i];
-    a.diagonal[i] = sum * (1 + screening);
+    a.diagonal[i] = sum * (1 + a.screening);
   });
 }
 
