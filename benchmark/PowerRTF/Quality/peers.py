@@ -121,10 +121,12 @@ def find(binaries, python, missing):
             notice(f"{name}: uniform only, {why}")
     skipped_bindings(python, missing)
     if vorpalite := shutil.which("vorpalite"):
-        # the number of samples is asked for, so there is nothing to search
+        # The number of samples is asked for, so there is nothing to search. Its default profile
+        # would stretch triangles along the curvature and close borders.
         peers.append(Peer("Geogram vorpalite", "",
                           lambda model, target, density, size, crease_angle:
-                          [vorpalite, "remesh=true", f"remesh:nb_pts={round(size)}",
+                          [vorpalite, "remesh=true", "remesh:anisotropy=0",
+                           "pre:max_hole_area=0", f"remesh:nb_pts={round(size)}",
                            f"remesh:gradation={0 if density == 'uniform' else 1}", model, target],
                           ("uniform", "curvature"), number, ".obj"))
     else:
