@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -68,9 +67,11 @@ inline void limit_growth(const Surface_edges& edges, double gradation, std::vect
     return false;
   });
   if (waiting.empty()) return;
-  const double band = edges_per_band * gradation *
-                      std::accumulate(edges.length.begin(), edges.length.end(), 0.) /
-                      static_cast<double>(edges.length.size());
+  const double sum = internal::reduce(
+      concurrency, static_cast<int>(edges.length.size()), 0.,
+      [&](double& part, int e) { part += edges.length[e]; },
+      [](double& all, double part) { all += part; });
+  const double band = edges_per_band * gradation * sum / static_cast<double>(edges.length.size());
   std::vector<int> last_round(h.size(), -1), active; // the round in which a vertex was lowered
   for (int round = 0; !waiting.empty(); ++round) {
     double limit = h[waiting[0]];

@@ -64,9 +64,12 @@ void for_each_chunk(Concurrency concurrency, int n, int chunk, F&& f)
 {
   const int chunks = (n + chunk - 1) / chunk;
   const Progress_part part;
+  const int stride = 1 + chunks / 256; // threads that all count would wait for each other
   std::atomic<int> begun{0};
   const auto run = [&](int c) {
-    Cancellation::poll(begun.fetch_add(1, std::memory_order_relaxed), chunks);
+    constexpr auto relaxed = std::memory_order_relaxed;
+    Cancellation::poll(c % stride == 0 ? begun.fetch_add(stride, relaxed) : begun.load(relaxed),
+                       chunks);
     f(c * chunk, std::min(n, (c + 1) * chunk));
   };
   using Run = decltype(run);
