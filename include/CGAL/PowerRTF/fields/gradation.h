@@ -74,13 +74,21 @@ inline void limit_growth(const Surface_edges& edges, double gradation, std::vect
   const double band = edges_per_band * gradation * sum / static_cast<double>(edges.length.size());
   std::vector<int> last_round(h.size(), -1), active; // the round in which a vertex was lowered
   for (int round = 0; !waiting.empty(); ++round) {
-    double limit = h[waiting[0]];
-    for (const int v : waiting) limit = (std::min)(limit, h[v]);
-    limit += band;
+    const int size = static_cast<int>(waiting.size());
+    const double limit =
+        band + internal::reduce(
+                   concurrency, size, h[waiting[0]],
+                   [&](double& least, int k) { least = (std::min)(least, h[waiting[k]]); },
+                   [](double& least, double part) { least = (std::min)(least, part); });
     const auto is_near = [&](int v) { return h[v] <= limit; };
-    const auto far = std::partition(waiting.begin(), waiting.end(), is_near);
-    active.assign(waiting.begin(), far);
-    waiting.erase(waiting.begin(), far);
+    const auto where = [&](bool near) {
+      std::vector<int> some =
+          internal::select(concurrency, size, [&](int k) { return is_near(waiting[k]) == near; });
+      for (int& k : some) k = waiting[k];
+      return some;
+    };
+    active = where(true);
+    waiting = where(false);
     for (; !active.empty(); ++round) {
       const int size = static_cast<int>(active.size());
       std::vector<std::vector<int>> lowered((size + chunk - 1) / chunk);
