@@ -19,7 +19,8 @@
 namespace CGAL::PowerRTF {
 namespace internal {
 
-inline std::vector<char> border_vertices(const Surface& surface, Concurrency concurrency)
+inline std::vector<char> border_vertices(const Surface& surface,
+                                         Concurrency concurrency = Sequential_tag())
 {
   const std::vector<int>& opposite = surface.adjacency.opposite;
   std::vector<char> on_border(surface.points.size(), 0);
