@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/geometry/vector.h>
 
 #include <cstddef>
+#include <initializer_list>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -38,6 +39,12 @@ public:
     const int* end() const { return last; }
     std::size_t size() const { return static_cast<std::size_t>(last - first); }
   };
+
+  Index_lists() = default;
+  Index_lists(std::initializer_list<std::vector<int>> lists)
+  {
+    for (const auto& list : lists) add(list);
+  }
 
   template <class Indices>
   void add(const Indices& indices)
