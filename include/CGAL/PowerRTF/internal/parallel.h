@@ -96,25 +96,21 @@ void for_each_index(int n, F&& f)
   for_each_index(ConcurrencyTag(), n, f);
 }
 
-/// Reserves memory for n items of a vector that loses those it has. All threads touch it: the
-/// kernel clears new pages, which takes longer than to fill them, and would have one thread do it.
-template <class T>
-void reserve_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t n)
-{
-  constexpr std::size_t page = 4096, pages_per_chunk = 512;
-  v.clear();
-  if (n <= v.capacity()) return;
-  v.reserve(n);
-  if (!concurrency.is_parallel()) return;
-  const auto memory = reinterpret_cast<char*>(v.data());
-  for_each_chunk(concurrency, int(n * sizeof(T) / page), pages_per_chunk, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) memory[k * page] = 0;
-  });
-}
+/// Makes n new items T() of a vector. All threads touch new memory first: the kernel clears its
+/// pages, which takes longer than to fill them, and would have one thread do it.
 template <class T>
 void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t n)
 {
-  reserve_in_parallel(concurrency, v, n);
+  constexpr std::size_t page = 4096, pages_per_chunk = 512;
+  v.clear();
+  if (concurrency.is_parallel() && n > v.capacity()) {
+    v.reserve(n);
+    const auto memory = reinterpret_cast<char*>(v.data());
+    const int pages = static_cast<int>(n * sizeof(T) / page);
+    for_each_chunk(concurrency, pages, pages_per_chunk, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) memory[k * page] = 0;
+    });
+  }
   v.resize(n);
 }
 
