@@ -150,6 +150,35 @@ TEST_CASE("Newton's direction for shares within a slack")
   CHECK(reach(global_newton_goal) > 0.1);
 }
 
+TEST_CASE("Newton's goal: changes are confined twice at most, and steps that lead no further tell")
+{
+  Newton_goal goal = local_newton_goal;
+  CHECK(confine(goal));
+  CHECK(confine(goal));
+  CHECK_FALSE(confine(goal));
+  CHECK(goal.screening == Approx(16 * local_newton_goal.screening));
+  CHECK(goal.slack == local_newton_goal.slack);
+  goal = global_newton_goal; // nothing is confined
+  CHECK_FALSE(confine(goal));
+
+  Capacity_statistics before;
+  before.inside_interval = 0.9;
+  before.rms = before.largest_deviation = 0.1;
+  Capacity_statistics after = before;
+  CHECK(has_stagnated(before, after));
+  CHECK(has_overshot(before, after));
+  after.inside_interval = 0.91;
+  CHECK_FALSE(has_stagnated(before, after));
+  CHECK_FALSE(has_overshot(before, after));
+  after = before;
+  after.rms = 0.09;
+  CHECK_FALSE(has_stagnated(before, after));
+  after = before;
+  after.largest_deviation = 0.05;
+  CHECK_FALSE(has_stagnated(before, after));
+  CHECK_FALSE(has_overshot(before, after));
+}
+
 TEST_CASE("Newton's direction for many cells: the residual falls as far as is promised")
 {
   // Unit squares around a torus whose areas are waves.

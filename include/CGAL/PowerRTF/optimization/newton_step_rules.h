@@ -31,7 +31,7 @@ struct Newton_goal {
 };
 
 /// At first, what varies slowly over many cells stays where it is inside the interval: it would
-/// take weights of hundreds of times a cell's squared radius. The screening confines a change to
+/// take weights far above a cell's squared radius, for little. The screening confines a change to
 /// some sqrt(1 / (gamma screening)) cells around.
 constexpr Newton_goal local_newton_goal{0.25, 0.03};
 /// All shares themselves: once that leads no further.
@@ -47,6 +47,7 @@ inline bool confine(Newton_goal& goal)
   return true;
 }
 
+/// Whether a step has brought neither more cells inside nor any deviation notably nearer to 0.
 inline bool has_stagnated(const Capacity_statistics& before, const Capacity_statistics& after)
 {
   return after.inside_interval <= before.inside_interval && after.rms > 0.98 * before.rms &&
