@@ -1,19 +1,31 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The program's large blocks of memory on huge pages, where Linux has them: while the kernel makes
-// small ones, threads wait for each other.
+// The program's memory, where Linux can do better: large blocks on huge pages, as threads wait for
+// each other while the kernel makes small ones; smaller blocks on pages that the program keeps, as
+// the kernel would clear new ones for each.
 #ifdef __linux__
 
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 
+#include <malloc.h>
 #include <sys/mman.h>
+
+namespace {
+
+constexpr std::size_t page = std::size_t(1) << 21, large = 4 * page;
+
+#ifdef M_MMAP_THRESHOLD // not in every C library
+[[maybe_unused]] const bool keeps_pages =
+    mallopt(M_MMAP_THRESHOLD, large) + mallopt(M_TRIM_THRESHOLD, 32 * large) > 0;
+#endif
+
+} // namespace
 
 void* operator new(std::size_t bytes)
 {
-  constexpr std::size_t page = std::size_t(1) << 21, large = 4 * page;
   void* block = nullptr;
   if (bytes < large)
     block = std::malloc(bytes > 0 ? bytes : 1);
