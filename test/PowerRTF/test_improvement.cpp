@@ -209,26 +209,6 @@ TEST_CASE("a tree of the surface can be shared")
   CHECK(mesh.triangles == other.triangles);
 }
 
-TEST_CASE("a tree whose facets have moved finds what a new one finds")
-{
-  Surface surface = shapes::make_surface(shapes::torus(40, 20, 1, 0.4));
-  Facet_tree tree(surface.points, surface.triangles);
-  for (Vec3d& p : surface.points) p = 0.7 * Vec3d{p.y + 0.2 * p.x * p.x, p.z, 0.5 * p.x};
-  tree.refit(surface.points, surface.triangles);
-  const Facet_tree fresh(surface.points, surface.triangles);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
-  for (int i = 0; i < 1000; ++i) {
-    const Vec3d p{coordinate(random), coordinate(random), coordinate(random)};
-    const Vec3d normal = normalized(Vec3d{coordinate(random), coordinate(random), 0.1});
-    const auto a = tree.nearest(p, normal, 0.3, -1), b = fresh.nearest(p, normal, 0.3, -1);
-    CHECK((a.facet < 0) == (b.facet < 0));
-    if (a.facet < 0) continue;
-    CHECK(a.squared_distance == b.squared_distance);
-    CHECK(length(a.point - b.point) <= 1e-12 * surface.area);
-  }
-}
-
 TEST_CASE("deterministic, and the same at any scale")
 {
   const shapes::Soup soup = shapes::ellipsoid(1, 0.8, 0.5, 3);

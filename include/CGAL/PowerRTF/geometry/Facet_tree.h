@@ -12,6 +12,10 @@
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
+#include <array>
+#include <cstddef>
+#include <vector>
+
 namespace CGAL::PowerRTF {
 
 /// A search structure for the nearest point of a triangle mesh. Queries are read-only.
@@ -22,28 +26,32 @@ public:
   Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
              const std::vector<int>& patches = {},
              internal::Concurrency concurrency = Sequential_tag())
-      : m_concurrency(concurrency), m_tree(static_cast<int>(triangles.size())),
-        m_facets(triangles.size()), m_patches(patches.size()), m_places(triangles.size())
+      : Facet_tree(
+            triangles.size(),
+            [&](int f) {
+              const Triangle& t = triangles[f];
+              return std::array<Vec3d, 3>{points[t[0]], points[t[1]], points[t[2]]};
+            },
+            patches, concurrency)
+  {}
+
+  /// Of `facets` triangles. `corners`: function facet -> its three points.
+  template <class Corners>
+  Facet_tree(std::size_t facets, const Corners& corners, const std::vector<int>& patches,
+             internal::Concurrency concurrency)
+      : m_concurrency(concurrency), m_tree(static_cast<int>(facets)), m_facets(facets),
+        m_patches(patches.size()), m_places(facets)
   {
-    internal::Unset_vector<Vec3d> centers(triangles.size());
+    internal::Unset_vector<Vec3d> centers(facets);
     internal::for_each_index(concurrency, m_tree.items, [&](int f) {
-      const Triangle& t = triangles[f];
-      centers[f] = (points[t[0]] + points[t[1]] + points[t[2]]) * (1.0 / 3);
+      const auto [a, b, c] = corners(f);
+      centers[f] = (a + b + c) * (1.0 / 3);
     });
     m_order = internal::spatial_order(centers, concurrency);
     internal::for_each_index(concurrency, m_tree.items, [&](int place) {
       m_places[m_order[place]] = place;
       if (!patches.empty()) m_patches[place] = patches[m_order[place]];
-    });
-    refit(points, triangles);
-  }
-
-  /// The same facets, moved; queries are fast as long as most are near where they were.
-  void refit(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles)
-  {
-    internal::for_each_index(m_concurrency, m_tree.items, [&](int place) {
-      const Triangle& t = triangles[m_order[place]];
-      const Vec3d &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+      const auto [a, b, c] = corners(m_order[place]);
       m_facets[place] = {a, b, c, normalized(cross(b - a, c - a))};
     });
     const auto box_of = [&](int place) {

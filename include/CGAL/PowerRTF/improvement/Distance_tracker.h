@@ -217,16 +217,9 @@ private:
     const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
       return !reaches || is_in_reach(Face(f), some, *reaches);
     });
-    std::vector<Vec3d> points;
-    std::vector<Triangle> triangles;
-    resize_in_parallel(concurrency, points, 3 * faces.size());
-    resize_in_parallel(concurrency, triangles, faces.size());
-    for_each_index(concurrency, int(faces.size()), [&](int k) {
-      const auto corners = m_mesh->points(topology().halfedge(Face(faces[k])));
-      std::copy(corners.begin(), corners.end(), &points[3 * k]);
-      triangles[k] = {3 * k, 3 * k + 1, 3 * k + 2};
-    });
-    const Facet_tree tree(points, triangles, {}, concurrency);
+    const Facet_tree tree(
+        faces.size(), [&](int k) { return m_mesh->points(topology().halfedge(Face(faces[k]))); },
+        {}, concurrency);
     for_each_chunk(concurrency, int(some.size()), 16, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         Tracked_point& w = m_points[some[k]];
