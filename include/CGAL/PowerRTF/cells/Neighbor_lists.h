@@ -20,7 +20,7 @@
 #include <CGAL/PowerRTF/cells/Edge_chain.h>
 #include <CGAL/PowerRTF/cells/Sites_view.h>
 #include <CGAL/PowerRTF/cells/Tangent_polygon.h>
-#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -175,14 +175,14 @@ private:
 
   struct List {
     int sites[capacity]; // those of the edges first, in their order
-    int size = 0;        // 0: there is no list
-    int edges = 0;       // 0: they are not known
-    Real radius = 0;     // L
+    int size;            // 0: there is no list
+    int edges;           // 0: they are not known
+    Real radius;         // L
   };
   struct Near_leaves {
     int leaves[max_near_leaves];
-    int size = 0;    // 0: too many
-    Real radius = 0; // L of the sites of all others
+    int size;    // 0: too many
+    Real radius; // L of the sites of all others
   };
 
   /// The line of site `j` in the tangent plane of `i`.
@@ -207,14 +207,14 @@ private:
 
   void clear(Backend& backend, const Sites_view<Real>& view, int cells)
   {
-    const auto resize = [&](auto& items, int n) {
-      internal::resize_in_parallel(backend.concurrency(), items, n);
-    };
-    resize(m_lists, cells);
-    resize(m_near, (cells + arity - 1) / arity);
-    resize(m_misses, int(m_near.size()));
-    resize(m_then, view.size());
-    resize(m_leaf_changes, view.tree.nodes(0));
+    m_lists.resize(cells);
+    m_near.resize((cells + arity - 1) / arity);
+    m_misses.resize(m_near.size());
+    m_then.resize(view.size());
+    m_leaf_changes.resize(view.tree.nodes(0));
+    backend.for_each(cells, [&](int i) { m_lists[i].size = m_lists[i].edges = 0; });
+    backend.for_each(int(m_near.size()), [&](int leaf) { m_near[leaf].size = m_misses[leaf] = 0; });
+    backend.for_each(view.size(), [&](int i) { m_then[i] = view.sites[i]; });
   }
 
   void make(Backend& backend, const Sites_view<Real>& view, const std::vector<Real>& radii)
@@ -321,11 +321,11 @@ private:
 
   bool m_is_out_of_date = false, m_is_new = false;
   long m_all_misses = 0, m_unavoidable_misses = 0;
-  std::vector<List> m_lists;       // of each cell
-  std::vector<Near_leaves> m_near; // of each leaf with cells
-  std::vector<int> m_misses;       // the same
-  std::vector<Site<Real>> m_then;  // all, when the lists were made
-  std::vector<Changes> m_leaf_changes;
+  internal::Unset_vector<List> m_lists;       // of each cell
+  internal::Unset_vector<Near_leaves> m_near; // of each leaf with cells
+  internal::Unset_vector<int> m_misses;       // the same
+  internal::Unset_vector<Site<Real>> m_then;  // all, when the lists were made
+  internal::Unset_vector<Changes> m_leaf_changes;
   Changes m_changes; // of all
 };
 

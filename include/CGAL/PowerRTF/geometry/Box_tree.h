@@ -25,7 +25,7 @@ inline bool do_overlap(const Box3<double>& a, const Box3<double>& b)
 class Box_tree {
 public:
   /// `boxes`: finite.
-  Box_tree(const std::vector<Box3<double>>& boxes, Concurrency concurrency)
+  Box_tree(const Unset_vector<Box3<double>>& boxes, Concurrency concurrency)
       : m_concurrency(concurrency), m_tree(int(boxes.size())), m_boxes(boxes.size()),
         m_nodes(m_tree.nodes())
   {
@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  void sort_items(const std::vector<Box3<double>>& boxes)
+  void sort_items(const Unset_vector<Box3<double>>& boxes)
   {
     Unset_vector<Vec3d> centers(boxes.size());
     for_each_index(m_concurrency, int(boxes.size()),

@@ -55,8 +55,7 @@ public:
   std::vector<Pair> find_where(const Faces& faces, IsWanted&& is_wanted) const
   {
     const std::vector<Face> all(std::begin(faces), std::end(faces));
-    std::vector<Box3<double>> boxes;
-    resize_in_parallel(m_concurrency, boxes, all.size());
+    Unset_vector<Box3<double>> boxes(all.size());
     Unset_vector<char> is_flat(all.size());
     for_each_index(m_concurrency, int(all.size()), [&](int i) {
       const Triangle_points p = m_triangles.points(m_triangles.corners(all[i]));

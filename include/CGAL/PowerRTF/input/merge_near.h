@@ -119,7 +119,7 @@ private:
   {
     const int first_vertex = static_cast<int>(edges.size());
     const Vec3d margin{m_tolerance, m_tolerance, m_tolerance};
-    std::vector<Box3<double>> boxes;
+    Unset_vector<Box3<double>> boxes;
     for (const Edge& e : edges) {
       Box3<double> box{point(e[0]), point(e[0])};
       box.add(point(e[1]));
