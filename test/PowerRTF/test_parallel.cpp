@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
@@ -10,7 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
+#include <random>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
@@ -60,6 +64,30 @@ TEST_CASE("what is selected keeps its order")
       std::vector<int> expected;
       for (int i = 0; i < n; i += 3) expected.push_back(i);
       CHECK(select(concurrency, n, [](int i) { return i % 3 == 0; }) == expected);
+    }
+}
+
+TEST_CASE("the n-th value is that of the sorted ones, however they are spread")
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> even;
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  const std::function<double(int)> spreads[] = {
+      [&](int) { return even(random); },                       // evenly
+      [&](int) { return std::exp(20 * even(random)); },        // most of them in one interval
+      [](int) { return 0.1; },                                 // all the same
+      [](int i) { return i == 7 ? 1e300 : i % 3; },            // all but one
+      [](int i) { return (i % 5 - 2) * least; },               // a range that has no inverse
+      [&](int i) { return (i % 2 ? -1 : 1) * even(random); }}; // of both signs
+  for (const auto& spread : spreads)
+    for (const int size : {1, 2, 1000, 200000}) {
+      std::vector<double> values(size);
+      for (int i = 0; i < size; ++i) values[i] = spread(i);
+      std::vector<double> sorted = values;
+      std::sort(sorted.begin(), sorted.end());
+      for (const int n : {0, size / 3, size / 2, size - 1})
+        for (const Concurrency& concurrency : both)
+          CHECK(nth_value(concurrency, values, n) == sorted[n]);
     }
 }
 

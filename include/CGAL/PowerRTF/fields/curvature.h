@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_FIELDS_CURVATURE_H
 
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
+#include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -66,12 +67,11 @@ normalized_curvature(const Surface& surface, const Surface_edges& edges,
 
   std::vector<double> curvature = vertex_curvature(surface, edges, concurrency);
   smooth_over_edges(edges, smoothing_passes, curvature, concurrency);
-  std::vector<double> sorted = curvature;
-  const auto rank = sorted.begin() + static_cast<std::ptrdiff_t>(percentile * (sorted.size() - 1));
-  std::nth_element(sorted.begin(), rank, sorted.end());
-  double unit = *rank;
+  double unit = internal::nth_value(concurrency, curvature,
+                                    static_cast<std::size_t>(percentile * (curvature.size() - 1)));
   const double size = std::sqrt(surface.area);
-  if (unit * size < flat) unit = *std::max_element(rank, sorted.end()); // flat almost everywhere
+  if (unit * size < flat) // flat almost everywhere
+    unit = *std::max_element(curvature.begin(), curvature.end());
   if (unit * size < flat) return std::vector<double>(curvature.size(), 1);
   for (double& k : curvature) k = (std::min)(1., (std::max)(smallest, k / unit));
   return curvature;
