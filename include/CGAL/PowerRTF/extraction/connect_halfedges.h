@@ -6,6 +6,8 @@
 #define CGAL_POWER_RTF_EXTRACTION_CONNECT_HALFEDGES_H
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <CGAL/Surface_mesh.h>
@@ -34,32 +36,35 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
 
   const std::vector<int>& opposite = adjacency.opposite;
   const int halfedges = int(opposite.size());
-  std::vector<int> edges(halfedges); // of the first of their halfedges
-  int count = 0;
-  for (int h = 0; h < halfedges; ++h)
-    if (opposite[h] == none || h < opposite[h]) edges[h] = count++;
+  const auto is_first = [&](int h) { return opposite[h] == none || h < opposite[h]; };
+  Unset_vector<int> edges(halfedges); // before each halfedge
+  for_each_index(concurrency, halfedges, [&](int h) { edges[h] = is_first(h); });
+  const int count = exclusive_scan(concurrency, halfedges, edges.data());
   mesh.resize(vertices, count, typename Mesh::size_type(triangles.size()));
 
   const auto halfedge = [&](int h) {
-    return opposite[h] == none || h < opposite[h] ? Halfedge(2 * edges[h])
-                                                  : Halfedge(2 * edges[opposite[h]] + 1);
+    return is_first(h) ? Halfedge(2 * edges[h]) : Halfedge(2 * edges[opposite[h]] + 1);
   };
+  std::vector<int> last(vertices, -1); // of the halfedges to each vertex
   for_each_index(concurrency, halfedges, [&](int h) {
     mesh.set_target(halfedge(h), Vertex(halfedge_target(triangles, h)));
     mesh.set_next(halfedge(h), halfedge(next_halfedge(h)));
     mesh.set_face(halfedge(h), Face(h / 3));
     if (h % 3 == 0) mesh.set_halfedge(Face(h / 3), halfedge(h));
+    atomic_max(&last[halfedge_target(triangles, h)], h);
   });
-  std::vector<Halfedge> leaving(adjacency.border_edges > 0 ? vertices : 0); // on the border
-  for (int h = 0; h < halfedges; ++h) {
-    mesh.set_halfedge(Vertex(halfedge_target(triangles, h)), halfedge(h));
-    if (opposite[h] != none) continue;
+  for_each_index(concurrency, vertices, [&](int v) {
+    if (last[v] >= 0) mesh.set_halfedge(Vertex(v), halfedge(last[v]));
+  });
+  if (adjacency.border_edges == 0) return true;
+  const std::vector<int> at_border =
+      select(concurrency, halfedges, [&](int h) { return opposite[h] == none; });
+  std::vector<Halfedge> leaving(vertices); // on the border
+  for (const int h : at_border) {
     mesh.set_target(mesh.opposite(halfedge(h)), Vertex(halfedge_source(triangles, h)));
     leaving[halfedge_target(triangles, h)] = mesh.opposite(halfedge(h));
   }
-  if (adjacency.border_edges == 0) return true;
-  for (int h = 0; h < halfedges; ++h) {
-    if (opposite[h] != none) continue;
+  for (const int h : at_border) {
     const Halfedge border = mesh.opposite(halfedge(h));
     mesh.set_next(border, leaving[halfedge_source(triangles, h)]);
     mesh.set_halfedge(mesh.target(border), border);
