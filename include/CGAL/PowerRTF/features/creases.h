@@ -32,11 +32,12 @@ inline std::vector<char> border_vertices(const Surface& surface,
 }
 
 /// The vertices that are an end of one of the edges only.
-inline std::vector<int> single_ends(const std::vector<Edge>& edges)
+inline std::vector<int> single_ends(const std::vector<Edge>& edges,
+                                    Concurrency concurrency = Sequential_tag())
 {
   std::vector<int> ends, singles;
   for (const Edge& e : edges) ends.insert(ends.end(), e.begin(), e.end());
-  std::sort(ends.begin(), ends.end());
+  sort(concurrency, ends.begin(), ends.end());
   for (auto v = ends.begin(); v != ends.end();) {
     const auto next = std::find_if(v, ends.end(), [v](int u) { return u != *v; });
     if (next - v == 1) singles.push_back(*v);
@@ -129,20 +130,27 @@ inline std::vector<Edge> find_creases(const Surface& surface, double angle, std:
         sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h)));
     return dot(surface.facet_normals[h / 3], surface.facet_normals[o / 3]) * (is_seam ? -1 : 1);
   };
+  const std::vector<int> bent =
+      internal::select(concurrency, static_cast<int>(3 * triangles.size()), [&](int h) {
+        return surface.adjacency.opposite[h] > h && cosine(h) <= cos_soft; // once, no border
+      });
+  const auto is_sharp = [&](int k) { return cosine(bent[k]) <= cos_sharp; };
+  const auto edge = [&](int k) {
+    return sorted_edge(halfedge_source(triangles, bent[k]), halfedge_target(triangles, bent[k]));
+  };
   std::vector<Edge> creases;
-  double sharp = 0, soft = 0;
-  for (const int h :
-       internal::select(concurrency, static_cast<int>(3 * triangles.size()), [&](int h) {
-         return surface.adjacency.opposite[h] > h && cosine(h) <= cos_soft; // once, no border
-       })) {
-    const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
-    const bool is_sharp = cosine(h) <= cos_sharp;
-    (is_sharp ? sharp : soft) += length(surface.points[b] - surface.points[a]);
-    if (is_sharp) creases.push_back(sorted_edge(a, b));
-  }
+  for (const int k : internal::select(concurrency, static_cast<int>(bent.size()), is_sharp))
+    creases.push_back(edge(k));
   if (creases.empty()) return {};
+  const auto total_length = [&](bool sharp) {
+    return internal::sum(concurrency, static_cast<int>(bent.size()), [&](int k) {
+      const auto [a, b] = edge(k);
+      return is_sharp(k) == sharp ? length(surface.points[b] - surface.points[a]) : 0;
+    });
+  };
+  const double sharp = total_length(true), soft = total_length(false);
   const std::vector<char> on_border = internal::border_vertices(surface, concurrency);
-  const std::vector<int> ends = internal::single_ends(creases);
+  const std::vector<int> ends = internal::single_ends(creases, concurrency);
   const auto dangling = static_cast<std::size_t>(
       std::count_if(ends.begin(), ends.end(), [&](int v) { return !on_border[v]; }));
   const bool clean =

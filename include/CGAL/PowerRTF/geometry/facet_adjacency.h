@@ -64,7 +64,8 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
 {
   using Entries = internal::Unset_vector<std::pair<int, int>>::const_iterator;
   Facet_adjacency result;
-  result.opposite.assign(3 * triangles.size(), Facet_adjacency::none);
+  internal::resize_in_parallel(concurrency, result.opposite, 3 * triangles.size(),
+                               Facet_adjacency::none);
   const auto buckets = internal::halfedge_buckets(triangles, number_of_vertices, concurrency);
 
   // The facets at one edge.

@@ -164,7 +164,8 @@ inline Surface compacted(Triangle_soup&& soup, const Normalization& normalizatio
                          Concurrency concurrency)
 {
   const int facets = static_cast<int>(soup.triangles.size());
-  std::vector<int> new_index(soup.points.size(), -1);
+  std::vector<int> new_index;
+  resize_in_parallel(concurrency, new_index, soup.points.size(), -1);
   for_each_index(concurrency, facets, [&](int f) {
     for (const int v : soup.triangles[f]) atomic_store(&new_index[v], 0);
   });
@@ -172,8 +173,8 @@ inline Surface compacted(Triangle_soup&& soup, const Normalization& normalizatio
                                        [&](int v) { return new_index[v] == 0; });
   const int vertices = static_cast<int>(used.size());
   Surface surface;
-  surface.points.resize(vertices);
-  surface.input_vertices.resize(vertices);
+  resize_in_parallel(concurrency, surface.points, vertices);
+  resize_in_parallel(concurrency, surface.input_vertices, vertices);
   for_each_index(concurrency, vertices, [&](int v) {
     new_index[used[v]] = v;
     surface.points[v] = soup.points[used[v]];
@@ -187,7 +188,7 @@ inline Surface compacted(Triangle_soup&& soup, const Normalization& normalizatio
   for (const Edge& e : soup.seams) surface.seams.push_back({new_index[e[0]], new_index[e[1]]});
   for (const int v : soup.contacts) surface.contacts.push_back(new_index[v]);
   surface.creases = surface.seams;
-  surface.vertex_density.assign(surface.points.size(), 1);
+  resize_in_parallel(concurrency, surface.vertex_density, vertices, 1.);
   surface.normalization = normalization;
   return surface;
 }

@@ -96,10 +96,11 @@ void for_each_index(int n, F&& f)
   for_each_index(ConcurrencyTag(), n, f);
 }
 
-/// Makes n new items T() of a vector. All threads touch new memory first: the kernel clears its
-/// pages, which takes longer than to fill them, and would have one thread do it.
+/// Makes n new items of a vector. All threads touch new memory first: the kernel clears its pages,
+/// which takes longer than to fill them, and would have one thread do it.
 template <class T>
-void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t n)
+void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t n,
+                        const T& item = T())
 {
   constexpr std::size_t page = 4096, pages_per_chunk = 512;
   v.clear();
@@ -111,7 +112,7 @@ void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t 
       for (int k = begin; k < end; ++k) memory[k * page] = 0;
     });
   }
-  v.resize(n);
+  v.resize(n, item);
 }
 
 /// The items i of [0, n) with `is_wanted(i)`, in order.
@@ -195,11 +196,17 @@ void sort(Iterator begin, Iterator end)
 }
 
 /// Sum of `f(i)` over [0, n).
+template <class F>
+double sum(Concurrency concurrency, int n, F&& f)
+{
+  return reduce(
+      concurrency, n, 0., [&](double& s, int i) { s += f(i); },
+      [](double& s, double p) { s += p; });
+}
 template <class ConcurrencyTag, class F>
 double sum(int n, F&& f)
 {
-  return reduce<ConcurrencyTag>(
-      n, 0.0, [&](double& s, int i) { s += f(i); }, [](double& s, double p) { s += p; });
+  return sum(ConcurrencyTag(), n, f);
 }
 
 } // namespace CGAL::PowerRTF::internal
