@@ -62,12 +62,13 @@ inline int longest_halfedge(const std::vector<Vec3d>& points,
   return longest;
 }
 
+/// Whether the triangle repeats a vertex.
+inline bool is_collapsed(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
 /// Removes the triangles that repeat a vertex. \returns their number
 inline std::size_t drop_collapsed(std::vector<Triangle>& triangles)
 {
-  const auto kept = std::remove_if(triangles.begin(), triangles.end(), [](const Triangle& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  });
+  const auto kept = std::remove_if(triangles.begin(), triangles.end(), is_collapsed);
   const std::size_t dropped = triangles.end() - kept;
   triangles.erase(kept, triangles.end());
   return dropped;

@@ -6,10 +6,24 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 namespace CGAL::PowerRTF {
+
+/// One more than the largest vertex of the triangles; 0 where there is none.
+inline int vertex_range(const std::vector<Triangle>& triangles,
+                        internal::Concurrency concurrency = Sequential_tag())
+{
+  const auto raise = [](int& most, int n) { most = (std::max)(most, n); };
+  return internal::reduce(
+      concurrency, static_cast<int>(triangles.size()), 0,
+      [&](int& most, int f) {
+        for (const int v : triangles[f]) raise(most, v + 1);
+      },
+      raise);
+}
 
 /// The corners by vertex; corner `3 f + i` is that of facet `f` at its vertex number `i`, and the
 /// halfedge that leaves it.

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 #include <CGAL/PowerRTF/internal/label_trees.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -29,17 +30,9 @@ public:
   enum : int { border = Facet_adjacency::none, non_manifold = -2 };
 
   Soup_edges(const std::vector<Triangle>& triangles, const Facet_adjacency& adjacency)
-      : m_triangles(triangles), m_opposite(adjacency.opposite)
+      : m_triangles(triangles), m_opposite(adjacency.opposite.data())
   {
-    std::vector<std::pair<Edge, int>> single; // at edges of one facet, or of more than two
-    for (int h = 0; h < static_cast<int>(m_opposite.size()); ++h)
-      if (m_opposite[h] == Facet_adjacency::none)
-        single.emplace_back(
-            sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h)), h);
-    std::sort(single.begin(), single.end());
-    for (std::size_t k = 1; k < single.size(); ++k)
-      if (single[k].first == single[k - 1].first)
-        m_opposite[single[k].second] = m_opposite[single[k - 1].second] = non_manifold;
+    if (adjacency.non_manifold_edges > 0) mark_non_manifold(adjacency.opposite);
   }
 
   int opposite(int h) const { return m_opposite[h]; }
@@ -59,8 +52,24 @@ public:
   }
 
 private:
+  void mark_non_manifold(const std::vector<int>& opposite)
+  {
+    m_marked = opposite;
+    m_opposite = m_marked.data();
+    std::vector<std::pair<Edge, int>> single; // at edges of one facet, or of more than two
+    for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
+      if (opposite[h] == Facet_adjacency::none)
+        single.emplace_back(
+            sorted_edge(halfedge_source(m_triangles, h), halfedge_target(m_triangles, h)), h);
+    std::sort(single.begin(), single.end());
+    for (std::size_t k = 1; k < single.size(); ++k)
+      if (single[k].first == single[k - 1].first)
+        m_marked[single[k].second] = m_marked[single[k - 1].second] = non_manifold;
+  }
+
   const std::vector<Triangle>& m_triangles;
-  std::vector<int> m_opposite;
+  std::vector<int> m_marked;
+  const int* m_opposite;
 };
 
 /// Of a soup with non-manifold edges: its sheets and where they meet.
@@ -113,15 +122,22 @@ inline void set_network_topology(const std::vector<Triangle>& triangles,
 /// Topology of the soup `triangles` (#F vertex indices >= 0). `vertices` counts the used ones. A
 /// vertex is non-manifold when its facets do not form one fan or one disk. A facet with a repeated
 /// vertex is counted in `faces` and otherwise ignored.
-inline Topology_statistics topology(std::vector<Triangle> triangles,
+inline Topology_statistics topology(const std::vector<Triangle>& triangles,
                                     internal::Concurrency concurrency = Sequential_tag())
 {
   using internal::Soup_edges;
   Topology_statistics result;
+  const auto is_collapsed = [&](int f) { return internal::is_collapsed(triangles[f]); };
+  if (!internal::select(concurrency, static_cast<int>(triangles.size()), is_collapsed).empty()) {
+    std::vector<Triangle> others = triangles;
+    const auto collapsed = static_cast<long>(internal::drop_collapsed(others));
+    result = topology(others, concurrency);
+    result.faces += collapsed;
+    result.euler_characteristic += collapsed;
+    return result;
+  }
   result.faces = triangles.size();
-  internal::drop_collapsed(triangles);
-  int size = 0; // of the vertices' numbers
-  for (const Triangle& t : triangles) size = std::max({size, t[0] + 1, t[1] + 1, t[2] + 1});
+  const int size = vertex_range(triangles, concurrency);
   const Facet_adjacency adjacency = facet_adjacency(triangles, size, concurrency);
   const Soup_edges edges(triangles, adjacency);
   result.border_edges = adjacency.border_edges;
@@ -130,7 +146,7 @@ inline Topology_statistics topology(std::vector<Triangle> triangles,
   result.oriented = !adjacency.same_direction && result.non_manifold_edges == 0;
 
   const int halfedges = static_cast<int>(adjacency.opposite.size());
-  std::vector<int> component(size), loop(halfedges);          // trees of labels
+  std::vector<int> component(size), loop(result.border_edges > 0 ? halfedges : 0); // label trees
   std::vector<int> corner(size, -1), degree(size), bad(size); // a halfedge from each vertex
   std::iota(component.begin(), component.end(), 0);
   std::iota(loop.begin(), loop.end(), 0);

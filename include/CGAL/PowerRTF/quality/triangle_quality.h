@@ -8,7 +8,8 @@
 #define CGAL_POWER_RTF_QUALITY_TRIANGLE_QUALITY_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
-#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/nth_value.h>
 
 #include <algorithm>
 #include <array>
@@ -87,13 +88,27 @@ inline Quality_statistics triangle_quality(const std::vector<Vec3d>& points,
 inline std::vector<Edge> edges_of(const std::vector<Triangle>& triangles,
                                   internal::Concurrency concurrency = Sequential_tag())
 {
-  std::vector<Edge> edges(3 * triangles.size());
-  internal::for_each_index(concurrency, static_cast<int>(triangles.size()), [&](int f) {
-    const Triangle& t = triangles[f];
-    for (int k = 0; k < 3; ++k) edges[3 * f + k] = sorted_edge(t[k], t[(k + 1) % 3]);
+  const int vertices = vertex_range(triangles, concurrency);
+  const auto edge = [&](int h) {
+    return sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h));
+  };
+  const internal::Buckets<int> ends(
+      concurrency, static_cast<int>(3 * triangles.size()), vertices,
+      [&](int h) { return edge(h)[0]; }, [&](int h) { return edge(h)[1]; });
+  const auto for_each_edge = [&](int v, auto&& f) {
+    for (int k = ends.first[v]; k < ends.first[v + 1]; ++k)
+      if (k == ends.first[v] || ends.entries[k] != ends.entries[k - 1]) f(ends.entries[k]);
+  };
+  std::vector<int> first(vertices + 1, 0);
+  internal::for_each_index(concurrency, vertices,
+                           [&](int v) { for_each_edge(v, [&](int) { ++first[v]; }); });
+  std::vector<Edge> edges;
+  internal::resize_in_parallel(concurrency, edges,
+                               internal::exclusive_scan(concurrency, vertices + 1, first.data()));
+  internal::for_each_index(concurrency, vertices, [&](int v) {
+    int e = first[v];
+    for_each_edge(v, [&](int w) { edges[e++] = {v, w}; });
   });
-  internal::sort(concurrency, edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
@@ -106,7 +121,8 @@ inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
   const std::vector<Edge> edges = edges_of(triangles, concurrency);
   if (edges.empty()) return {};
   const int size = static_cast<int>(edges.size());
-  std::vector<double> lengths(size);
+  std::vector<double> lengths;
+  internal::resize_in_parallel(concurrency, lengths, size);
   internal::for_each_index(concurrency, size, [&](int e) {
     lengths[e] = length(points[edges[e][1]] - points[edges[e][0]]);
   });
@@ -119,9 +135,7 @@ inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
         s = {s.mean + part.mean, 0, std::min(s.min, part.min), std::max(s.max, part.max)};
       });
   result.mean /= size;
-  const auto middle = lengths.begin() + size / 2;
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  result.median = *middle;
+  result.median = internal::nth_value(concurrency, lengths, size / 2);
   return result;
 }
 
