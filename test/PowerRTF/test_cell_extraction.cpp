@@ -73,8 +73,14 @@ struct Sampled {
   template <class ConcurrencyTag = Sequential_tag>
   Extracted_mesh extract(Cell_extraction_statistics* statistics = nullptr) const
   {
-    return extract_from_cells<ConcurrencyTag>(surface, samples, patches.features(),
-                                              Neighbor_cycles(neighbors), statistics);
+    return extract_from_cells<ConcurrencyTag>(
+        surface, samples, patches.features(),
+        Neighbor_cycles(int(neighbors.size()),
+                        [&](int i) {
+                          const auto& cycle = neighbors[i];
+                          return Neighbor_cycles::Cycle(cycle.data(), cycle.data() + cycle.size());
+                        }),
+        statistics);
   }
   Extracted_mesh insert() const
   {

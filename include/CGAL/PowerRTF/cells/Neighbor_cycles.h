@@ -5,6 +5,9 @@
 #ifndef CGAL_POWER_RTF_CELLS_NEIGHBOR_CYCLES_H
 #define CGAL_POWER_RTF_CELLS_NEIGHBOR_CYCLES_H
 
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -31,13 +34,18 @@ struct Neighbor_cycles {
   };
 
   Neighbor_cycles() = default;
-  /// `cycles`: of each cell.
-  explicit Neighbor_cycles(const std::vector<std::vector<int>>& cycles)
+  /// Of `cells` cells. `cycle`: function i -> `Cycle`.
+  template <class Cycle_of>
+  Neighbor_cycles(int cells, const Cycle_of& cycle,
+                  internal::Concurrency concurrency = Sequential_tag())
+      : first(cells + 1, 0)
   {
-    first.reserve(cycles.size() + 1);
-    for (const auto& cycle : cycles) first.push_back(first.back() + cycle.size());
-    neighbors.reserve(first.back());
-    for (const auto& cycle : cycles) neighbors.insert(neighbors.end(), cycle.begin(), cycle.end());
+    internal::for_each_index(concurrency, cells, [&](int i) { first[i] = cycle(i).size(); });
+    internal::resize_in_parallel(concurrency, neighbors,
+                                 internal::exclusive_scan(concurrency, cells + 1, first.data()));
+    internal::for_each_index(concurrency, cells, [&](int i) {
+      std::copy(cycle(i).begin(), cycle(i).end(), neighbors.begin() + first[i]);
+    });
   }
 
   /// The number of cells.

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -111,12 +113,29 @@ public:
   /// The neighbors of all cells.
   Neighbor_cycles neighbors()
   {
-    std::vector<std::vector<int>> cycles(size());
+    constexpr int usual = 12;
+    struct Cycle {
+      int size, neighbors[usual];
+    };
+    internal::Unset_vector<Cycle> cycles(size());
+    std::map<int, std::vector<int>> longer;
+    std::mutex mutex; // of these
     for_each_cell([&](int i, Cell_status, const auto& polygon, const auto&) {
       const auto first = std::begin(polygon.neighbor);
-      cycles[i].assign(first, first + polygon.size);
+      cycles[i].size = polygon.size;
+      if (polygon.size <= usual) {
+        std::copy(first, first + polygon.size, cycles[i].neighbors);
+      } else {
+        const std::lock_guard<std::mutex> lock(mutex);
+        longer[i].assign(first, first + polygon.size);
+      }
     });
-    return Neighbor_cycles(cycles);
+    const auto cycle = [&](int i) {
+      const int size = cycles[i].size;
+      const int* const begin = size <= usual ? cycles[i].neighbors : longer.at(i).data();
+      return Neighbor_cycles::Cycle(begin, begin + size);
+    };
+    return Neighbor_cycles(size(), cycle, m_backend.concurrency());
   }
 
   /// Distances of every cell's site to its nearest and to its sixth compatible neighbor.
