@@ -325,7 +325,7 @@ TEST_CASE("grid: points within a radius, compared with all pairs")
 
 namespace {
 
-using Candidates = std::vector<internal::Elimination_candidate>;
+using Candidates = internal::Elimination_candidates;
 
 /// The heaviest candidate goes, of equal ones the last, until n are left.
 std::vector<int> eliminated_in_turn(const Candidates& candidates, std::size_t n)

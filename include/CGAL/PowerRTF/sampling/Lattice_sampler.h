@@ -221,7 +221,7 @@ private:
   std::size_t distinct_points(const Lattice_view& view)
   {
     const int size = static_cast<int>(m_candidates.size());
-    std::vector<Vec3d> points(size);
+    internal::Unset_vector<Vec3d> points(size);
     m_backend.for_each(size, [&](int c) { points[c] = m_candidates[c].point; });
     const Point_tree tree(m_backend, points.data(), size);
     const auto is_twin = [&](int c) {
@@ -249,8 +249,8 @@ private:
   void add_gaps(const Lattice_view& view)
   {
     const int points = static_cast<int>(m_candidates.size()), sites = view.size - view.free;
-    std::vector<Vec3d> near(points + sites);
-    std::vector<int> nodes(near.size());
+    internal::Unset_vector<Vec3d> near(points + sites);
+    internal::Unset_vector<int> nodes(near.size());
     m_backend.for_each(points + sites, [&](int k) {
       nodes[k] = k < points ? m_candidates[k].node : view.free + k - points;
       near[k] = k < points ? m_candidates[k].point : to_double(view.points[nodes[k]]);
@@ -305,7 +305,7 @@ private:
     if (n == 0) return {};
     const Lattice_nodes& nodes = m_levels.front();
     const std::size_t free = candidates.size();
-    std::vector<internal::Elimination_candidate> all(free + sites.size());
+    internal::Elimination_candidates all(free + sites.size());
     m_backend.for_each(static_cast<int>(all.size()), [&](int k) {
       const bool is_free = k < static_cast<int>(free);
       const int i = is_free ? m_candidates[candidates[k]].node : sites[k - free];
@@ -317,7 +317,7 @@ private:
 
   Samples on_surface(const std::vector<Sample_candidate>& candidates) const
   {
-    std::vector<Facet_place> places(candidates.size());
+    internal::Unset_vector<Facet_place> places(candidates.size());
     m_backend.for_each(static_cast<int>(places.size()),
                        [&](int k) { places[k] = place_on_surface(candidates[k]); });
     Samples samples;

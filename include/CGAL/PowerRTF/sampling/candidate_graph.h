@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -25,6 +26,8 @@ struct Elimination_candidate {
   double radius; ///< half the distance of samples that are packed as densely as possible
 };
 
+using Elimination_candidates = Unset_vector<Elimination_candidate>;
+
 /// Which candidates see each other: closer than the sum of their radii, normals compatible. Places
 /// are those of the candidates in spatial order.
 struct Candidate_graph {
@@ -34,18 +37,18 @@ struct Candidate_graph {
   };
   std::vector<int> order;         ///< the candidate at each place
   std::vector<std::size_t> first; ///< of place k: `neighbors[first[k]]` to `neighbors[first[k+1]]`
-  std::vector<Neighbor> neighbors;
+  Unset_vector<Neighbor> neighbors;
 };
 
 /// The candidates in a packed tree, of whose nodes the largest radius is known, too: the work of a
 /// search does not grow with the contrast of the radii.
 class Candidate_tree {
 public:
-  Candidate_tree(const std::vector<Elimination_candidate>& candidates, Concurrency concurrency)
+  Candidate_tree(const Elimination_candidates& candidates, Concurrency concurrency)
       : m_layout(static_cast<int>(candidates.size())), m_order(candidates.size()),
         m_sorted(candidates.size()), m_boxes(m_layout.nodes()), m_radii(m_layout.nodes())
   {
-    std::vector<std::pair<std::uint64_t, int>> codes(candidates.size());
+    Unset_vector<std::pair<std::uint64_t, int>> codes(candidates.size());
     for_each_index(concurrency, m_layout.items, [&](int i) {
       codes[i] = {hilbert_code(candidates[i].point), i};
     });
@@ -111,14 +114,14 @@ private:
 
   Packed_tree_layout m_layout;
   std::vector<int> m_order;
-  std::vector<Elimination_candidate> m_sorted;
-  std::vector<Box3<double>> m_boxes; // of the nodes
-  std::vector<double> m_radii;       // the largest in each node
+  Elimination_candidates m_sorted;
+  Unset_vector<Box3<double>> m_boxes; // of the nodes
+  std::vector<double> m_radii;        // the largest in each node
 };
 
 /// \param cos_normal_angle candidates whose normals' dot product is below it do not see each other
 ///   (NVISPC)
-inline Candidate_graph candidate_graph(const std::vector<Elimination_candidate>& candidates,
+inline Candidate_graph candidate_graph(const Elimination_candidates& candidates,
                                        double cos_normal_angle, Concurrency concurrency)
 {
   constexpr int leaves_per_chunk = 64, arity = Packed_tree_layout::arity;

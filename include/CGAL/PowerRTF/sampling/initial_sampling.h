@@ -32,8 +32,9 @@ struct Facet_place {
 namespace internal {
 
 /// Appends the points at `places`.
-inline void add_samples(const Surface& surface, const std::vector<Facet_place>& places,
-                        Samples& samples, Concurrency concurrency = Sequential_tag())
+template <class Places>
+void add_samples(const Surface& surface, const Places& places, Samples& samples,
+                 Concurrency concurrency = Sequential_tag())
 {
   const std::size_t before = samples.size(), size = before + places.size();
   samples.points.resize(size);
@@ -114,7 +115,7 @@ inline std::vector<int> draw_by_elimination(const Samples& candidates,
   }
   // Discs of radius r in hexagonal arrangement take 2 sqrt(3) r^2 each.
   const double per_sample = cell_mass / (2 * std::sqrt(3.));
-  std::vector<Elimination_candidate> all;
+  Elimination_candidates all;
   const auto add = [&](const Samples& from, std::size_t i) {
     all.push_back({from.points[i], from.normals[i], std::sqrt(per_sample / from.density[i])});
   };

@@ -168,10 +168,10 @@ private:
 ///   (NVISPC)
 /// \param fixed so many candidates, the last ones, crowd the others, but are not among the `n`
 /// \returns the indices of the chosen candidates, increasing
-inline std::vector<int>
-eliminate_samples(const std::vector<internal::Elimination_candidate>& candidates,
-                  double cos_normal_angle, std::size_t n, std::size_t fixed = 0,
-                  internal::Concurrency concurrency = Sequential_tag())
+inline std::vector<int> eliminate_samples(const internal::Elimination_candidates& candidates,
+                                          double cos_normal_angle, std::size_t n,
+                                          std::size_t fixed = 0,
+                                          internal::Concurrency concurrency = Sequential_tag())
 {
   return internal::Sample_elimination(
              internal::candidate_graph(candidates, cos_normal_angle, concurrency), fixed,
