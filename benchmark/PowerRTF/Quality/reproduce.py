@@ -59,10 +59,12 @@ def compare_peers(reproduction, runner, peers, quick):
         "of the programs'); for Python packages without the interpreter and their import. Adaptive "
         "means what each tool offers for it, so the spacing differs between tools. On the "
         f"mechanical parts ({', '.join(PARTS)}) the other tools are asked to keep creases of "
-        f"{CREASE_ANGLE}° and more (pyacvd cannot), on the other models not; the preset quality "
-        "looks for such creases on all, the preset paper on none. The edge length (mean, least and "
-        "largest) and the absolute distance are in the model's own unit (Gear, Bracket: mm), all "
-        "other distances in % of the diagonal."), PEER_COLUMNS)
+        f"{CREASE_ANGLE}° and more (pyacvd cannot, and vorpalite smooths them, as its distances "
+        "show: beside these there is a row of this project's program without creases), on the "
+        "other models not; the presets quality and fast look for such creases on all, the preset "
+        "paper on none. The edge length (mean, least and largest) and the absolute distance are in "
+        "the model's own unit (Gear, Bracket: mm), all other distances in % of the diagonal."),
+        PEER_COLUMNS)
     wanted = ("Retinal",) if quick else PEER_MODELS
     models = [m for m in wanted if reproduction.models.get(m)][:4] or ["Three Holes"]
     parts = [m for m in (PARTS[-1:] if quick else PARTS) if reproduction.models.get(m)]
@@ -70,10 +72,14 @@ def compare_peers(reproduction, runner, peers, quick):
         n, path = reproduction.size["n"], reproduction.models.get(model)
         crease_angle = CREASE_ANGLE if model in PARTS else 180
         for density in ("uniform",) if model in PARTS else ("uniform", "curvature"):
-            for preset in ("quality", "fast", "paper"):
-                add_peer(table, model, density, f"PowerRTF, preset {preset}",
+            ways = {f"preset {preset}": ("--preset", preset)
+                    for preset in ("quality", "fast", "paper")}
+            if model in PARTS:
+                ways["no creases"] = ("--features", "180")
+            for way, options in ways.items():
+                add_peer(table, model, density, f"PowerRTF, {way}",
                          runner.later(runner.power_rtf, model, path, n, "--density", density,
-                                      "--preset", preset))
+                                      *options))
             for peer in peers:
                 if density in peer.densities:
                     add_peer(table, model, density, f"{peer.name} {peer.version}".strip(),
