@@ -8,12 +8,17 @@
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/sampling/Lattice_field.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <limits>
+#include <memory>
+#include <random>
 #include <vector>
 
 using namespace engine_comparison;
@@ -49,12 +54,65 @@ TEST_CASE("in double precision the steps are those of the CPU engine")
   for (const Case& c : cases()) compare<Cuda_engine<double>>(c, 1e-6);
 }
 
-TEST_CASE("a lattice made on the device is that of the CPU, but for rounding")
+namespace {
+
+using Tag = CGAL::Parallel_if_available_tag;
+
+/// A lattice of the CPU, from nodes that differ from the true ones by at most a rounding; number 0
+/// from these themselves.
+Samples lattice_but_for_rounding(const Case& c, const Start& start, unsigned number)
 {
+  Host_backend<Tag> backend;
+  std::vector<Lattice_nodes> moved;
+  std::mt19937 random(number);
+  std::uniform_real_distribution<float> ulp(-6e-8f, 6e-8f); // of 1, which no coordinate exceeds
+  const auto move = [&](float& x) { x += number == 0 ? 0 : ulp(random); };
+  const auto make = [&](const std::vector<Lattice_nodes>& levels, bool is_even,
+                        std::uint64_t seed) {
+    moved = levels;
+    for (Lattice_nodes& nodes : moved)
+      for (auto vectors : {&nodes.points, &nodes.normals})
+        for (Vec3f& v : *vectors)
+          for (float* x : {&v.x, &v.y, &v.z}) move(*x);
+    return std::make_unique<Lattice_field<Host_backend<Tag>>>(backend, moved, is_even, seed);
+  };
+  return sample_surface<Tag>(start.patches->surface(), c.options, start.patches->features(),
+                             nullptr, nullptr, make);
+}
+
+/// Whether most samples are at the same places, and both arrangements as regular.
+bool are_alike(const Surface& surface, const Samples& a, const Samples& b)
+{
+  if (a.size() != b.size()) return false;
+  const double C = spacing_constant(surface, a.size());
+  std::vector<double> distances; // of samples to the other lattice, by the spacing
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double nearest = 4;
+    for (const Vec3d& p : b.points) nearest = std::min(nearest, squared_length(p - a.points[i]));
+    distances.push_back(std::sqrt(nearest * a.density[i]) / C);
+  }
+  std::sort(distances.begin(), distances.end());
+  bool result = distances[distances.size() / 2] < 0.05;
+  const auto of_a = relative_distances(surface, a), of_b = relative_distances(surface, b);
+  for (const double share : {0.2, 0.5, 0.8}) {
+    const std::size_t k = std::size_t(share * double(of_a.size()));
+    result = result && std::abs(of_a[k] - of_b[k]) < 0.02;
+  }
+  return result;
+}
+
+} // namespace
+
+// Rounding decides between points that fit as well, and where a lattice stays that may slide at
+// nearly no cost. So the CPU's lattice is not one, but those that it makes of nodes that differ by
+// a rounding: on a torus with 60 samples they have two arrangements.
+TEST_CASE("a lattice made on the device is one that rounding lets the CPU make")
+{
+  constexpr unsigned most = 32; // lattices of the CPU that are compared
   const shapes::Soup torus = shapes::torus(96, 48, 1, 0.3);
   const Case shapes[] = {
       {"torus", torus, options_of(false, Density::uniform, 0)},
-      {"torus", torus, options_of(false, Density::curvature, 0)},
+      {"torus, adaptive", torus, options_of(false, Density::curvature, 0)},
       {"box with creases", shapes::box(4), options_of(false, Density::uniform, 0)}};
   for (Case c : shapes)
     for (const std::size_t n : {60u, 900u, 6000u})
@@ -66,33 +124,17 @@ TEST_CASE("a lattice made on the device is that of the CPU, but for rounding")
         c.options.random_seed = seed;
         const Start start(c);
         const Surface& surface = start.patches->surface();
-        const auto sample = [&](const Make_lattice_field& make) {
-          return sample_surface<CGAL::Parallel_if_available_tag>(
-              surface, c.options, start.patches->features(), nullptr, nullptr, make);
-        };
         const auto sample_on_device = [&] {
-          return sample(Cuda_engine<float>(surface, c.options).lattice_field_maker());
+          return sample_surface<Tag>(surface, c.options, start.patches->features(), nullptr,
+                                     nullptr,
+                                     Cuda_engine<float>(surface, c.options).lattice_field_maker());
         };
-        const Samples host = sample({}), device = sample_on_device();
+        const Samples device = sample_on_device();
         CHECK(device.points == sample_on_device().points);
-        REQUIRE(device.size() == host.size());
-        // A whole lattice may slide at nearly no cost: rounding decides then where it stays.
-        const double C = spacing_constant(surface, n);
-        std::vector<double> distances; // of samples to the other lattice, by the spacing
-        for (std::size_t i = 0; i < host.size(); ++i) {
-          double nearest = 4;
-          for (const Vec3d& p : device.points)
-            nearest = std::min(nearest, squared_length(p - host.points[i]));
-          distances.push_back(std::sqrt(nearest * host.density[i]) / C);
-        }
-        std::sort(distances.begin(), distances.end());
-        CHECK(distances[distances.size() / 2] < 0.05);
-        // Both are as regular.
-        const auto a = relative_distances(surface, host), b = relative_distances(surface, device);
-        for (const double share : {0.2, 0.5, 0.8}) {
-          const std::size_t k = std::size_t(share * double(a.size()));
-          CHECK(std::abs(a[k] - b[k]) < 0.02);
-        }
+        bool is_found = false;
+        for (unsigned number = 0; number < most && !is_found; ++number)
+          is_found = are_alike(surface, lattice_but_for_rounding(c, start, number), device);
+        CHECK(is_found);
       }
 }
 
