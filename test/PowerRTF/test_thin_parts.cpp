@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
@@ -19,38 +18,6 @@ using namespace remeshed_shape;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A ball of radius 1 with a finger of the diameter `thickness`, both round, around the z axis.
-Soup pin(double thickness)
-{
-  constexpr int sectors = 48, ball = 40, shaft = 60, tip = 8;
-  const double r = thickness / 2, foot = std::acos(r), top = 2;
-  std::vector<std::pair<double, double>> profile; // distance to the axis, height
-  for (int k = 1; k <= ball; ++k) {
-    const double a = -shapes::pi / 2 + (foot + shapes::pi / 2) * k / ball;
-    profile.emplace_back(std::cos(a), std::sin(a));
-  }
-  for (int k = 1; k <= shaft; ++k)
-    profile.emplace_back(r, std::sin(foot) + (top - std::sin(foot)) * k / shaft);
-  for (int k = 1; k < tip; ++k) {
-    const double a = shapes::pi / 2 * k / tip;
-    profile.emplace_back(r * std::cos(a), top + r * std::sin(a));
-  }
-  Soup s{{{0, 0, -1}, {0, 0, top + r}}, {}};
-  for (const auto& [x, z] : profile)
-    for (int k = 0; k < sectors; ++k) {
-      const double a = 2 * shapes::pi * k / sectors;
-      s.points.push_back({x * std::cos(a), x * std::sin(a), z});
-    }
-  const auto at = [](std::size_t ring, int k) { return int(2 + ring * sectors) + k % sectors; };
-  for (int k = 0; k < sectors; ++k) {
-    s.triangles.push_back({0, at(0, k + 1), at(0, k)});
-    s.triangles.push_back({1, at(profile.size() - 1, k), at(profile.size() - 1, k + 1)});
-    for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring)
-      shapes::add_quad(s, at(ring, k), at(ring, k + 1), at(ring + 1, k + 1), at(ring + 1, k));
-  }
-  return s;
-}
 
 std::vector<double> thickness(const Surface& s, double most = infinity)
 {
@@ -76,7 +43,7 @@ double spacing_at(const Surface& s, std::size_t n, int v)
 TEST_CASE("thickness: the diameter of a finger")
 {
   const double diameter = 0.1;
-  const Surface s = shapes::make_surface(pin(diameter));
+  const Surface s = shapes::make_surface(shapes::ball_with_finger(diameter));
   const double unit = s.normalization.scale;
   const std::vector<double> found = thickness(s, 0.5 * unit);
   for (std::size_t f = 0; f < found.size(); ++f) {
@@ -136,7 +103,7 @@ TEST_CASE("thin parts: the spacing is within 1.25 times the thickness, elsewhere
 {
   const std::size_t n = 1000;
   const double diameter = 0.02;
-  Surface s = shapes::make_surface(pin(diameter));
+  Surface s = shapes::make_surface(shapes::ball_with_finger(diameter));
   const double before = spacing_at(s, n, 0), unit = s.normalization.scale;
   REQUIRE(before > 2 * 1.25 * diameter * unit);
   const Thin_parts thin = thin_parts(s, n);
@@ -160,7 +127,7 @@ TEST_CASE("thin parts: the spacing is within 1.25 times the thickness, elsewhere
 
 TEST_CASE("thin parts: with as many samples as they ask for, the spacing elsewhere stays")
 {
-  Surface s = shapes::make_surface(pin(0.03));
+  Surface s = shapes::make_surface(shapes::ball_with_finger(0.03));
   const std::size_t n = 1000, more = thin_parts(s, n).samples;
   const double before = spacing_at(s, n, 0);
   refine_thin_parts(s, more);
@@ -169,8 +136,8 @@ TEST_CASE("thin parts: with as many samples as they ask for, the spacing elsewhe
 
 TEST_CASE("thin parts: the same for a scaled surface, and for any number of threads")
 {
-  Surface one = shapes::make_surface(pin(0.03)),
-          big = shapes::make_surface(scaled(pin(0.03), 1024)), parallel = one;
+  Surface one = shapes::make_surface(shapes::ball_with_finger(0.03)),
+          big = shapes::make_surface(scaled(shapes::ball_with_finger(0.03), 1024)), parallel = one;
   const Thin_parts a = thin_parts(one, 1000), b = thin_parts(big, 1000);
   CHECK(a.samples == b.samples);
   CHECK(1024 * a.thickness == b.thickness);
