@@ -98,11 +98,11 @@ TEST_CASE("thin parts: a surface that is nowhere thin stays as it is")
   }
 }
 
-TEST_CASE("thin parts: the spacing is within 1.25 times the thickness, elsewhere at most 1.4 times "
+TEST_CASE("thin parts: the spacing is within 1.25 times the thickness, elsewhere at most 1.6 times "
           "as large")
 {
   const std::size_t n = 1000;
-  const double diameter = 0.02;
+  const double diameter = 0.03;
   Surface s = shapes::make_surface(shapes::ball_with_finger(diameter));
   const double before = spacing_at(s, n, 0), unit = s.normalization.scale;
   REQUIRE(before > 2 * 1.25 * diameter * unit);
@@ -121,7 +121,7 @@ TEST_CASE("thin parts: the spacing is within 1.25 times the thickness, elsewhere
     if (z > 1.1 && z < 1.95) CHECK(h < 1.02 * 1.25 * diameter * unit);
   }
   CHECK(largest > before);
-  CHECK(largest < 1.42 * before);
+  CHECK(largest < 1.62 * before);
   CHECK(thin_parts(s, n).area_share < 0.1 * thin.area_share);
 }
 

@@ -35,7 +35,7 @@ constexpr double spacing_over_thickness = 1.25, thin_gradation = 0.5;
 /// this many times its spacing.
 class Thin_spacing {
 public:
-  static constexpr double most_elsewhere = 1.4;
+  static constexpr double most_elsewhere = 1.6;
 
   /// \param thickness of the facets; negative: not known yet
   Thin_spacing(const Surface& surface, std::size_t n, std::vector<double>& thickness,
@@ -62,7 +62,7 @@ public:
   /// Of the spacing on facet `f`; at pointed tips, where the thickness is 0, a share of it.
   double limit(int f) const
   {
-    constexpr double least = 0.15;
+    constexpr double least = 0.25;
     return (std::max)(spacing_over_thickness * m_thickness[f], least * spacing(f));
   }
 
@@ -174,7 +174,7 @@ inline void halve_edges(Surface& surface, const std::vector<int>& halfedges,
 } // namespace internal
 
 /// Brings the spacing of `n` samples by `surface.vertex_density` within 1.25 times the thickness of
-/// the surface, as far as the spacing elsewhere need not become more than 1.4 times as large, and
+/// the surface, as far as the spacing elsewhere need not become more than 1.6 times as large, and
 /// splits facets that are too large for that. A surface that is nowhere thin stays as it is.
 inline void refine_thin_parts(Surface& surface, std::size_t n,
                               internal::Concurrency concurrency = Sequential_tag())
