@@ -19,6 +19,7 @@ import argparse
 import concurrent.futures
 import json
 import math
+import os
 import pathlib
 import sys
 import tempfile
@@ -136,7 +137,8 @@ def main():
                   else write_shapes(options, folder))
         rows = list(pool.map(lambda model: compare(options, model), models))
     counted = [is_as_asked for _, is_counted, is_as_asked in rows if is_counted]
-    text = "# Thin parts\n\n" + made_by(__file__, sys.argv[1:]) + "\n\n" + markdown(
+    text = "# Thin parts\n\n" + made_by(
+        __file__, [os.path.basename(argument.rstrip("/")) for argument in sys.argv[1:]]) + "\n\n" + markdown(
         ["mesh", "places", "% of the area", "samples that do", "keep: Q", "angle", "seconds",
          "refine: Q", "angle", "seconds", "refine is"], [row for row, _, _ in rows])
     text += f"\n{sum(counted)} of {len(counted)} as asked with refine.\n"

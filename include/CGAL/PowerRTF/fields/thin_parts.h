@@ -6,7 +6,6 @@
 #ifndef CGAL_POWER_RTF_FIELDS_THIN_PARTS_H
 #define CGAL_POWER_RTF_FIELDS_THIN_PARTS_H
 
-#include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
@@ -36,6 +35,8 @@ constexpr double spacing_over_thickness = 1.25, thin_gradation = 0.5;
 class Thin_spacing {
 public:
   static constexpr double most_elsewhere = 1.6;
+  /// Of the spacing, which no limit is below: pointed tips have no thickness.
+  static constexpr double least_share = 0.25;
 
   /// \param thickness of the facets; negative: not known yet
   Thin_spacing(const Surface& surface, std::size_t n, std::vector<double>& thickness,
@@ -59,11 +60,10 @@ public:
     return m_constant / std::sqrt((rho[a] + rho[b] + rho[c]) / 3);
   }
 
-  /// Of the spacing on facet `f`; at pointed tips, where the thickness is 0, a share of it.
+  /// Of the spacing on facet `f`.
   double limit(int f) const
   {
-    constexpr double least = 0.25;
-    return (std::max)(spacing_over_thickness * m_thickness[f], least * spacing(f));
+    return (std::max)(spacing_over_thickness * m_thickness[f], least_share * spacing(f));
   }
 
   /// Whether the spacing is too large on facet `f`.
@@ -179,7 +179,8 @@ inline void halve_edges(Surface& surface, const std::vector<int>& halfedges,
 inline void refine_thin_parts(Surface& surface, std::size_t n,
                               internal::Concurrency concurrency = Sequential_tag())
 {
-  constexpr double least = 1e-3, most = internal::Thin_spacing::most_elsewhere;
+  constexpr double least = internal::Thin_spacing::least_share,
+                   most = internal::Thin_spacing::most_elsewhere;
   std::vector<double> thickness(surface.triangles.size(), -1);
   for (;;) {
     const internal::Thin_spacing spacing(surface, n, thickness, concurrency);
