@@ -55,6 +55,15 @@ Json to_json(const Intersection_cure& c)
           {"wrap_offset", c.wrap_offset}};
 }
 
+Json to_json(const Thin_parts& t)
+{
+  return {{"places", t.places},
+          {"area_share", t.area_share},
+          {"thickness", t.thickness},
+          {"thinnest_point", t.thinnest},
+          {"samples", t.samples}};
+}
+
 Json parameters(const Remeshing_options& o)
 {
   Json json;
@@ -149,6 +158,7 @@ void add_mesh(Json& json, const Run& run)
   json["theta_max"] = r.quality.theta_max;
   json["below_30"] = r.quality.below_30;
   json["above_90"] = r.quality.above_90;
+  json["thin_parts"] = to_json(r.thin);
   json["edge_length_mean"] = r.edge_length.mean;
   json["edge_length_median"] = r.edge_length.median;
   json["edge_length_min"] = r.edge_length.min;

@@ -70,6 +70,12 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
   row(out, "largest angle", number(q.theta_max, 2));
   row(out, "triangles with an angle below 30", percent(q.below_30));
   row(out, "triangles with an angle above 90", percent(q.above_90));
+  if (r.thin.places > 0) {
+    row(out, "too thin for the spacing: places", std::to_string(r.thin.places));
+    row(out, "their share of the area", percent(r.thin.area_share));
+    row(out, "least thickness", figure(r.thin.thickness));
+    row(out, "samples that do with --thin refine", std::to_string(r.thin.samples));
+  }
   row(out, "edge length, mean", figure(r.edge_length.mean));
   row(out, "edge length, median", figure(r.edge_length.median));
   row(out, "edge length, least", figure(r.edge_length.min));

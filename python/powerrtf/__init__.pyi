@@ -90,6 +90,7 @@ def remesh(
     density_power: float = 1.0,
     gradation: float = 0.1,
     density_smoothing: float = 3.0,
+    thin: str = "keep",
     min_edge_length: float = 0.0,
     max_edge_length: float = 0.0,
     sampling: str = "lattice",

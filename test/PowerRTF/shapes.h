@@ -247,6 +247,38 @@ inline Soup thin_disc(double gap, int rings = 20)
   return s;
 }
 
+/// A ball of radius 1 with a finger of the diameter `thickness`, both round, around the z axis.
+inline Soup ball_with_finger(double thickness)
+{
+  constexpr int sectors = 48, ball = 40, shaft = 60, tip = 8;
+  const double r = thickness / 2, foot = std::acos(r), top = 2;
+  std::vector<std::pair<double, double>> profile; // distance to the axis, height
+  for (int k = 1; k <= ball; ++k) {
+    const double a = -pi / 2 + (foot + pi / 2) * k / ball;
+    profile.emplace_back(std::cos(a), std::sin(a));
+  }
+  for (int k = 1; k <= shaft; ++k)
+    profile.emplace_back(r, std::sin(foot) + (top - std::sin(foot)) * k / shaft);
+  for (int k = 1; k < tip; ++k) {
+    const double a = pi / 2 * k / tip;
+    profile.emplace_back(r * std::cos(a), top + r * std::sin(a));
+  }
+  Soup s{{{0, 0, -1}, {0, 0, top + r}}, {}};
+  for (const auto& [x, z] : profile)
+    for (int k = 0; k < sectors; ++k) {
+      const double a = 2 * pi * k / sectors;
+      s.points.push_back({x * std::cos(a), x * std::sin(a), z});
+    }
+  const auto at = [](std::size_t ring, int k) { return int(2 + ring * sectors) + k % sectors; };
+  for (int k = 0; k < sectors; ++k) {
+    s.triangles.push_back({0, at(0, k + 1), at(0, k)});
+    s.triangles.push_back({1, at(profile.size() - 1, k), at(profile.size() - 1, k + 1)});
+    for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring)
+      add_quad(s, at(ring, k), at(ring, k + 1), at(ring + 1, k + 1), at(ring + 1, k));
+  }
+  return s;
+}
+
 /// Both soups, side by side in one.
 inline Soup joined(Soup a, const Soup& b)
 {

@@ -146,6 +146,9 @@ function drawTable() {
     ["quality, mean", mean(input.quality), report.q_avg],
     ["angle, least", least(input.angles), report.theta_min],
     ["angle, largest", most(input.angles), report.theta_max],
+    ...(report.thin_parts.places ? [
+      ["places too thin for the spacing", "", report.thin_parts.places],
+      ["samples that do with --thin refine", "", report.thin_parts.samples]] : []),
     ["length of edges, least", least(input.edges), report.edge_length_min],
     ["length of edges, mean", mean(input.edges), report.edge_length_mean],
     ["length of edges, largest", most(input.edges), report.edge_length_max],

@@ -17,6 +17,8 @@ namespace CGAL::PowerRTF {
 enum class Preset { quality, fast, paper };
 /// \f$\rho = 1\f$, or \f$\rho = \kappa^p\f$.
 enum class Density { uniform, curvature };
+/// Parts thinner than the spacing. `refine`: the spacing follows the thickness there.
+enum class Thin { keep, refine };
 /// How the first samples are chosen.
 enum class Sampling { lattice, stratified, elimination, random };
 /// Where a sample's normal and density come from.
@@ -92,6 +94,7 @@ struct Remeshing_options {
   /// The density from the curvature is smoothed over this many times the local spacing (standard
   /// deviation), which leaves a lattice fewer places where its rows must end; 0: not at all.
   double density_smoothing = 3;
+  Thin thin = Thin::keep; ///< parts too thin for the spacing, as fingers and the rims of plates
 
   // Bounds for the wanted edge lengths, in the input's unit; 0: none.
   double min_edge_length = 0;

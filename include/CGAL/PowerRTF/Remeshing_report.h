@@ -93,6 +93,17 @@ struct Intersection_cure {
   double wrap_offset = 0; ///< `wrap`, in the input's unit: how far from the input it lies
 };
 
+/// Where the surface is too thin for the spacing of the samples: nearer to its other side than 0.8
+/// times that, around a finger, a plate's rim, a groove.
+struct Thin_parts {
+  std::size_t places = 0;         ///< that do not touch
+  double area_share = 0;          ///< of the surface
+  double thickness = 0;           ///< the least, in the input's unit
+  double thinnest[3] = {0, 0, 0}; ///< the point where it is, in the input's coordinates
+  /// That would do with `Thin::refine`: elsewhere they are as far apart as now.
+  std::size_t samples = 0;
+};
+
 /// Times of the stages.
 struct Stage_seconds {
   double load = 0, surface = 0, sampling = 0, optimization = 0, extraction = 0, improvement = 0,
@@ -139,6 +150,8 @@ struct Remeshing_report {
   std::size_t feature_edges = 0;            ///< of the output's creases and borders
   std::size_t lost_feature_edges = 0;       ///< of those, how many the output's triangles lack
   Quality_statistics quality;
+  /// None are looked for where all triangles have \f$Q_t \ge 0.6\f$ and no angle below 30 degrees.
+  Thin_parts thin;
   Edge_length_statistics edge_length; ///< in the input's unit of length
   double diagonal = 0; ///< of the input's bounding box, in the input's unit of length
   Distance_statistics distance;

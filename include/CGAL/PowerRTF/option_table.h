@@ -27,6 +27,7 @@ using Value_names = std::vector<const char*>;
 // One overload per enumeration, found by the type of its unused argument.
 inline Value_names value_names(Preset) { return {"quality", "fast", "paper"}; }
 inline Value_names value_names(Density) { return {"uniform", "curvature"}; }
+inline Value_names value_names(Thin) { return {"keep", "refine"}; }
 inline Value_names value_names(Sampling)
 {
   return {"lattice", "stratified", "elimination", "random"};
@@ -150,6 +151,11 @@ void for_each_option(Visitor&& visit)
   add("density_smoothing", &O::density_smoothing, "",
       "curvature's density is smoothed over this many times the local spacing; 0: not at all",
       {0, 100});
+  add("thin", &O::thin, "",
+      "where fingers, rims of plates, grooves are too thin for the spacing: it stays, or follows "
+      "the "
+      "thickness",
+      no_number);
   add("min_edge_length", &O::min_edge_length, "",
       "no edges shorter than about this are wanted, in the input's unit; 0: any", {0, 1e300});
   add("max_edge_length", &O::max_edge_length, "",

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/fields/resolution.h>
 #include <CGAL/PowerRTF/fields/sizing.h>
+#include <CGAL/PowerRTF/fields/thin_parts.h>
 #include <CGAL/PowerRTF/input/clean_surface.h>
 #include <CGAL/PowerRTF/input/cured_soup.h>
 #include <CGAL/PowerRTF/input/merge_near.h>
@@ -119,12 +120,15 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   if (is_number_of_samples_open(options) && !has_uniform_density(surface)) set_fields();
   report.max_distance = max_distance(surface, options, concurrency);
   report.samples_asked = number_of_samples(surface, options, concurrency);
-  if (has_wanted_lengths(options, fields)) {
+  const bool is_refined = options.thin == Thin::refine,
+             has_lengths = has_wanted_lengths(options, fields);
+  if (has_lengths || is_refined)
     report.input_topology =
         internal::manifold_topology(surface, concurrency); // before facets are split
+  if (has_lengths)
     report.samples_asked =
         set_wanted_lengths(surface, options, fields, report.samples_asked, concurrency);
-  }
+  if (is_refined) refine_thin_parts(surface, report.samples_asked, concurrency);
   return surface;
 }
 

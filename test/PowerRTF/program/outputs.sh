@@ -42,7 +42,7 @@ rounded() { awk '{ for (k = 1; k <= 3; ++k) printf "%.11f ", $k + 1e-13; print "
 run 0 -- torus.off out.off "${fast[@]}" --report r.json
 for name in vertices faces euler_characteristic input_euler_characteristic components border_edges \
   self_intersections q_min q_avg theta_min theta_min_avg theta_max below_30 above_90 \
-  edge_length_mean edge_length_median edge_length_min edge_length_max diagonal distance_rms distance_mean distance_max \
+  edge_length_mean edge_length_median edge_length_min edge_length_max thin_parts diagonal distance_rms distance_mean distance_max \
   absolute_distance_rms absolute_distance_mean absolute_distance_max not_carried_over \
   inside_capacity_interval capacity_rms constructions outer_iterations \
   cells ok guarded empty incomplete seconds load surface sampling optimization extraction \

@@ -21,6 +21,36 @@ TEST_CASE("the smallest numbers of samples")
   }
 }
 
+TEST_CASE("a finger of a quarter of the spacing: the report tells of it, refined it is round")
+{
+  const std::size_t n = 1000;
+  const Soup input = shapes::ball_with_finger(0.03);
+  const Remeshing_report kept = remesh(input, n, uniform()).report;
+  check_guarantees(kept);
+  CHECK(kept.quality.q_min < 0.6);
+  CHECK(kept.thin.places == 1);
+  CHECK(kept.thin.thickness == Approx(0.03).epsilon(0.02));
+  CHECK(kept.thin.thinnest[2] > 1);
+  CHECK(kept.thin.samples > n);
+  Remeshing_options options = uniform();
+  options.thin = Thin::refine;
+  const Result refined = remesh(input, n, options);
+  check_guarantees(refined.report);
+  CHECK(refined.soup.points.size() == n);
+  CHECK(refined.report.quality.q_min > 0.6);
+  CHECK(refined.report.quality.theta_min > 30);
+  CHECK(refined.report.thin.places == 0);
+  CHECK(refined.report.input_topology.faces == input.triangles.size());
+}
+
+TEST_CASE("nothing thin: the same bytes, refined or not")
+{
+  Remeshing_options options = uniform();
+  const Result kept = remesh(torus(), 500, options);
+  options.thin = Thin::refine;
+  CHECK(are_equal(kept.soup, remesh(torus(), 500, options).soup));
+}
+
 TEST_CASE("closed shapes: guarantees, quality and equal capacities")
 {
   struct Case {

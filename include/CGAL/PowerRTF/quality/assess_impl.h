@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_QUALITY_ASSESS_IMPL_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/fields/thin_parts.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/quality/assess.h>
@@ -40,6 +41,7 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
                                   const Facet_tree& tree, const Extracted_mesh& mesh,
                                   Remeshing_report& report, internal::Concurrency concurrency)
 {
+  constexpr double round_quality = 0.6, round_angle = 30; // degrees
   internal::Progress_part part(0.1);
   if (report.input_topology.faces == 0) // else it is that before facets were split
     report.input_topology = internal::manifold_topology(surface, concurrency);
@@ -54,6 +56,8 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
         self_intersections(surface.points, surface.triangles, concurrency);
   part.next(0.6);
   report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
+  if (report.quality.q_min < round_quality || report.quality.theta_min < round_angle)
+    report.thin = thin_parts(patches, mesh.points.size(), concurrency);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles, concurrency);
   report.edge_length = {unit * lengths.mean, unit * lengths.median, unit * lengths.min,
