@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace tools {
@@ -29,6 +30,22 @@ fs::path temporary_for(const fs::path& target)
   return target.parent_path() /
          (".power_rtf_" + std::to_string(::getpid()) + '_' + std::to_string(count++) + ".tmp");
 }
+
+// A file without a name in the folder of `target`, which goes with the process whatever ends it; -1
+// where the system has none.
+int open_unnamed(const fs::path& target)
+{
+#ifdef O_TMPFILE
+  constexpr mode_t all = 0666; // less the user's mask
+  return ::open(target.parent_path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, all);
+#else
+  (void)target;
+  return -1;
+#endif
+}
+
+// The path of a file that is open.
+fs::path path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
 } // namespace
 
@@ -60,6 +77,10 @@ void check_writable(const std::string& file)
   const fs::path folder = target.parent_path();
   if (!fs::exists(folder, ignored)) fail(file, "there is no directory " + folder.string());
   if (!fs::is_directory(folder, ignored)) fail(file, folder.string() + " is not a directory");
+  if (const int trial = open_unnamed(target); trial >= 0) {
+    ::close(trial);
+    return;
+  }
   const fs::path trial = temporary_for(target);
   errno = 0;
   if (!std::ofstream(trial)) fail(file, folder.string() + ": " + std::strerror(errno));
@@ -68,16 +89,21 @@ void check_writable(const std::string& file)
 
 Output_file::Output_file(const std::string& file) : m_name(file), m_target(target_of(file))
 {
-  if (!is_device_or_pipe(m_target)) m_temporary = temporary_for(m_target);
+  constexpr std::ios::openmode mode = std::ios::out | std::ios::binary;
+  if (!is_device_or_pipe(m_target)) {
+    m_unnamed = open_unnamed(m_target);
+    if (m_unnamed >= 0 && m_buffer.open(path_of(m_unnamed), mode)) return;
+    m_temporary = temporary_for(m_target);
+  }
   errno = 0;
-  if (!m_buffer.open(m_temporary.empty() ? m_target : m_temporary,
-                     std::ios::out | std::ios::binary))
+  if (!m_buffer.open(m_temporary.empty() ? m_target : m_temporary, mode))
     fail(m_name, std::strerror(errno));
 }
 
 Output_file::~Output_file()
 {
   std::error_code ignored;
+  if (m_unnamed >= 0) ::close(m_unnamed);
   if (!m_temporary.empty()) fs::remove(m_temporary, ignored);
 }
 
@@ -90,7 +116,13 @@ void Output_file::close()
 
 void Output_file::commit()
 {
-  if (m_temporary.empty()) return;
+  if (m_temporary.empty()) {
+    if (m_unnamed < 0) return;
+    m_temporary = temporary_for(m_target); // as no name can be taken from another file
+    if (::linkat(AT_FDCWD, path_of(m_unnamed).c_str(), AT_FDCWD, m_temporary.c_str(),
+                 AT_SYMLINK_FOLLOW) != 0)
+      fail(m_name, std::strerror(errno));
+  }
   std::error_code error;
   if (fs::exists(m_target, error))
     fs::permissions(m_temporary, fs::status(m_target).permissions(), error);

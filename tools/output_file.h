@@ -47,9 +47,10 @@ protected:
   }
 };
 
-/// Writes to a temporary file in the target's folder, which replaces the target at `commit()`.
-/// Without `commit()` the target stays as it was. (A device or a pipe is written directly.)
-/// Symbolic links are followed.
+/// Writes to a temporary file in the target's folder, which replaces the target at `commit()`. It
+/// has no name until then, where the file system allows that: nothing is left of it even when the
+/// process is killed. Without `commit()` the target stays as it was. (A device or a pipe is written
+/// directly.) Symbolic links are followed.
 class Output_file {
 public:
   /// \throws Output_error when the temporary file cannot be made
@@ -66,7 +67,8 @@ public:
 
 private:
   std::string m_name;                          ///< as the user gave it
-  std::filesystem::path m_target, m_temporary; ///< no temporary: writes to the target
+  std::filesystem::path m_target, m_temporary; ///< empty: the temporary file has no name, or
+  int m_unnamed = -1;                          ///< (-1) there is none, and the target is written
   Polling_buffer m_buffer;
   std::ostream m_stream{&m_buffer};
 };
