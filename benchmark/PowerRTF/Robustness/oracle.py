@@ -10,7 +10,8 @@ oracle.py --cells 1e6 FOLDER_OR_FILE   fewer, of other models
 After each iteration of each run all cells are compared (`power_rtf_remesh --check --check-every`):
 of uniform and curvature-adapted sampling with the preset quality, and of the preset paper, whose
 weights are large; with more seeds until there are enough cells, so that the speed of the runs
-decides which are the last. Results: runs.csv and a table, oracle.md, in the folder --results. The
+decides which are the last. Results: runs.csv and a table, oracle.md, in the folder --results. Runs
+are written one by one: a driver that was stopped goes on where it was when it is called again. The
 exit code is 1 when a cell was certified and wrong or a run crashed; 77 when there is no mesh.
 """
 
@@ -36,6 +37,7 @@ COUNTS = ("cells", "equal_cycles", "certified_wrong", "uncertified_right", "unce
 ERRORS = ("area_error", "centroid_error")
 KEY = ("model", "family", "samples", "seed")
 FIELDS = (*KEY, "status", *COUNTS, *ERRORS)
+TYPES = {**dict.fromkeys(FIELDS, int), "model": str, "family": str, **dict.fromkeys(ERRORS, float)}
 FAMILIES = {"uniform": ["--density", "uniform"], "curvature": ["--density", "curvature"],
             "paper": ["--preset", "paper", "--iterations", "10"]}
 ENDED = (0, 4)  # exit codes of the program: all right, and a certified cell is wrong
@@ -93,9 +95,23 @@ def tasks(options, models):
                     yield model, family, samples, seed
 
 
-def measure(options, models):
-    """Runs until there are enough cells."""
-    rows, lock, todo = [], threading.Lock(), tasks(options, models)
+def key(row):
+    return tuple(row[name] for name in KEY)
+
+
+def runs_before(file):
+    """The rows of a driver that was stopped, whose last one may be cut off."""
+    if not file.exists():
+        return []
+    with open(file, encoding="utf-8", newline="") as lines:
+        return [{name: TYPES[name](value) for name, value in row.items()}
+                for row in csv.DictReader(lines) if None not in row.values()]
+
+
+def measure(options, models, rows, note):
+    """Adds rows until there are enough cells; `note(row)` is called for each."""
+    done, lock = set(map(key, rows)), threading.Lock()
+    todo = (task for task in tasks(options, models) if (task[0].name, *task[1:]) not in done)
     first_round = len(FAMILIES) * len(models) * len(options.samples)
 
     def work():
@@ -108,11 +124,11 @@ def measure(options, models):
             row = run(options, *task)
             with lock:
                 rows.append(row)
+                note(row)
 
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for job in [pool.submit(work) for _ in range(options.jobs)]:
             job.result()
-    return sorted(rows, key=lambda row: [row[name] for name in KEY])
 
 
 def main():
@@ -135,13 +151,15 @@ def main():
     if not models:
         print("no mesh in " + ", ".join(map(str, options.meshes)), file=sys.stderr)
         return 77
-    rows = measure(options, models)
     results = pathlib.Path(options.results)
     results.mkdir(parents=True, exist_ok=True)
-    with open(results / "runs.csv", "w", newline="", encoding="utf-8") as file:
+    rows = runs_before(results / "runs.csv")
+    with open(results / "runs.csv", "w", newline="", encoding="utf-8", buffering=1) as file:
         writer = csv.DictWriter(file, FIELDS)
         writer.writeheader()
         writer.writerows(rows)
+        measure(options, models, rows, writer.writerow)
+    rows.sort(key=key)
     text = summary(options, rows, [os.path.basename(a.rstrip("/")) for a in sys.argv[1:]])
     (results / "oracle.md").write_text(text, encoding="utf-8")
     print(text, end="")
