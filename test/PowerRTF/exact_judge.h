@@ -87,22 +87,63 @@ public:
   std::size_t find(std::size_t a) { return m_sets.find_set(a); }
 };
 
+struct Side {
+  std::size_t facet, corner; ///< from this corner of the facet to its next one
+  std::size_t first() const { return 3 * facet + corner; }
+  std::size_t second() const { return 3 * facet + (corner + 1) % 3; }
+};
+
+/// By their ends, which are sorted: in which facets they are.
+using Edges = std::map<std::pair<std::size_t, std::size_t>, std::vector<Side>>;
+
+inline Edges edges_of(const Mesh& mesh)
+{
+  Edges edges;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i)
+      edges[std::minmax(mesh.facets[f][i], mesh.facets[f][(i + 1) % 3])].push_back({f, i});
+  return edges;
+}
+
+/// Whether the edge has the same direction in both facets.
+inline bool is_same_way(const Mesh& mesh, const Side& a, const Side& b)
+{
+  return mesh.facets[a.facet][a.corner] == mesh.facets[b.facet][b.corner];
+}
+
+/// Makes the corners of two facets at the ends of their edge equivalent.
+inline void unite_corners(Classes& corners, const Mesh& mesh, const Side& a, const Side& b)
+{
+  const bool same = is_same_way(mesh, a, b);
+  corners.unite(a.first(), same ? b.first() : b.second());
+  corners.unite(a.second(), same ? b.second() : b.first());
+}
+
+/// The curves of border edges, each going on in the next one around a vertex of its sheet: loops,
+/// and paths between edges of more than two facets.
+inline std::size_t border_curves(const Mesh& mesh, const Edges& edges)
+{
+  Classes corners(3 * mesh.facets.size());
+  std::vector<std::size_t> borders;
+  for (const auto& [ends, sides] : edges) {
+    if (sides.size() == 2) unite_corners(corners, mesh, sides[0], sides[1]);
+    if (sides.size() > 1) continue;
+    corners.unite(sides[0].first(), sides[0].second());
+    borders.push_back(sides[0].first());
+  }
+  std::set<std::size_t> curves;
+  for (const std::size_t c : borders) curves.insert(corners.find(c));
+  return curves.size();
+}
+
 inline Topology topology(const Mesh& mesh)
 {
-  struct Side {
-    std::size_t facet;
-    int corner; ///< from this corner of the facet to its next one
-  };
   const std::size_t count = mesh.facets.size();
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<Side>> edges;
-  for (std::size_t f = 0; f < count; ++f)
-    for (int i = 0; i < 3; ++i)
-      edges[std::minmax(mesh.facets[f][i], mesh.facets[f][(i + 1) % 3])].push_back({f, i});
-
+  const Edges edges = edges_of(mesh);
   Topology t;
   Classes directed(2 * count), fans(3 * count), sheets(count);
-  Classes border(mesh.points.size()), parts(mesh.points.size());
-  std::set<std::size_t> border_vertices, crowded_vertices;
+  Classes parts(mesh.points.size());
+  std::set<std::size_t> crowded_vertices;
   for (const auto& [ends, sides] : edges) {
     parts.unite(ends.first, ends.second);
     if (sides.size() > 2) {
@@ -110,16 +151,10 @@ inline Topology topology(const Mesh& mesh)
       crowded_vertices.insert({ends.first, ends.second});
     }
     if (sides.size() == 2) sheets.unite(sides[0].facet, sides[1].facet);
-    if (sides.size() == 1) {
-      border.unite(ends.first, ends.second);
-      border_vertices.insert(ends.first);
-    }
     for (std::size_t k = 1; k < sides.size(); ++k) {
       const Side a = sides[0], b = sides[k];
-      const std::size_t a_next = (a.corner + 1) % 3, b_next = (b.corner + 1) % 3;
-      const bool same = mesh.facets[a.facet][a.corner] == mesh.facets[b.facet][b.corner];
-      fans.unite(3 * a.facet + a.corner, 3 * b.facet + (same ? b.corner : b_next));
-      fans.unite(3 * a.facet + a_next, 3 * b.facet + (same ? b_next : b.corner));
+      const bool same = is_same_way(mesh, a, b);
+      unite_corners(fans, mesh, a, b);
       if (same || sides.size() > 2) t.oriented = false;
       if (sides.size() > 2) continue;
       directed.unite(2 * a.facet, 2 * b.facet + same); // 2 f: as it is, 2 f + 1: turned round
@@ -127,7 +162,7 @@ inline Topology topology(const Mesh& mesh)
     }
   }
 
-  std::set<std::size_t> components, loops, sheet_names;
+  std::set<std::size_t> components, sheet_names;
   std::map<std::size_t, std::set<std::size_t>> fans_of;
   for (std::size_t f = 0; f < count; ++f) {
     components.insert(parts.find(mesh.facets[f][0]));
@@ -135,14 +170,13 @@ inline Topology topology(const Mesh& mesh)
     if (directed.find(2 * f) == directed.find(2 * f + 1)) t.orientable = false;
     for (int i = 0; i < 3; ++i) fans_of[mesh.facets[f][i]].insert(fans.find(3 * f + i));
   }
-  for (const std::size_t v : border_vertices) loops.insert(border.find(v));
   for (const auto& [v, classes] : fans_of)
     t.non_manifold_vertices += classes.size() > 1 || crowded_vertices.count(v) > 0;
   t.vertices = fans_of.size();
   t.unused_vertices = mesh.points.size() - t.vertices;
   t.facets = count;
   t.components = components.size();
-  t.border_loops = loops.size();
+  t.border_loops = border_curves(mesh, edges);
   t.sheets = sheet_names.size();
   t.euler_characteristic = long(t.vertices) - long(edges.size()) + long(count);
   return t;
