@@ -3,6 +3,7 @@
 #include "dirty_shapes.h"
 
 #include <CGAL/PowerRTF/geometry/component_topology.h>
+#include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 
@@ -272,4 +273,21 @@ TEST_CASE("topology of the components; too few samples for it are refused with t
     CHECK(mentions(e.what(), "7 of them for the one at vertex"));
     CHECK(mentions(e.what(), "genus 1 with 0 border loops"));
   }
+}
+
+TEST_CASE("a seam inside of a sheet that cutting would leave closed gets a vertex in the middle")
+{
+  shapes::Soup soup = shapes::plane_patch(3, 3);
+  const std::size_t before = soup.points.size();
+  soup.points.push_back({0.5, 1. / 3, 1});
+  soup.triangles.push_back({5, 6, static_cast<int>(before)}); // stands on an edge of the square
+  Repair_counts repairs;
+  const Surface s =
+      import_soup(soup.points, soup.triangles, repairs, Repair::yes, PRTF::Non_manifold::keep);
+  CHECK(s.seams.size() == 2);
+  CHECK(s.points.size() == before + 2);
+  CHECK(PRTF::topology(s.triangles).junctions == 1);
+  // Once it is cut, the middle is there twice in the square, and all three in the triangle.
+  CHECK(PRTF::cut_along_creases(s).surface.points.size() == s.points.size() + 4);
+  CHECK(PRTF::cut_along_creases(s).surface.adjacency.non_manifold_edges == 0);
 }

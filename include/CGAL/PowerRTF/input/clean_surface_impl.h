@@ -135,11 +135,7 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
     soup.seams = orient_facets(soup.triangles, soup.adjacency, repairs.reoriented_facets);
     soup.update_adjacency();
   }
-  if (soup.adjacency.non_manifold_edges > 0) {
-    const std::vector<Edge> crowded = crowded_edges(soup);
-    soup.seams.insert(soup.seams.end(), crowded.begin(), crowded.end());
-    sort_uniquely(soup.seams);
-  }
+  if (soup.adjacency.non_manifold_edges > 0) find_crowded_seams(soup);
   if (allowed == Manifold_repair::network) {
     soup.contacts = find_contacts(soup);
     return {};

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -196,24 +197,34 @@ inline std::vector<Edge> crowded_edges(const Triangle_soup& soup)
   return crowded;
 }
 
+inline bool is_seam(const Triangle_soup& soup, int h)
+{
+  return std::binary_search(
+      soup.seams.begin(), soup.seams.end(),
+      sorted_edge(halfedge_source(soup.triangles, h), halfedge_target(soup.triangles, h)));
+}
+
+/// Calls `f` with the halfedges around each vertex that go on in one another once the soup is cut
+/// along its seams.
+template <class F>
+void for_each_fan_between_seams(const Triangle_soup& soup, const F& f)
+{
+  const auto opposite = [&](int h) {
+    return is_seam(soup, h) ? Facet_adjacency::none : soup.adjacency.opposite[h];
+  };
+  for_each_fan(soup.adjacency.opposite.size(), opposite, f);
+}
+
 /// The vertices where more than one fan of facets ends, some of them without a seam: sorted.
 inline std::vector<int> find_contacts(const Triangle_soup& soup)
 {
-  const auto is_seam = [&](int h) {
-    return std::binary_search(
-        soup.seams.begin(), soup.seams.end(),
-        sorted_edge(halfedge_source(soup.triangles, h), halfedge_target(soup.triangles, h)));
-  };
   std::vector<char> is_taken(soup.points.size(), 0);
   for (const Edge& e : soup.seams)
     for (const int v : e) is_taken[v] = 1;
   std::vector<int> contacts;
-  const auto opposite = [&](int h) {
-    return is_seam(h) ? Facet_adjacency::none : soup.adjacency.opposite[h];
-  };
-  for_each_fan(soup.adjacency.opposite.size(), opposite, [&](const std::vector<int>& fan) {
+  for_each_fan_between_seams(soup, [&](const std::vector<int>& fan) {
     if (std::any_of(fan.begin(), fan.end(),
-                    [&](int h) { return is_seam(h) || is_seam(previous_halfedge(h)); }))
+                    [&](int h) { return is_seam(soup, h) || is_seam(soup, previous_halfedge(h)); }))
       return;
     const int v = halfedge_source(soup.triangles, fan[0]);
     if (is_taken[v]) contacts.push_back(v);
@@ -245,6 +256,47 @@ inline void halve_crowded_edges(Triangle_soup& soup, const std::vector<Crowd>& l
       soup.triangles.push_back(half);
       i = -1;
     }
+}
+
+/// Those of the seams `crowded` that cutting would leave closed, as both ends lie inside of a
+/// sheet: one crowd for each, of one halfedge.
+inline std::vector<Crowd> closed_slits(const Triangle_soup& soup, const std::vector<Edge>& crowded)
+{
+  std::vector<int> fan_of(soup.adjacency.opposite.size());
+  int fans = 0;
+  for_each_fan_between_seams(soup, [&](const std::vector<int>& fan) {
+    for (const int h : fan) fan_of[h] = fans;
+    ++fans;
+  });
+  std::set<Edge> seen; // the fans at both ends
+  std::vector<Crowd> result;
+  for (int h = 0; h < static_cast<int>(fan_of.size()); ++h) {
+    const Edge edge =
+        sorted_edge(halfedge_source(soup.triangles, h), halfedge_target(soup.triangles, h));
+    if (std::binary_search(crowded.begin(), crowded.end(), edge) &&
+        !seen.insert(sorted_edge(fan_of[h], fan_of[next_halfedge(h)])).second)
+      result.push_back({h});
+  }
+  return result;
+}
+
+/// Makes the edges of more than two facets seams. Those that could not be cut open get a vertex in
+/// the middle.
+inline void find_crowded_seams(Triangle_soup& soup)
+{
+  const std::vector<Edge> others = soup.seams;
+  const auto find = [&] {
+    std::vector<Edge> crowded = crowded_edges(soup);
+    soup.seams = others;
+    soup.seams.insert(soup.seams.end(), crowded.begin(), crowded.end());
+    sort_uniquely(soup.seams);
+    return crowded;
+  };
+  const std::vector<Crowd> closed = closed_slits(soup, find());
+  if (closed.empty()) return;
+  halve_crowded_edges(soup, closed);
+  soup.update_adjacency();
+  find();
 }
 
 } // namespace internal
