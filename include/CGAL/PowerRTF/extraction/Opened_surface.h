@@ -26,15 +26,13 @@ public:
   const Samples& samples() const { return m_samples; }
   const Feature_samples& features() const { return m_features; }
 
-  /// Makes the copies of each sample one vertex again.
-  void sew_up(Extracted_mesh& mesh) const;
+  /// Makes the copies of each vertex, which are at the same place, one again.
+  static void sew_up(Extracted_mesh& mesh);
 
 private:
   Surface m_surface;
   Samples m_samples;
   Feature_samples m_features;
-  std::vector<int> m_twin_of; // of the last samples
-  std::size_t m_first_feature, m_first_twin;
 };
 
 } // namespace CGAL::PowerRTF

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
+#include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
@@ -29,8 +30,7 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   m_surface.facet_patches.clear();
   m_surface.seams.clear();
   m_surface.contacts.clear();
-  m_first_feature = samples.size() - features.size();
-  m_first_twin = samples.size();
+  const std::size_t first_feature = samples.size() - features.size();
 
   std::vector<std::vector<int>> copies(surface.points.size());
   for (std::size_t v = 0; v < cut.originals.size(); ++v)
@@ -65,8 +65,7 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
     m_features.places.push_back(places.front());
     for (std::size_t c = 1; c < places.size(); ++c) {
       twins.push_back(places[c]);
-      const std::size_t s = m_first_feature + k;
-      m_twin_of.push_back(static_cast<int>(s));
+      const std::size_t s = first_feature + k;
       m_samples.points.push_back(samples.points[s]);
       m_samples.facets.push_back(samples.facets[s]);
       m_samples.normals.push_back(samples.normals[s]);
@@ -78,14 +77,15 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   m_features.samples.points.assign(m_features.places.size(), {0, 0, 0}); // for their number
 }
 
-CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh) const
+CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh)
 {
+  const std::vector<int> first = first_of_equal_points(mesh.points);
   std::vector<int> name(mesh.points.size());
   std::vector<Vec3d> points;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const bool is_twin = v >= m_first_twin && v < m_first_twin + m_twin_of.size();
-    name[v] = is_twin ? m_twin_of[v - m_first_twin] : static_cast<int>(points.size());
-    if (!is_twin) points.push_back(mesh.points[v]);
+    const bool is_copy = first[v] != static_cast<int>(v);
+    name[v] = is_copy ? name[first[v]] : static_cast<int>(points.size());
+    if (!is_copy) points.push_back(mesh.points[v]);
   }
   mesh.points.swap(points);
   mesh.is_opened = false;
