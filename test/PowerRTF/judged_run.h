@@ -85,6 +85,7 @@ struct Settings {
   std::string density = "uniform";
   std::string format = "off"; ///< of input and output
   unsigned seed = 0;
+  std::string intersections = "keep";
 };
 
 struct Run {
@@ -110,8 +111,9 @@ inline Run run(const Scratch_folder& folder, const std::string& name, const shap
   const std::string command =
       "ulimit -t " + std::to_string(time_limit) + "; exec" + quoted(program()) + quoted(run.input) +
       quoted(run.output) + " --quiet --threads 1 --samples " + std::to_string(settings.samples) +
-      " --density " + settings.density + " --seed " + std::to_string(settings.seed) + " --report" +
-      quoted(report) + " 2>" + quoted(messages);
+      " --density " + settings.density + " --seed " + std::to_string(settings.seed) +
+      " --intersections " + settings.intersections + " --report" + quoted(report) + " 2>" +
+      quoted(messages);
   const int status = std::system(command.c_str());
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.message = content(messages);
@@ -120,14 +122,16 @@ inline Run run(const Scratch_folder& folder, const std::string& name, const shap
 }
 
 /// In what the written file differs from `samples` vertices on a surface without
-/// self-intersections that has the input's topology. Where the input is no 2-manifold, what the
-/// report calls the input's topology counts; what meets there meets in the file.
+/// self-intersections that has the input's topology. Where the input is no 2-manifold, or has been
+/// cured, what the report calls the input's topology counts; what meets there meets in the file.
 inline std::vector<std::string> defects(const Run& run)
 {
   const judge::Mesh input = judge::merged(judge::read(run.input)), output = judge::read(run.output);
   judge::Topology asked = judge::topology(input);
   const judge::Topology is = judge::topology(output);
-  if (!asked.is_manifold() || judge::degenerate_facets(input) > 0) {
+  const auto& cure = run.report["cure"];
+  const bool is_cured = cure["resolved_pairs"] > 0 || cure["wrap_radius"] > 0;
+  if (!asked.is_manifold() || judge::degenerate_facets(input) > 0 || is_cured) {
     asked.euler_characteristic = run.report["input_euler_characteristic"];
     asked.components = run.report["input_components"];
     asked.border_loops = run.report["input_border_loops"];

@@ -62,21 +62,27 @@ public:
                               {Corners{a, d, c}, Corners{d, b, c}});
   }
 
-  /// Whether moving the source of `h` to its target adds an intersection. A vertex on a seam is let
-  /// go: it touches its copies until they are gone, too.
+  /// Whether moving the source of `h` to its target adds an intersection.
   bool forbids_collapse(Halfedge h) const
   {
-    if (m.is_on_seam(m.mesh.source(h))) return false;
-    const Vertex v = m.mesh.target(h);
     Faces old;
     Triangles fresh;
-    for (const Halfedge g : halfedges_around_source(m.mesh.source(h), m.mesh)) {
-      if (m.mesh.is_border(g)) continue;
-      old.push_back(m.mesh.face(g));
-      const Vertex a = m.mesh.target(g), b = m.apex(g);
-      if (a != v && b != v) fresh.push_back({v, a, b});
-    }
+    add_collapse(h, old, fresh);
     return adds_intersections(old, fresh);
+  }
+
+  /// The same of several at once: of the copies of a vertex on a seam, one in each sheet, to those
+  /// of a neighbor on the seam, which then goes on by the edge between the places `seam`.
+  /// \pre no face is at two of the sources
+  bool forbids_collapses(const std::vector<Halfedge>& collapses, const PowerRTF::Edge& seam)
+  {
+    Faces old;
+    Triangles fresh;
+    for (const Halfedge h : collapses) add_collapse(h, old, fresh);
+    m_triangles.set_coming_seam(seam);
+    const bool result = adds_intersections(old, fresh);
+    m_triangles.set_coming_seam({-1, -1});
+    return result;
   }
 
   /// Whether a face around `v` intersects another.
@@ -149,6 +155,18 @@ private:
     return {{b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()}};
   }
 
+  // The faces that moving the source of `h` to its target changes, and what becomes of them.
+  void add_collapse(Halfedge h, Faces& old, Triangles& fresh) const
+  {
+    const Vertex v = m.mesh.target(h);
+    for (const Halfedge g : halfedges_around_source(m.mesh.source(h), m.mesh)) {
+      if (m.mesh.is_border(g)) continue;
+      old.push_back(m.mesh.face(g));
+      const Vertex a = m.mesh.target(g), b = m.apex(g);
+      if (a != v && b != v) fresh.push_back({v, a, b});
+    }
+  }
+
   // The faces, none of `except`, that intersect the triangle; at most `most`.
   std::size_t count(const Corners& t, const Faces& except, std::size_t most) const
   {
@@ -185,7 +203,8 @@ private:
     return sum;
   }
 
-  // Whether the faces are parts of one flat patch, and the triangles, too, not turned over.
+  // Whether the faces are parts of one flat patch, and the triangles, too, not turned over; and off
+  // seams, where another sheet may have the same edge.
   bool is_within_patch(const Faces& old, const Triangles& fresh) const
   {
     constexpr double clearly = 0.99; // cosine
@@ -199,6 +218,7 @@ private:
     }
     const double l = length(normal);
     return std::all_of(fresh.begin(), fresh.end(), [&](const Corners& t) {
+      if (std::any_of(t.begin(), t.end(), [&](Vertex v) { return m.is_on_seam(v); })) return false;
       const Vec3d n = m.area_vector(t[0], t[1], t[2]);
       return dot(n, normal) > clearly * length(n) * l;
     });

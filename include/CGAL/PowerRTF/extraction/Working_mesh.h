@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -76,6 +77,14 @@ struct Working_mesh {
       if (places[v] != static_cast<int>(v)) is_shared[v] = is_shared[places[v]] = 1;
     for (std::size_t v = 0; v < points.size(); ++v)
       if (!is_shared[v]) places[v] = -1;
+  }
+  /// The vertices at each place of several, in the order of the places and of their numbers.
+  std::map<int, std::vector<Vertex>> copies() const
+  {
+    std::map<int, std::vector<Vertex>> result;
+    for (const Vertex v : mesh.vertices())
+      if (is_on_seam(v) && !mesh.is_isolated(v)) result[places[v]].push_back(v);
+    return result;
   }
   bool is_on_seam(Vertex v) const { return !places.empty() && places[v] >= 0; }
 

@@ -6,7 +6,8 @@
 // preserving edge contraction", 1999) holds for each collapse, so the mesh stays homeomorphic to
 // the surface. Each pass removes vertices that are far apart and flips the edges around them to
 // Delaunay, so degrees stay small and the cost is linear. Vertices that cannot go are tried again
-// with weaker geometric conditions; the topological one always holds.
+// with weaker geometric conditions; the topological one always holds. Under a guard the copies of
+// a vertex on a seam go together: it takes them for one.
 #ifndef CGAL_POWER_RTF_EXTRACTION_DECIMATE_H
 #define CGAL_POWER_RTF_EXTRACTION_DECIMATE_H
 
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,15 +25,13 @@ namespace CGAL::PowerRTF::internal {
 
 class Decimator {
 public:
-  /// What `guard` forbids is not done. `seams_only`: of an opened surface, so that copies are again
-  /// at the same places.
-  Decimator(Working_mesh& mesh, Edge_flipper& flipper, Intersection_guard* guard = nullptr,
-            bool seams_only = false)
+  /// What `guard` forbids is not done.
+  Decimator(Working_mesh& mesh, Edge_flipper& flipper, Intersection_guard* guard = nullptr)
       : m(mesh), m_flipper(flipper), m_guard(guard), m_touched(mesh.samples.size(), 0)
   {
+    if (m_guard) m_copies = m.copies();
     for (const Vertex v : m.mesh.vertices())
-      if (m.samples[v] < 0 && !m.mesh.is_isolated(v) && (!seams_only || m.is_on_seam(v)))
-        m_rest.push_back(v);
+      if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
     m_all = m_rest.size();
   }
 
@@ -102,8 +102,8 @@ private:
   // there may be none: the border then recedes to the samples.
   bool remove(Vertex u)
   {
-    m_ring.clear();
-    for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
+    if (m_guard && m.is_on_seam(u)) return remove_copies(m.places[u]);
+    find_ring(u);
     const std::vector<Vertex>& curve = m.feature_neighbors(u);
     if (!curve.empty())
       return curve.size() == 2 && !m.is_feature(curve[0], curve[1]) &&
@@ -113,6 +113,78 @@ private:
     const auto along_border = [&](Halfedge h) { return m.mesh.is_border(m.mesh.edge(h)); };
     return collapse_to_neighbor(u, along_border) || (m_borders_may_recede && cut_off()) ||
            (m_borders_may_recede && collapse_to_neighbor(u, anywhere));
+  }
+
+  void find_ring(Vertex u)
+  {
+    m_ring.clear();
+    for (const Halfedge h : halfedges_around_source(u, m.mesh)) m_ring.push_back(h);
+  }
+
+  struct Seam_collapse {
+    double shape;
+    std::vector<Halfedge> halfedges; // from each of the copies
+    Edge seam;                       // that remains, by its places
+  };
+
+  // Collapses the copies at a place into those of one of its two neighbors on the seam.
+  bool remove_copies(int place)
+  {
+    std::vector<Seam_collapse> candidates;
+    for (const Vertex w : m.feature_neighbors(m_copies.at(place)[0]))
+      if (std::optional<Seam_collapse> c = seam_collapse(place, m.places[w]))
+        candidates.push_back(std::move(*c));
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const auto& a, const auto& b) { return a.shape > b.shape; });
+    for (const Seam_collapse& c : candidates) {
+      if (m_guard->forbids_collapses(c.halfedges, c.seam)) continue;
+      std::size_t changed = 0;
+      for (const Halfedge h : c.halfedges) {
+        find_ring(m.mesh.source(h));
+        changed += m_ring.size();
+        collapse(h);
+      }
+      m_copies.erase(place);
+      m_flipper.run(10 * changed);
+      return true;
+    }
+    return false;
+  }
+
+  // None if not all copies at `from` can collapse into one at `to`, if they are so near each other
+  // that one collapse would change the next, or if the seam would run along itself.
+  std::optional<Seam_collapse> seam_collapse(int from, int to)
+  {
+    Seam_collapse result{1, {}, {-1, -1}};
+    std::vector<Vertex> near; // at the sources
+    for (const Vertex u : m_copies.at(from)) {
+      const std::vector<Vertex>& curve = m.feature_neighbors(u);
+      if (curve.size() != 2 || m.is_feature(curve[0], curve[1])) return {};
+      const int i = m.places[curve[0]] == to ? 0 : 1, other = m.places[curve[1 - i]];
+      const Edge seam = sorted_edge(to, other);
+      if (to < 0 || other < 0 || other == to || m.places[curve[i]] != to) return {};
+      if (!result.halfedges.empty() && seam != result.seam) return {};
+      const Halfedge h = m.mesh.halfedge(u, curve[i]);
+      if (!Euler::does_satisfy_link_condition(m.mesh.edge(h), m.mesh)) return {};
+      find_ring(u);
+      result.shape = std::min(result.shape, shape_after(u, curve[i]));
+      if (result.shape < 0) return {};
+      result.halfedges.push_back(h);
+      result.seam = seam;
+      near.push_back(u);
+      for (const Halfedge g : m_ring) near.push_back(m.mesh.target(g));
+    }
+    std::sort(near.begin(), near.end());
+    if (std::adjacent_find(near.begin(), near.end()) != near.end()) return {};
+    const auto vanishes = [&](Halfedge g) {
+      return !m.mesh.is_border(g) && m.places[m.apex(g)] == from;
+    };
+    for (const Vertex v : m_copies.at(to))
+      for (const Halfedge g : halfedges_around_source(v, m.mesh))
+        if (sorted_edge(to, m.places[m.mesh.target(g)]) == result.seam && !vanishes(g) &&
+            !vanishes(m.mesh.opposite(g)))
+          return {};
+    return result;
   }
 
   template <class IsAllowed>
@@ -129,6 +201,7 @@ private:
       if (Euler::does_satisfy_link_condition(m.mesh.edge(c.halfedge), m.mesh) &&
           !(m_guard && m_guard->forbids_collapse(c.halfedge))) {
         collapse(c.halfedge);
+        m_flipper.run(10 * m_ring.size());
         return true;
       }
     return false;
@@ -203,13 +276,16 @@ private:
     m.normals[kept] = normal;
     m.samples[kept] = sample;
     if (!m.places.empty()) m.places[kept] = place;
+    if (m_guard && place >= 0) {
+      std::vector<Vertex>& copies = m_copies.at(place);
+      std::replace(copies.begin(), copies.end(), v, kept);
+    }
     m_touched[kept] = m_pass;
     if (m_guard) m_guard->insert_around(kept);
     for (const Halfedge h : halfedges_around_target(kept, m.mesh)) {
       m_flipper.push(m.mesh.edge(h));
       m_flipper.push(m.mesh.edge(m.mesh.prev(h)));
     }
-    m_flipper.run(10 * m_ring.size());
   }
 
   // The faces at `u` move out of their flat patches unless all are in the same.
@@ -256,6 +332,7 @@ private:
   std::vector<int> m_touched;  // by vertex: the last pass that changed something around it
   std::vector<Halfedge> m_ring;
   std::vector<Candidate> m_candidates;
+  std::map<int, std::vector<Vertex>> m_copies; // by place: those on seams
   int m_pass = 0;
   double m_min_agreement = 1;
   bool m_borders_may_recede = false;

@@ -21,6 +21,9 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
   Extracted_mesh result;
   result.points = samples.points;
   std::vector<int> name(working.samples);
+  int names = int(samples.size()); // copies of exchanged ones come after them
+  for (const int n : name) names = std::max(names, n + 1);
+  result.points.resize(names);
   for (const auto v : mesh.vertices())
     if (name[v] >= 0)
       result.points[name[v]] = working.point(v); // another one if the sample was exchanged

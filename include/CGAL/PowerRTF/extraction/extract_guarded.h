@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -70,20 +71,20 @@ public:
                      bool is_opened)
       : m_may_go(may_go(samples, features)),
         m(mesh_with_samples(surface, samples, features, is_opened)),
-        m_guard(m, sight(balls, reach)), m_flipper(m, 0.1, &m_guard)
+        m_guard(m, sight(balls, reach)), m_flipper(m, 0.1, &m_guard),
+        m_next_twin(static_cast<int>(samples.size()))
   {}
 
   void run()
   {
     m_flipper.push_around_samples();
     m_flipper.run(20 * m.mesh.number_of_edges());
-    if (!m.places.empty()) Decimator(m, m_flipper, &m_guard, true).run();
     decimate();
     exchange();
     Edge_flipper flipper(m, -0.7, &m_guard);
     for (const auto e : m.mesh.edges()) flipper.push(e);
     flipper.run(20 * m.mesh.number_of_edges());
-    if (!m.places.empty()) Intersection_remover(m, flipper).run(); // that seams have brought
+    if (!m.places.empty()) Intersection_remover(m, flipper).run(); // of the surface itself
   }
 
   const Working_mesh& mesh() const { return m; }
@@ -142,24 +143,42 @@ private:
   {
     std::size_t fewest = m_may_go.size() + 1;
     for (int round = 0, vain = 0; round < max_exchanges && vain < max_vain; ++round) {
-      m_rest.clear();
-      for (const Vertex v : m.mesh.vertices())
-        if (m.samples[v] < 0 && !m.mesh.is_isolated(v) && !m.is_on_seam(v)) m_rest.push_back(v);
+      find_rest();
       if (m_rest.size() > m_may_go.size()) return;
       vain = m_rest.size() < fewest ? 0 : vain + 1;
       fewest = std::min(fewest, m_rest.size());
       const std::vector<Vertex> removable = removable_samples();
       const std::size_t count = std::min(m_rest.size(), removable.size());
       if (count == 0) return;
+      const auto copies = m.copies();
       for (std::size_t k = 0; k < count; ++k) {
         const int s = m.samples[removable[k]];
         m_may_go[s] = false;
         m.samples[m_rest[k]] = s;
         m.samples[removable[k]] = -1;
+        if (m.is_on_seam(m_rest[k])) add_twins(copies.at(m.places[m_rest[k]]));
         m_guard.watch_around(removable[k]);
       }
       decimate();
     }
+  }
+
+  // Of those at one place on a seam, the first.
+  void find_rest()
+  {
+    m_rest.clear();
+    std::set<int> seen;
+    for (const Vertex v : m.mesh.vertices())
+      if (m.samples[v] < 0 && !m.mesh.is_isolated(v) &&
+          (!m.is_on_seam(v) || seen.insert(m.places[v]).second))
+        m_rest.push_back(v);
+  }
+
+  // The vertices at a place, of which the first has become a sample: the others' numbers come after
+  // all samples.
+  void add_twins(const std::vector<Vertex>& copies)
+  {
+    for (auto v = copies.begin() + 1; v != copies.end(); ++v) m.samples[*v] = m_next_twin++;
   }
 
   // Those on creases and borders only if there are no others: they show the shape.
@@ -192,7 +211,7 @@ private:
     std::vector<std::pair<double, Vertex>> order;
     for (const Vertex v : m.mesh.vertices()) {
       const int s = m.samples[v];
-      if (s < 0 || !m_may_go[s] || is_near[v] || m.mesh.is_isolated(v) || m.is_on_seam(v) ||
+      if (s < 0 || m.is_on_seam(v) || !m_may_go[s] || is_near[v] || m.mesh.is_isolated(v) ||
           !is_at(place, v))
         continue;
       Vec3d normal{0, 0, 0};
@@ -241,6 +260,7 @@ private:
   Working_mesh m;
   Intersection_guard m_guard;
   Edge_flipper m_flipper;
+  int m_next_twin;
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -31,6 +31,9 @@ public:
     return {m.mesh.point(t[0]), m.mesh.point(t[1]), m.mesh.point(t[2])};
   }
 
+  /// The places that a change will join by an edge of a seam, so that it counts as one.
+  void set_coming_seam(const Edge& places) { m_coming_seam = places; }
+
   /// Of triangles with area, with their points. In an opened surface, vertices at the same place
   /// count as one; sheets that get an edge in common off their seams count as intersecting.
   bool intersect(const Corners& s, const Triangle_points& p, const Corners& t,
@@ -61,11 +64,13 @@ private:
 
   bool is_border(Vertex a, Vertex b) const
   {
+    if (sorted_edge(place(a), place(b)) == m_coming_seam) return true;
     const auto h = m.mesh.halfedge(a, b);
     return h.is_valid() && m.mesh.is_border(m.mesh.edge(h));
   }
 
   const Working_mesh& m;
+  Edge m_coming_seam{-1, -1};
 };
 
 /// Two faces that intersect; see there.
