@@ -187,7 +187,7 @@ private:
     } else {
       const PowerRTF::Opened_surface opened(m_surface, samples(), features);
       mesh = triangulate(opened.surface(), opened.samples(), opened.features());
-      opened.sew_up(mesh);
+      PowerRTF::Opened_surface::sew_up(mesh);
     }
     const Stage stage("quality", m_report.seconds.quality);
     PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,

@@ -249,7 +249,7 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
           extract_by_insertion(opened.surface(), opened.samples(), opened.features(), true);
       CHECK(topology(mesh.triangles).oriented);
       CHECK(mesh.points.size() > 300);
-      opened.sew_up(mesh);
+      Opened_surface::sew_up(mesh);
       CHECK(mesh.points.size() == 300);
       CHECK(internal::lost_feature_edges(mesh) == 0);
       const Topology_statistics is = topology(mesh.triangles), was = topology(surface.triangles);
@@ -261,6 +261,38 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
       CHECK(was.border_loops == c.loops);
       CHECK(is.non_manifold_edges + is.non_manifold_vertices == 0);
     }
+}
+
+TEST_CASE("a sample that comes to lie on a seam is no vertex of one sheet there")
+{
+  shapes::Soup fin = shapes::plane_patch(4, 4), wall = fin; // on a floor
+  for (Vec3d& p : wall.points) p = {0.5, p.y, p.x};
+  fin = shapes::joined(fin, wall);
+  Remeshing_options options;
+  options.number_of_samples = 300;
+  Repair_counts repairs;
+  Surface surface =
+      import_soup(fin.points, fin.triangles, repairs, Repair::yes, Non_manifold::keep);
+  const Surface_patches patches(surface, options);
+  const Samples free = sample_surface(patches.surface(), options, patches.features());
+  Samples samples = joined(patches.on_whole(free), patches.features().samples);
+  const Edge seam = surface.seams.front();
+  samples.points[0] = 0.63 * surface.points[seam[0]] + 0.37 * surface.points[seam[1]];
+  samples.facets[0] = 0;
+  const auto has = [&](int v) {
+    const Triangle& t = surface.triangles[samples.facets[0]];
+    return std::find(t.begin(), t.end(), v) != t.end();
+  };
+  while (!has(seam[0]) || !has(seam[1])) ++samples.facets[0];
+  const Opened_surface opened(surface, samples, patches.features());
+  Extracted_mesh mesh =
+      extract_by_insertion(opened.surface(), opened.samples(), opened.features(), true);
+  Opened_surface::sew_up(mesh);
+  const Topology_statistics is = topology(mesh.triangles), was = topology(surface.triangles);
+  CHECK(was.junctions == 1);
+  CHECK(is.junctions == 1);
+  CHECK(is.border_loops == was.border_loops);
+  CHECK(is.euler_characteristic == was.euler_characteristic);
 }
 
 TEST_CASE("density does not see a crease as curvature")

@@ -30,6 +30,8 @@ public:
   static void sew_up(Extracted_mesh& mesh);
 
 private:
+  void move_off_seams(const std::vector<char>& is_copied, std::size_t count);
+
   Surface m_surface;
   Samples m_samples;
   Feature_samples m_features;

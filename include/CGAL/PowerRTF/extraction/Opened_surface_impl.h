@@ -35,6 +35,9 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   std::vector<std::vector<int>> copies(surface.points.size());
   for (std::size_t v = 0; v < cut.originals.size(); ++v)
     copies[cut.originals[v]].push_back(static_cast<int>(v));
+  std::vector<char> is_copied;
+  for (const int v : cut.originals) is_copied.push_back(copies[v].size() > 1);
+  move_off_seams(is_copied, first_feature);
   std::map<Edge, std::vector<Edge>> edge_copies;
   for (std::size_t f = 0; f < surface.triangles.size(); ++f)
     for (int i = 0; i < 3; ++i) {
@@ -75,6 +78,21 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   }
   m_features.places.insert(m_features.places.end(), twins.begin(), twins.end());
   m_features.samples.points.assign(m_features.places.size(), {0, 0, 0}); // for their number
+}
+
+// The first samples, so many, into their facets where these touch a seam: a vertex that is inserted
+// on the seam would be there in one sheet only.
+CGAL_POWER_RTF_INLINE void Opened_surface::move_off_seams(const std::vector<char>& is_copied,
+                                                          std::size_t count)
+{
+  constexpr double share = 1e-5; // a third of it is more than what counts as on an edge, 1e-6
+  for (std::size_t s = 0; s < count; ++s) {
+    const auto [a, b, c] = m_surface.triangles[m_samples.facets[s]];
+    if (!is_copied[a] && !is_copied[b] && !is_copied[c]) continue;
+    const std::vector<Vec3d>& p = m_surface.points;
+    const Vec3d center = (1. / 3) * (p[a] + p[b] + p[c]);
+    m_samples.points[s] += share * (center - m_samples.points[s]);
+  }
 }
 
 CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh)
