@@ -35,7 +35,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from common import BUILD, DATA, ROOT, build, made_by, markdown  # noqa: E402
-from robustness import execute, meshes  # noqa: E402
+from robustness import exact_counts, execute, meshes  # noqa: E402
 
 CURES = ["resolve", "wrap"]
 KEY = ["model", "intersections", "samples", "density"]
@@ -43,12 +43,6 @@ FIELDS = KEY + ["result", "reason", "input_pairs", "vertices", "sheets", "non_ma
                 "theta_min", "distance_max", "seconds", "megabytes"]
 BAD = ["silent", "crash", "time limit", "memory limit"]
 RESULTS = ["clean", "missed", "rejected"] + BAD
-
-
-def counts(options, file):
-    """What the judge counts in a file, or nothing if it has polygons."""
-    done = subprocess.run([options.judge, file], capture_output=True, text=True, check=False)
-    return json.loads(done.stdout) if done.returncode == 0 else None
 
 
 def defects(found, report):
@@ -88,7 +82,7 @@ def run(options, model, pairs, cure, samples, density):
             row.update(result="crash", reason=f"exit code {code}; " + row["reason"])
         else:
             report = json.loads(pathlib.Path(report_file).read_text(encoding="utf-8"))
-            found = counts(options, mesh)
+            found = exact_counts(options.judge, mesh)
             row.update(vertices=found["vertices"], sheets=found["sheets"],
                        non_manifold_edges=found["non_manifold_edges"],
                        q_min=f"{report['q_min']:.3f}", theta_min=f"{report['theta_min']:.1f}",
@@ -157,7 +151,7 @@ def main():
         options.meshes = [shapes, os.environ.get("POWER_RTF_DATA", str(DATA))]
     crossing = []
     for model in meshes(options.meshes, float("inf")):
-        found = counts(options, model)
+        found = exact_counts(options.judge, model)
         if found and found["self_intersections"] > 0:
             crossing.append((model, found["self_intersections"]))
     if not crossing:

@@ -15,7 +15,8 @@ summary.md is made from that file, with the command, the commit and the date.
 What became of a run:
 met            the program ended with 0: it promises all guarantees. The mesh that it wrote is
                counted again here (vertices, 2-manifold, orientation, Euler characteristic,
-               components, border loops) and was found as promised
+               components, border loops), its self-intersections by the tests' judge, with exact
+               predicates and no code of the package, and was found as promised
 missed         the program ended with 3 and said which guarantees were missed
 bad input      the same, but all that was missed are self-intersections, and the input has some
 rejected       the program ended with 1 and said why: the input cannot be used, or not with so
@@ -24,7 +25,7 @@ broken promise the program ended with 0, but the mesh is not as promised
 time limit, memory limit, crash
 The exit code is 1 when there was a broken promise, a crash or a limit was met, else 0; with
 --all-met also when anything was missed; 77 when there is no mesh. Needs nothing beside Python and
-the program.
+the programs.
 """
 
 import argparse
@@ -118,8 +119,15 @@ def count_topology(file):
             "components": len({root(v) for v in range(vertices)}), "border_loops": loops}
 
 
-def broken_promise(file, report):
-    """In what the mesh differs from what was promised, or nothing."""
+def exact_counts(judge, file):
+    """What the tests' judge counts in a file, or nothing if it has polygons."""
+    done = subprocess.run([judge, file], capture_output=True, text=True, check=False)
+    return json.loads(done.stdout) if done.returncode == 0 else None
+
+
+def broken_promise(file, report, judge=None):
+    """In what the mesh differs from what was promised, or nothing; without a judge its
+    self-intersections are not counted."""
     found = count_topology(file)
     expected = {"vertices": report["samples"]}
     for name in ("euler_characteristic", "components", "border_loops"):
@@ -127,6 +135,9 @@ def broken_promise(file, report):
     is_network = report["input_non_manifold_edges"] + report["input_non_manifold_vertices"] > 0
     if report["oriented"]:
         expected["manifold"] = not is_network
+    if judge:
+        found["self_intersections"] = exact_counts(judge, file)["self_intersections"]
+        expected["self_intersections"] = 0
     if is_network or not report["oriented"]:
         # the facets' directions do not tell the borders where sheets meet, or of a one-sided one
         del expected["border_loops"]
@@ -201,7 +212,7 @@ def run(options, model, samples, density, seed):
             if len(missed) == 1 and report["input_self_intersections"] > 0:
                 row["result"] = "bad input"
             if code == 0:
-                row["reason"] = broken_promise(mesh, report)
+                row["reason"] = broken_promise(mesh, report, options.judge)
                 row["result"] = "broken promise" if row["reason"] else "met"
     return row
 
@@ -266,6 +277,7 @@ def parse_arguments():
     parser.add_argument("--results", default=str(ROOT / "build/robustness"), metavar="FOLDER",
                         help="of runs.csv and summary.md (build/robustness)")
     parser.add_argument("--program", help="power_rtf_remesh; default: built here")
+    parser.add_argument("--judge", help="exact_counts; default: beside the program")
     parser.add_argument("--options", default="", help="more options for the program, as one word")
     parser.add_argument("--quick", action="store_true",
                         help="200 samples, even, files up to 300 kB, 20 s")
@@ -285,9 +297,10 @@ def parse_arguments():
 def main():
     options = parse_arguments()
     if not options.program:
-        build(["power_rtf_remesh"])
+        build(["power_rtf_remesh", "exact_counts"])
         options.program = BUILD / "bin/power_rtf_remesh"
     options.program = str(pathlib.Path(options.program).resolve())
+    options.judge = options.judge or str(pathlib.Path(options.program).with_name("exact_counts"))
     results = pathlib.Path(options.results)
     results.mkdir(parents=True, exist_ok=True)
     runs_file = results / "runs.csv"
