@@ -256,9 +256,6 @@ def summary(rows, arguments):
             body.append([reason, len(those), ", ".join(
                 f"{model} ({', '.join(map(str, sorted(set(n))))})" for model, n in runs.items())])
         lines.append(table(["reason", "runs", "meshes (samples)"], body))
-    repaired = {row["model"]: row["repairs"] for row in rows if row["repairs"]}
-    if repaired:
-        lines += ["", "## Repaired input", "", table(["mesh", "repairs"], repaired.items())]
     return "\n".join(lines) + "\n"
 
 
