@@ -158,7 +158,7 @@ CGAL_POWER_RTF_HD inline bool clip_listed(const Group_view<Real>& view, Lane_cel
     const Packed_site<Real> other = load(view.sites + j);
     const Packed_normal<Real> normal = load(view.normals + j);
     if (normal.patch != own.patch) continue;
-    if (view.cos_angle > -1 && !(dot(own.normal, normal.normal) > view.cos_angle)) continue;
+    if (!are_compatible(own.normal, normal.normal, view.cos_angle)) continue;
     const Vec3<Real> offset = other.point - cell.site.point;
     const Real power = squared_length(offset) + (cell.site.weight - other.weight);
     const Real a = dot(offset, frame.u), b = dot(offset, frame.v);

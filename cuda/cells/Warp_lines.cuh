@@ -78,8 +78,7 @@ protected:
       for (int l = 0; l < batch.size; ++l) {
         if (lanes[l] >> m_lane & 1) {
           const bool is_compatible =
-              !(m_view.cos_angle > -1 &&
-                !(dot(m_own.normal, batch.normals[l].normal) > m_view.cos_angle));
+              are_compatible(m_own.normal, batch.normals[l].normal, m_view.cos_angle);
           m_memory.neighbor[kept.lines + __popc(lanes[l] & ((1u << m_lane) - 1))] =
               is_compatible ? batch.places[l] : -1 - batch.places[l];
         }

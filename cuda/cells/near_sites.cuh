@@ -83,9 +83,8 @@ neighbor_distances(const Group_view<Real>& view, Search_stack& stack, int place,
         Real d2 = squared_length(batch.sites[l].point - own_site.point);
         const Packed_normal<Real>& normal = batch.normals[l];
         if (!(d2 < nearest[5] || d2 < first) || normal.patch != own.patch) continue;
-        const Real cosine = dot(normal.normal, own.normal);
-        if (!(angles.first > -1 && !(cosine > angles.first))) first = fmin(first, d2);
-        if (angles.sixth > -1 && !(cosine > angles.sixth)) continue;
+        if (are_compatible(normal.normal, own.normal, angles.first)) first = fmin(first, d2);
+        if (!are_compatible(normal.normal, own.normal, angles.sixth)) continue;
 #pragma unroll
         for (int k = 0; k < 6; ++k) {
           const Real nearer = fmin(nearest[k], d2);

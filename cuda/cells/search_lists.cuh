@@ -137,7 +137,7 @@ private:
   {
     const Packed_normal<Real> other = load(m_view.normals + j);
     return other.patch == m_own.patch &&
-           !(m_view.cos_angle > -1 && !(dot(m_own.normal, other.normal) > m_view.cos_angle));
+           are_compatible(m_own.normal, other.normal, m_view.cos_angle);
   }
 
   /// Lists those of the gathered sites that may cut the lane's cell, if it is searched for `now`.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The cells of the CPU against closed forms and brute force.
+#include "random_input.h"
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/cells/Tree_cells.h>
@@ -312,6 +313,23 @@ TEST_CASE("NVISPC: a sample without compatible neighbors is guarded")
   CHECK(ok + guarded == sites.size() - 1);
   CHECK(guarded >= 36);
   CHECK(ok >= 8);
+}
+
+TEST_CASE("NVISPC: single precision finds the same normals compatible as double precision")
+{
+  const float cosine = 0.5f; // mechanical parts have many pairs of facets at just 60 degrees
+  random_input::Random random(1);
+  int by_rounding = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3d n = random.direction(), across = normalized(cross(n, random.direction()));
+    const Vec3<float> a = to_real<float>(n);
+    const Vec3<float> b = to_real<float>(n * 0.5 + across * std::sqrt(0.75));
+    const bool exact = dot(to_double(a), to_double(b)) > cosine;
+    CHECK(are_compatible(a, b, cosine) == exact);
+    by_rounding += (dot(a, b) > cosine) != exact;
+  }
+  CHECK(by_rounding > 100);
+  CHECK(are_compatible(Vec3<float>{0, 0, 1}, Vec3<float>{0, 0, -1}, -2.f));
 }
 
 TEST_CASE("a power cell that does not meet its tangent plane is empty")

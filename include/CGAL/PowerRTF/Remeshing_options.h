@@ -214,10 +214,11 @@ inline bool is_distance_asked_for(const Remeshing_options& options)
   return options.max_distance > 0 || options.relative_max_distance > 0;
 }
 
-/// Cosine of the compatibility angle Theta (degrees); -2 when every pair is compatible.
+/// Cosine of the compatibility angle Theta (degrees); -2 when every pair is compatible. A number of
+/// single precision, so that all engines have the same one.
 inline double compatibility_cosine(double normal_angle)
 {
-  return normal_angle >= 180 ? -2 : std::cos(normal_angle * 3.14159265358979323846 / 180);
+  return normal_angle >= 180 ? -2 : float(std::cos(normal_angle * 3.14159265358979323846 / 180));
 }
 
 /// The largest values of options for which engines keep arrays of a fixed size.

@@ -200,11 +200,6 @@ private:
     }
   };
 
-  static bool is_compatible(const Sites_view<Real>& view, int i, int j, Real cos_angle)
-  {
-    return cos_angle <= -1 || dot(view.normals[i], view.normals[j]) > cos_angle;
-  }
-
   void clear(Backend& backend, const Sites_view<Real>& view, int cells)
   {
     m_lists.resize(cells);
@@ -340,7 +335,8 @@ bool Neighbor_lists<Real, Backend>::chain_edges(const Sites_view<Real>& view, in
   result.squared_nearest = std::numeric_limits<Real>::infinity();
   for (int k = 0; k < list.edges; ++k) {
     const int j = list.sites[k];
-    if (!view.same_patch(i, j) || !is_compatible(view, i, j, cos_angle)) return false;
+    if (!view.same_patch(i, j) || !are_compatible(view.normals[i], view.normals[j], cos_angle))
+      return false;
     const Site_line line(view, i, j, frame);
     result.squared_nearest = (std::min)(result.squared_nearest, line.squared_distance);
     result.polygon.neighbor[k] = j;
@@ -369,7 +365,7 @@ bool Neighbor_lists<Real, Backend>::is_cell(const Sites_view<Real>& view, int i,
     const Edge_line<Real>& l = site.line;
     const Real t2 = l.a * l.a + l.b * l.b;
     if ((l.c > 0 && l.c * l.c > radius2 * t2) || has_edge(i, j)) return;
-    is_cut = is_compatible(view, i, j, cos_angle) &&
+    is_cut = are_compatible(view.normals[i], view.normals[j], cos_angle) &&
              (!(t2 > 0) || !edges.polygon.is_chain_inside(l.a, l.b, l.c));
   });
   return !is_cut && radius2 <= view.guard_factor * view.guard_factor * squared_nearest;

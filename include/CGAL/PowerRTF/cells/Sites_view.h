@@ -17,6 +17,20 @@ struct Site {
   FT weight;
 };
 
+/// Whether two unit normals make less than Theta (`cos_angle`: its cosine; -2: any two do). Close to
+/// the bound single precision decides as double precision does, where products of floats are exact.
+template <class FT>
+CGAL_POWER_RTF_HD inline bool are_compatible(const Vec3<FT>& a, const Vec3<FT>& b, FT cos_angle)
+{
+  if (!(cos_angle > -1)) return true;
+  const FT above = dot(a, b) - cos_angle;
+  if constexpr (sizeof(FT) < sizeof(double)) {
+    if (std::fabs(above) < 4 * internal::epsilon<FT>())
+      return dot(Vec3<double>{a.x, a.y, a.z}, Vec3<double>{b.x, b.y, b.z}) > double(cos_angle);
+  }
+  return above > 0;
+}
+
 /// Non-owning view of n sites in spatial order.
 template <class FT>
 struct Sites_view {
@@ -101,7 +115,7 @@ CGAL_POWER_RTF_HD inline FT distance_to_neighbor(const Sites_view<FT>& view, int
       const FT d = squared_length(view.sites[j].point - p);
       if (found == k && !(d < nearest[k - 1])) continue;
       if (!view.same_patch(i, j)) continue;
-      if (cos_angle > -1 && !(dot(view.normals[j], view.normals[i]) > cos_angle)) continue;
+      if (!are_compatible(view.normals[j], view.normals[i], cos_angle)) continue;
       int place = found < k ? found++ : k - 1;
       for (; place > 0 && nearest[place - 1] > d; --place) nearest[place] = nearest[place - 1];
       nearest[place] = d;

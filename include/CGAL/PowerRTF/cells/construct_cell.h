@@ -59,7 +59,7 @@ public:
     } else if (is_far) {
       return;
     }
-    if (m_cos_angle > -1 && !(dot(m_normal, m_view.normals[j]) > m_cos_angle)) return;
+    if (!are_compatible(m_normal, m_view.normals[j], m_cos_angle)) return;
     const FT a = dot(offset, m_frame.u), b = dot(offset, m_frame.v), t2 = a * a + b * b;
     if (!(t2 > 0)) { // a plane parallel to the tangent plane, or a duplicate: the first one wins
       if (power < 0 || (power == 0 && j < m_i)) m_polygon.size = 0;

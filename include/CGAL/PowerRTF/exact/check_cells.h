@@ -61,7 +61,7 @@ public:
     const PowerRTF::Tangent_frame<double> frame(m_view.normals[i]);
     const Exact_square square{frame.u, frame.v, guard};
     // A status may differ by the rounding of R alone.
-    constexpr double slack = 1e-9;
+    const double slack = (std::max)(1e-9, 64 * m_epsilon);
     Exact_cell exact = m_exact.cell(i, &square, &answer.predicates);
     Exact_cell_geometry geometry = m_exact.geometry(i, exact, &square);
     double radius = 0;
