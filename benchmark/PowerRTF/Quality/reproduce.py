@@ -31,7 +31,7 @@ import peers as other  # noqa: E402
 from models import Models  # noqa: E402
 from runs import Failed, Runner  # noqa: E402
 
-TARGETS = ("power_rtf_remesh", "judge", "cad_models", "peers")
+TARGETS = ("power_rtf_remesh", "judge", "shape_models", "peers")
 PEER_COLUMNS = ("model", "density", "vertices", "tool", *figures.MEASURES, "d<sub>max</sub>",
                 "d<sub>max</sub>, absolute", "edge length", "CPU (s)", "MiB", "topology")
 # What the README shows, and under which heads.
@@ -217,7 +217,7 @@ def main():
     data = os.environ.get("POWER_RTF_DATA", DATA)
     parts = options.output / "parts"
     parts.mkdir(exist_ok=True)
-    subprocess.run([options.binaries / "cad_models", parts], check=True)
+    subprocess.run([options.binaries / "shape_models", "cad", parts], check=True)
     models = Models([*options.models, data, parts], options.output / "models")
     runner = Runner(options.output / "runs", options.binaries / "power_rtf_remesh",
                     options.binaries / "judge", options.traits, options.jobs,

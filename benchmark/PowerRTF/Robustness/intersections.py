@@ -138,7 +138,7 @@ def parse_arguments():
 def main():
     options = parse_arguments()
     if not options.binaries:
-        build(["power_rtf_remesh", "crossing_models", "exact_counts"])
+        build(["power_rtf_remesh", "shape_models", "exact_counts"])
         options.binaries = BUILD / "bin"
     options.program = str((options.binaries / "power_rtf_remesh").resolve())
     options.judge = str(options.binaries / "exact_counts")
@@ -147,7 +147,7 @@ def main():
     if not options.meshes:
         shapes = results / "shapes"
         shapes.mkdir(exist_ok=True)
-        subprocess.run([options.binaries / "crossing_models", shapes], check=True)
+        subprocess.run([options.binaries / "shape_models", "crossing", shapes], check=True)
         options.meshes = [shapes, os.environ.get("POWER_RTF_DATA", str(DATA))]
     crossing = []
     for model in meshes(options.meshes, float("inf")):
