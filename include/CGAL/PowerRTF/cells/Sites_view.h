@@ -17,8 +17,9 @@ struct Site {
   FT weight;
 };
 
-/// Whether two unit normals make less than Theta (`cos_angle`: its cosine; -2: any two do). Close to
-/// the bound single precision decides as double precision does, where products of floats are exact.
+/// Whether two unit normals make less than Theta (`cos_angle`: its cosine; -2: any two do). Close
+/// to the bound single precision decides as double precision does, where products of floats are
+/// exact.
 template <class FT>
 CGAL_POWER_RTF_HD inline bool are_compatible(const Vec3<FT>& a, const Vec3<FT>& b, FT cos_angle)
 {
