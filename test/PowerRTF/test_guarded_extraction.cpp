@@ -16,6 +16,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
 namespace PRTF = CGAL::PowerRTF;
 using PRTF::Extracted_mesh;
 using PRTF::Samples;
@@ -56,7 +61,59 @@ void check_all_promises(const Surface& surface, const Extracted_mesh& mesh, std:
   CHECK(PRTF::self_intersections(mesh.points, mesh.triangles) == 0);
 }
 
+/// Slanted needles side by side and two triangles with a common edge beside them: none meet, but
+/// their boxes overlap.
+Working_mesh stacked_needles(int count)
+{
+  std::vector<Vec3d> points{{0, 0, 0}, {1, 0, 1}, {1, 0.001, 1}, {0, 0.001, 0}};
+  std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}};
+  for (int k = 1; k <= count; ++k) {
+    const double y = 0.0002 + 0.0007 * k / count;
+    const int first = int(points.size());
+    points.insert(points.end(), {{0, y, 0.1}, {0.5, y, 0.6}, {0.5, y + 0.0003 / count, 0.6}});
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  return Working_mesh(points, triangles, CGAL::Sequential_tag());
+}
+
 } // namespace
+
+TEST_CASE("balls of very different sizes contain the points that each of them contains")
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto point = [&] { return Vec3d{unit(random), unit(random), unit(random)}; };
+  std::vector<PRTF::internal::Ball> balls;
+  for (int k = 0; k < 300; ++k) balls.push_back({point(), std::pow(10., -4 * unit(random))});
+  for (const double factor : {0.05, 0.2, 2.}) {
+    const PRTF::internal::Ball_union fast(balls, factor);
+    int inside = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const Vec3d p = point();
+      const bool is_inside = std::any_of(balls.begin(), balls.end(), [&](const auto& ball) {
+        return PRTF::length(p - ball.center) < factor * ball.radius;
+      });
+      CHECK(fast.contains(p) == is_inside);
+      inside += is_inside;
+    }
+    CHECK(inside > 0);
+  }
+  CHECK_FALSE(PRTF::internal::Ball_union({}, 1).contains({0, 0, 0}));
+}
+
+TEST_CASE("a guard that has judged too many pairs of triangles allows no more changes")
+{
+  const Working_mesh m = stacked_needles(2000);
+  const Intersection_guard guard(m, std::vector<Intersection_guard::Sight>(
+                                        m.mesh.num_vertices(), Intersection_guard::watched));
+  const auto e = m.mesh.edge(m.mesh.halfedge(Working_mesh::Vertex(0), Working_mesh::Vertex(2)));
+  int allowed = 0;
+  const int most = 1000000;
+  while (allowed < most && !guard.forbids_flip(e)) ++allowed;
+  CHECK(allowed > 1000);
+  CHECK(allowed < most);
+  CHECK(guard.forbids_flip(e));
+}
 
 TEST_CASE("thin plates with holes and few, badly distributed samples")
 {

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Keeps a mesh free of self-intersections while edges are collapsed and flipped: says of each
-// change whether it would add some, by exact predicates.
+// change whether it would add some, by exact predicates. Where faces pile up, as needles do, a
+// change has to be judged against thousands of them: there is a limit to the work, beyond which no
+// change is allowed at watched vertices.
 #ifndef CGAL_POWER_RTF_EXTRACTION_INTERSECTION_GUARD_H
 #define CGAL_POWER_RTF_EXTRACTION_INTERSECTION_GUARD_H
 
 #include <CGAL/PowerRTF/extraction/intersecting_faces.h>
+#include <CGAL/PowerRTF/geometry/Box_rtree.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <boost/container/small_vector.hpp>
-#include <boost/geometry/algorithms/covered_by.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
 #include <array>
@@ -39,9 +39,14 @@ public:
   /// `sight`: by vertex.
   Intersection_guard(const Working_mesh& mesh, std::vector<Sight>&& sight)
       : m(mesh), m_triangles(mesh), m_sight(std::move(sight)),
-        m_is_inserted(mesh.mesh.num_faces(), false)
+        m_is_inserted(mesh.mesh.num_faces(), false), m_work_left(max_work * mesh.mesh.num_faces())
   {
     for (const Face f : m.mesh.faces()) insert(f);
+  }
+
+  bool watches_all() const
+  {
+    return std::all_of(m_sight.begin(), m_sight.end(), [](Sight s) { return s == watched; });
   }
 
   /// Watches the vertices around `u`.
@@ -135,22 +140,15 @@ public:
   }
 
 private:
-  using Tree_point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
-  using Tree_box = boost::geometry::model::box<Tree_point>;
-  using Entry = std::pair<Tree_box, Face>;
-  struct Has_same_face {
-    bool operator()(const Entry& a, const Entry& b) const { return a.second == b.second; }
-  };
-  using Tree =
-      boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>,
-                                    boost::geometry::index::indexable<Entry>, Has_same_face>;
+  // In pairs of triangles that a plane parts, by face; those that intersect take longer.
+  static constexpr std::size_t max_work = 4000, work_of_intersection = 10;
 
-  Entry entry(Face f) const
+  Rtree_entry<Face> entry(Face f) const
   {
     const Bbox_3 b = box_of(m_triangles.points(m_triangles.corners(f)));
     return {to_tree(b), f};
   }
-  static Tree_box to_tree(const Bbox_3& b)
+  static Rtree_box to_tree(const Bbox_3& b)
   {
     return {{b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()}};
   }
@@ -176,13 +174,18 @@ private:
     for (auto it = m_tree.qbegin(boost::geometry::index::intersects(to_tree(b)));
          it != m_tree.qend() && found < most; ++it) {
       const Face f = it->second;
+      add_work(1);
       if (std::find(except.begin(), except.end(), f) != except.end()) continue;
       const Corners u = m_triangles.corners(f);
       const Triangle_points q = m_triangles.points(u);
-      if (!has_no_area(q) && m_triangles.intersect(t, p, u, q)) ++found;
+      if (has_no_area(q) || !m_triangles.intersect(t, p, u, q)) continue;
+      add_work(work_of_intersection);
+      ++found;
     }
     return found;
   }
+
+  void add_work(std::size_t work) const { m_work_left -= std::min(work, m_work_left); }
 
   // The intersections of the triangles with each other and with faces that are none of `except`; no
   // more are counted once there are `most`. A triangle without area counts as one.
@@ -230,6 +233,8 @@ private:
       return std::max({m_sight[t[0]], m_sight[t[1]], m_sight[t[2]]}) == watched;
     });
     if (!is_watched || is_within_patch(old, fresh)) return false;
+    Cancellation::poll();
+    if (m_work_left == 0) return true;
     if (count(fresh, old, 1) == 0) return false;
     Triangles now;
     for (const Face f : old) now.push_back(m_triangles.corners(f));
@@ -241,7 +246,8 @@ private:
   Face_triangles m_triangles;
   std::vector<Sight> m_sight;      // by vertex
   std::vector<char> m_is_inserted; // by face
-  Tree m_tree;                     // of the inserted faces' boxes
+  Box_rtree<Face> m_tree;          // of the inserted faces' boxes
+  mutable std::size_t m_work_left;
 };
 
 } // namespace CGAL::PowerRTF::internal

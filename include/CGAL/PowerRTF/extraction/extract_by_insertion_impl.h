@@ -68,7 +68,7 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
   // Where the samples are too sparse: more carefully there, and more widely if that does not help.
   internal::Sparse_places sparse = internal::sparse_places(mesh);
   if (sparse.balls.empty()) return result;
-  std::size_t fewest = sparse.balls.size();
+  std::size_t fewest = sparse.defects();
   std::vector<internal::Ball> guarded;
   const std::size_t input_intersections = internal::intersections(surface, is_opened);
   for (const double reach : {2., 8., 1e3}) {
@@ -76,13 +76,13 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
     internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, is_opened);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
-    if (sparse.balls.size() < fewest) {
-      fewest = sparse.balls.size();
+    if (sparse.defects() < fewest) {
+      fewest = sparse.defects();
       result = internal::to_extracted_mesh(extraction.mesh(), samples);
     }
     // More care does not help where the surface intersects itself as much as the mesh.
     if (sparse.balls.empty() || sparse.intersections <= input_intersections ||
-        extraction.has_too_few_samples())
+        extraction.was_everywhere() || extraction.has_too_few_samples())
       break;
   }
   return result;

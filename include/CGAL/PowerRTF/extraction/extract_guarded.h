@@ -9,54 +9,50 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_GUARDED_H
 
+#include <CGAL/PowerRTF/extraction/Ball_union.h>
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/extraction/decimate.h>
 #include <CGAL/PowerRTF/extraction/delaunay_flips.h>
 #include <CGAL/PowerRTF/extraction/remove_intersections.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
-#include <CGAL/PowerRTF/geometry/point_grid.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
-struct Ball {
-  Vec3d center;
-  double radius;
-};
-
 /// Where the samples are too sparse.
 struct Sparse_places {
-  std::vector<Ball>
-      balls; // around triangles that intersect others, and vertices that are no samples
-  std::size_t intersections = 0;
+  std::vector<Ball> balls; // around corners of intersecting triangles, and what is no sample
+  std::size_t intersections = 0, vertices = 0; // that are no samples
+
+  // An intersection is worse than a vertex too many.
+  std::size_t defects() const { return 6 * intersections + vertices; }
 };
 
 inline Sparse_places sparse_places(const Working_mesh& m)
 {
-  const auto longest_edge = [&m](Working_mesh::Vertex v) {
+  std::vector<char> is_sparse(m.samples.size(), false);
+  const auto pairs = Intersection_finder(m).all();
+  for (const auto& [f, g] : pairs)
+    for (const auto face : {f, g})
+      for (const auto v : m.corners(face)) is_sparse[v] = true;
+  Sparse_places result;
+  result.intersections = pairs.size();
+  for (const auto v : m.mesh.vertices()) {
+    const bool is_sample = m.samples[v] >= 0;
+    if (m.mesh.is_isolated(v) || !(is_sparse[v] || !is_sample)) continue;
+    if (!is_sample) ++result.vertices;
     double longest = 0;
     for (const auto h : halfedges_around_target(v, m.mesh))
       longest = std::max(longest, length(m.point(m.mesh.source(h)) - m.point(v)));
-    return longest;
-  };
-  Sparse_places result;
-  const auto pairs = Intersection_finder(m).all();
-  result.intersections = pairs.size();
-  for (const auto& [f, g] : pairs)
-    for (const auto face : {f, g})
-      for (const auto v : m.mesh.vertices_around_face(m.mesh.halfedge(face)))
-        result.balls.push_back({m.point(v), longest_edge(v)});
-  for (const auto v : m.mesh.vertices())
-    if (m.samples[v] < 0 && !m.mesh.is_isolated(v))
-      result.balls.push_back({m.point(v), longest_edge(v)});
+    result.balls.push_back({m.point(v), longest});
+  }
   return result;
 }
 
@@ -71,8 +67,8 @@ public:
                      bool is_opened)
       : m_may_go(may_go(samples, features)),
         m(mesh_with_samples(surface, samples, features, is_opened)),
-        m_guard(m, sight(balls, reach)), m_flipper(m, 0.1, &m_guard),
-        m_next_twin(static_cast<int>(samples.size()))
+        m_guard(m, sight(balls, reach)), m_was_everywhere(m_guard.watches_all()),
+        m_flipper(m, 0.1, &m_guard), m_next_twin(static_cast<int>(samples.size()))
   {}
 
   void run()
@@ -89,6 +85,7 @@ public:
 
   const Working_mesh& mesh() const { return m; }
   bool has_too_few_samples() const { return m_rest.size() > m_may_go.size(); }
+  bool was_everywhere() const { return m_was_everywhere; }
 
 private:
   enum class Place { inside, on_feature };
@@ -113,25 +110,12 @@ private:
 
   std::vector<Intersection_guard::Sight> sight(const std::vector<Ball>& balls, double reach) const
   {
-    std::vector<Vec3d> centers;
-    double largest = 0;
-    for (const Ball& ball : balls) {
-      centers.push_back(ball.center);
-      largest = std::max(largest, ball.radius);
-    }
-    std::vector<int> all(balls.size());
-    std::iota(all.begin(), all.end(), 0);
-    const Point_grid grid(centers, all, 2 * reach * largest);
+    const Ball_union inner(balls, reach), outer(balls, 2 * reach);
     std::vector<Intersection_guard::Sight> result;
-    for (const Vertex v : m.mesh.vertices()) {
-      double nearest = 2 * reach; // in units of the balls' radii
-      grid.for_each_near(m.point(v), 2 * reach * largest, [&](int k, double squared_distance) {
-        nearest = std::min(nearest, std::sqrt(squared_distance) / balls[k].radius);
-      });
-      result.push_back(nearest < reach       ? Intersection_guard::watched
-                       : nearest < 2 * reach ? Intersection_guard::known
-                                             : Intersection_guard::unknown);
-    }
+    for (const Vertex v : m.mesh.vertices())
+      result.push_back(inner.contains(m.point(v))   ? Intersection_guard::watched
+                       : outer.contains(m.point(v)) ? Intersection_guard::known
+                                                    : Intersection_guard::unknown);
     return result;
   }
 
@@ -259,6 +243,7 @@ private:
   std::vector<Vertex> m_rest; // could not be removed, though they were no samples
   Working_mesh m;
   Intersection_guard m_guard;
+  bool m_was_everywhere; // from the beginning
   Edge_flipper m_flipper;
   int m_next_twin;
 };
