@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
 #define CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
 
+#include <CGAL/PowerRTF/geometry/Box_rtree.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
@@ -32,10 +33,18 @@ public:
   Feature_slider(Star_mesh& mesh, const Surface& patches) : m(mesh)
   {
     const std::vector<int>& opposite = patches.adjacency.opposite;
-    for (int h = 0; h < int(opposite.size()); ++h)
-      if (opposite[h] == Facet_adjacency::none)
-        m_curves.emplace_back(patches.points[halfedge_source(patches.triangles, h)],
-                              patches.points[halfedge_target(patches.triangles, h)]);
+    std::vector<Rtree_entry<int>> entries;
+    for (int h = 0; h < int(opposite.size()); ++h) {
+      if (opposite[h] != Facet_adjacency::none) continue;
+      const Segment s{patches.points[halfedge_source(patches.triangles, h)],
+                      patches.points[halfedge_target(patches.triangles, h)]};
+      Box3<double> box{s.first, s.first};
+      box.add(s.second);
+      entries.emplace_back(Rtree_box(rtree_point(box.lo), rtree_point(box.hi)),
+                           int(m_curves.size()));
+      m_curves.push_back(s);
+    }
+    m_tree = Box_rtree<int>(entries);
   }
 
   void run(int rounds)
@@ -86,9 +95,15 @@ private:
   {
     Path result{m.point(v), m.point(a), m.point(b), 0, {}};
     result.scale = (length(result.pa - result.p) + length(result.pb - result.p)) / 2;
-    for (const Segment& s : m_curves)
+    std::vector<int> near;
+    const auto around_p = boost::geometry::index::intersects(rtree_box(result.p, result.scale));
+    for (auto it = m_tree.qbegin(around_p); it != m_tree.qend(); ++it) near.push_back(it->second);
+    std::sort(near.begin(), near.end());
+    for (const int k : near) {
+      const Segment& s = m_curves[k];
       if (squared_length(nearest_point(s, result.p) - result.p) < result.scale * result.scale)
         result.near.push_back(s);
+    }
     return result;
   }
 
@@ -204,45 +219,54 @@ private:
 
   void slide_pair(const std::array<Vertex, 2>& ends, const std::vector<Path>& paths)
   {
-    const std::array<Surface_projector::Place, 2> before{m.place(ends[0]), m.place(ends[1])};
+    const std::array<Vec3d, 2> before{m.point(ends[0]), m.point(ends[1])};
     const std::array<Star, 2> stars{m.star(ends[0]), m.star(ends[1])};
-    const auto worst = [&] {
+    std::array<Star, 2> moved = stars;
+    std::array<Vec3d, 2> at = before;
+    const auto move_to = [&](int k, const Vec3d& p) {
+      at[k] = p;
+      for (Star::Corner& c : moved[1 - k].corners) {
+        if (c.vertex_a == ends[k]) c.a = p;
+        if (c.vertex_b == ends[k]) c.b = p;
+      }
+    };
+    const auto worst = [&](double limit) {
       double most = 0;
-      for (const Vertex v : ends)
-        for (const Star::Corner& c : m.star(v).corners)
-          most = std::max(most, triangle_badness(m.point(v), c.a, c.b).energy());
+      for (int k = 0; k < 2; ++k)
+        for (const Star::Corner& c : moved[k].corners) {
+          most = std::max(most, triangle_badness(at[k], c.a, c.b).energy());
+          if (!(most < limit)) return most;
+        }
       return most;
     };
     const auto is_folded = [&] {
-      return folds(stars[0], before[0].point, m.star(ends[0]), m.point(ends[0])) ||
-             folds(stars[1], before[1].point, m.star(ends[1]), m.point(ends[1]));
+      return folds(stars[0], before[0], moved[0], at[0]) ||
+             folds(stars[1], before[1], moved[1], at[1]);
     };
-    std::array<Vec3d, 2> best{before[0].point, before[1].point};
-    double least = worst();
-    for (int i = -Parameters::pair_steps; i <= Parameters::pair_steps; ++i) {
-      const Vec3d p = paths[0].at(i * Parameters::pair_step);
-      if (!paths[0].is_spaced(p)) continue;
-      for (int j = -Parameters::pair_steps; j <= Parameters::pair_steps; ++j) {
-        const Vec3d q = paths[1].at(j * Parameters::pair_step);
-        if (!paths[1].is_spaced(q)) continue;
-        m.set_point(ends[0], p);
-        m.set_point(ends[1], q);
-        const double e = worst();
-        if (!(e < clearly_less * least) || is_folded()) continue;
+    std::array<std::vector<Vec3d>, 2> places;
+    for (int k = 0; k < 2; ++k)
+      for (int i = -Parameters::pair_steps; i <= Parameters::pair_steps; ++i)
+        if (const Vec3d p = paths[k].at(i * Parameters::pair_step); paths[k].is_spaced(p))
+          places[k].push_back(m.projector().surface().normalization.snapped(p));
+    std::array<Vec3d, 2> best = before;
+    double least = worst(std::numeric_limits<double>::infinity());
+    for (const Vec3d& p : places[0]) {
+      move_to(0, p);
+      for (const Vec3d& q : places[1]) {
+        move_to(1, q);
+        const double limit = clearly_less * least, e = worst(limit);
+        if (!(e < limit) || is_folded()) continue;
         least = e;
-        best = {p, q};
+        best = at;
       }
     }
-    for (int k = 0; k < 2; ++k) {
-      if (best[k] == before[k].point)
-        m.move(ends[k], before[k]);
-      else
-        move(ends[k], best[k]);
-    }
+    for (int k = 0; k < 2; ++k)
+      if (!(best[k] == before[k])) move(ends[k], best[k]);
   }
 
   Star_mesh& m;
   std::vector<Segment> m_curves;
+  Box_rtree<int> m_tree; // of the curves' boxes
 };
 
 } // namespace CGAL::PowerRTF::internal
