@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/Remeshing_visitor.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -15,8 +16,10 @@
 
 namespace tools {
 
-/// The signal received, SIGINT (Ctrl-C) or SIGTERM, or 0. The run ends at the next poll.
-inline volatile std::sig_atomic_t interrupted = 0;
+/// The signal received, SIGINT (Ctrl-C) or SIGTERM, or 0. The run ends at the next poll; those of a
+/// batch poll on several threads.
+inline std::atomic<int> interrupted{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a handler of signals writes it");
 
 /// The user cancelled the run, in one of the library's loops or elsewhere; the program ends with
 /// exit code 128 + `interrupted`, as is usual in shells.
