@@ -61,11 +61,11 @@ TEST_CASE("the bound is above all distances, and at most 1 % above the largest")
       {"a plane moved", {plane_patch(5, 5), translated(plane_patch(7, 3), {0.1, 0.05, 0.2})}},
       {"a plane on edge", {plane_patch(3, 3), rotated(plane_patch(3, 3), 1.5, {1, 0, 0})}},
   };
-  for (const auto& [name, soups] : pairs) {
-    CAPTURE(name);
+  for (const auto& pair : pairs) {
+    CAPTURE(pair.first);
+    const auto& [a, b] = pair.second;
     for (const bool back : {false, true}) {
-      const Soup from = small(back ? soups.second : soups.first),
-                 to = small(back ? soups.first : soups.second);
+      const Soup from = small(back ? b : a), to = small(back ? a : b);
       const double most = bound(from, to), known = sampled(from, to, 16);
       CHECK(most >= known);
       CHECK(most <= 1.05 * known + 1e-9); // the points miss a little of the largest

@@ -76,11 +76,11 @@ TEST_CASE("closed surfaces: better triangles, nearer to the surface, the same to
       {"torus", shapes::torus(80, 40, 1, 0.4)},
       {"ellipsoid", shapes::ellipsoid(1, 0.7, 0.4, 4)},
       {"two spheres", shapes::two_spheres(3)}};
-  for (const auto& [name, soup] : inputs)
+  for (const auto& input : inputs)
     for (unsigned seed = 0; seed < 3; ++seed) {
-      CAPTURE(name);
+      CAPTURE(input.first);
       CAPTURE(seed);
-      const Case c = make_case(soup, 600, seed);
+      const Case c = make_case(input.second, 600, seed);
       const auto before = judge(c.surface, c.raw), after = judge(c.surface, improved(c));
       check_kept(before, after);
       CHECK(after.self_intersections == 0);

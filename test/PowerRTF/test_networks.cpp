@@ -124,21 +124,21 @@ TEST_CASE("sheets that meet in edges still meet there, and in nothing else")
     long euler_characteristic;
   };
   const Soup cubes = shapes::touching_cubes(3, {1, 1, 0});
-  for (const auto& [title, soup, sheets, facets, characteristic] :
-       {Case{"a fin on a floor", fin(), 3, 3, 1},
-        Case{"cubes with a common edge", cubes, 2, 4, 3}}) {
-    CAPTURE(std::string(title));
-    const Run run = remeshed(soup, options_for(Intersections::keep));
+  for (const Case& c : {Case{"a fin on a floor", fin(), 3, 3, 1},
+                        Case{"cubes with a common edge", cubes, 2, 4, 3}}) {
+    CAPTURE(std::string(c.name));
+    const Run run = remeshed(c.soup, options_for(Intersections::keep));
     for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
     CHECK(run.report.self_intersections == 0);
-    CHECK(run.report.topology.sheets == sheets);
+    CHECK(run.report.topology.sheets == c.sheets);
     CHECK(run.report.topology.junctions == 1);
-    CHECK(run.report.topology.euler_characteristic == characteristic);
+    CHECK(run.report.topology.euler_characteristic == c.euler_characteristic);
     const auto crowded = crowded_edges(run.mesh.triangles);
     REQUIRE(crowded.size() == 1);
-    CHECK(crowded.begin()->first == facets);
+    CHECK(crowded.begin()->first == c.facets_at_edge);
     // Every sheet has a component of its own once the mesh is cut there.
-    CHECK(std::size_t(facet_components(facet_adjacency(run.mesh.triangles, 600)).second) == sheets);
+    CHECK(std::size_t(facet_components(facet_adjacency(run.mesh.triangles, 600)).second) ==
+          c.sheets);
   }
 }
 
@@ -152,17 +152,17 @@ TEST_CASE("sheets that touch in a vertex still touch there, and in nothing else"
     std::size_t touching; // 0: it has seams, too
     long euler_characteristic;
   };
-  for (const auto& [title, soup, touching, characteristic] :
+  for (const Case& c :
        {Case{"cubes with a common vertex", shapes::touching_cubes(3, {1, 1, 1}), 1, 3},
         Case{"a fin that a square touches", open, 0, 1}}) {
-    CAPTURE(std::string(title));
-    const Run run = remeshed(soup, options_for(Intersections::keep));
+    CAPTURE(std::string(c.name));
+    const Run run = remeshed(c.soup, options_for(Intersections::keep));
     for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
     CHECK(run.report.self_intersections == 0);
     CHECK(run.report.topology.vertices == 600);
     CHECK(run.report.topology.components == 1);
-    CHECK(run.report.topology.euler_characteristic == characteristic);
-    if (touching > 0) CHECK(run.report.topology.non_manifold_vertices == touching);
+    CHECK(run.report.topology.euler_characteristic == c.euler_characteristic);
+    if (c.touching > 0) CHECK(run.report.topology.non_manifold_vertices == c.touching);
     CHECK(run.report.quality.q_min > 0.3);
   }
 }

@@ -96,10 +96,11 @@ TEST_CASE("a projection descends to the nearest place around")
       {"cylinder", shapes::open_cylinder(40, 10, .5, 2)},
       {"torus", shapes::torus(40, 20, 1, .4)},
       {"Klein bottle", shapes::klein_bottle(60, 30)}}; // with seams, and through itself
-  for (const auto& [name, soup] : smooth) {
+  for (const auto& shape : smooth) {
+    const std::string& name = shape.first;
     CAPTURE(name);
     const bool is_convex = name == "sphere" || name == "cylinder";
-    const Surface surface = shapes::make_surface(soup);
+    const Surface surface = shapes::make_surface(shape.second);
     const Facet_tree tree(surface.points, surface.triangles, surface.facet_patches);
     const internal::Surface_projector projector(surface, tree);
     Random_source random(1);
