@@ -332,6 +332,13 @@ TEST_CASE("NVISPC: single precision finds the same normals compatible as double 
   CHECK(are_compatible(Vec3<float>{0, 0, 1}, Vec3<float>{0, 0, -1}, -2.f));
 }
 
+TEST_CASE("NVISPC: below 180 degrees opposite normals are not compatible")
+{
+  const Vec3d up{0, 0, 1}, down{0, 0, -1};
+  CHECK_FALSE(are_compatible(up, down, compatibility_cosine(179.999))); // its cosine rounds to -1
+  CHECK(are_compatible(up, down, compatibility_cosine(180)));
+}
+
 TEST_CASE("a power cell that does not meet its tangent plane is empty")
 {
   const double h = 0.1;

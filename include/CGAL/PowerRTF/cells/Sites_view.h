@@ -23,7 +23,7 @@ struct Site {
 template <class FT>
 CGAL_POWER_RTF_HD inline bool are_compatible(const Vec3<FT>& a, const Vec3<FT>& b, FT cos_angle)
 {
-  if (!(cos_angle > -1)) return true;
+  if (cos_angle < -1) return true;
   const FT above = dot(a, b) - cos_angle;
   if constexpr (sizeof(FT) < sizeof(double)) {
     if (std::fabs(above) < 4 * internal::epsilon<FT>())
