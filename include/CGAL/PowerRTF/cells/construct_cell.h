@@ -49,7 +49,7 @@ public:
     const FT d2 = squared_length(offset);
     if (!m_view.same_patch(m_i, j)) return;
     if (d2 < m_nearest2) m_nearest2 = d2;
-    const FT power = d2 + m_site.weight - other.weight;
+    const FT power = d2 + (m_site.weight - other.weight);
     // (power / 2d > R): the plane passes outside the radius.
     const bool is_far = power > 0 && power * power > 4 * d2 * m_radius * m_radius;
     if constexpr (Filtered) {
@@ -61,7 +61,10 @@ public:
     }
     if (!are_compatible(m_normal, m_view.normals[j], m_cos_angle)) return;
     const FT a = dot(offset, m_frame.u), b = dot(offset, m_frame.v), t2 = a * a + b * b;
-    if (!(t2 > 0)) { // a plane parallel to the tangent plane, or a duplicate: the first one wins
+    // A plane parallel to the tangent plane, up to rounding, which alone would give the line its
+    // direction; or a duplicate: the first one wins.
+    constexpr FT least_slope = 64 * internal::epsilon<FT>();
+    if (!(t2 > least_slope * least_slope * d2)) {
       if (power < 0 || (power == 0 && j < m_i)) m_polygon.size = 0;
       if constexpr (Filtered)
         if (!is_large(power - std::sqrt(d2) * m_radius * FT(1e-8), d2, other.weight))
@@ -210,19 +213,26 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
       sink(i, status, clipper.polygon(), clipper.frame());
     (void)certain;
   };
-  for (bool again = true;;) {
+  FT smallest = FT(1e30); // of the squares that it was begun from once more
+  for (;;) {
     Cell_clipper<FT, Filtered> clipper(view, i, radius, cos_angle);
     candidates(radius, [&](int j) { clipper.add(j); });
     const Tangent_polygon<FT>& polygon = clipper.finish();
     if (polygon.overflow) return deliver(Cell_status::incomplete, clipper, false);
+    const FT r2 = polygon.squared_radius();
+    // In so large a square rounding may have left nothing of it.
+    if (!(r2 > 0) && radius > 8 * guard_radius() && guard_radius() > 0) {
+      radius = guard_radius();
+      continue;
+    }
     if (polygon.size > 0 && clipper.is_complete()) {
-      const FT r2 = polygon.squared_radius(), f = view.guard_factor;
+      const FT f = view.guard_factor, smaller = FT(1.1) * std::sqrt(r2);
       // Once more from a smaller square where the size of this one costs digits, or where there are
       // too many candidates to be certain of.
       const bool is_far_off = 8 * r2 < radius * radius;
-      if (again && r2 > 0 && (is_far_off || (Filtered && clipper.has_overflown()))) {
-        again = false;
-        radius = FT(1.1) * std::sqrt(r2);
+      if (r2 > 0 && smaller < FT(0.9) * smallest &&
+          (is_far_off || (Filtered && clipper.has_overflown()))) {
+        radius = smallest = smaller;
         continue;
       }
       // The 6th neighbor is no nearer than the nearest one.
