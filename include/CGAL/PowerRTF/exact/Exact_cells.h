@@ -107,14 +107,29 @@ public:
   Exact_cell cell(int i, const Exact_square* square = nullptr,
                   Filter_statistics* statistics = nullptr) const
   {
-    return construct(i, square, statistics, [&](int j) { return compatible(i, j); });
+    return cell_of(i, square, statistics, [&](int j) { return compatible(i, j); });
   }
 
   /// As `cell()`, but all samples of the patch count, whatever their normals.
   Exact_cell cell_of_all(int i, const Exact_square* square = nullptr,
                          Filter_statistics* statistics = nullptr) const
   {
-    return construct(i, square, statistics, [&](int j) { return same_patch(i, j); });
+    return cell_of(i, square, statistics, [&](int j) { return same_patch(i, j); });
+  }
+
+  /// The same of the samples for which `counts(j)` holds.
+  template <class Counts>
+  Exact_cell cell_of(int i, const Exact_square* square, Filter_statistics* statistics,
+                     const Counts& counts) const
+  {
+    if (Exact_cell result; from_triangulation(i, square, result, statistics, counts)) return result;
+    Clipper clipper(i, m_points[i], m_normals[i], m_weights[i], square);
+    m_tree.visit(
+        m_points[i], [&](const internal::Weighted_box& box) { return clipper.may_be_cut_by(box); },
+        [&](int j) {
+          if (j != i && counts(j)) clipper.clip(j, m_points[j], m_weights[j]);
+        });
+    return finish(clipper, statistics);
   }
 
   /// Shape of `cell`, a result of `cell(i, square)` with the same square. An unbounded cell
@@ -145,20 +160,6 @@ private:
         throw Invalid_input_error("a sample's normal is zero or not finite");
     }
     return points;
-  }
-
-  template <class Counts>
-  Exact_cell construct(int i, const Exact_square* square, Filter_statistics* statistics,
-                       const Counts& counts) const
-  {
-    if (Exact_cell result; from_triangulation(i, square, result, statistics, counts)) return result;
-    Clipper clipper(i, m_points[i], m_normals[i], m_weights[i], square);
-    m_tree.visit(
-        m_points[i], [&](const internal::Weighted_box& box) { return clipper.may_be_cut_by(box); },
-        [&](int j) {
-          if (j != i && counts(j)) clipper.clip(j, m_points[j], m_weights[j]);
-        });
-    return finish(clipper, statistics);
   }
 
   static Exact_cell finish(Clipper& clipper, Filter_statistics* statistics)

@@ -15,6 +15,13 @@
 // (delta_e + delta_n) / sin(e, n). So l is at most the sum of the two. Two lines that do not meet
 // within S, however displaced, cannot both have edges, nor can rounding decide which of them has:
 // then the bound is 0.
+//
+// A site straight above or below s_i has no such line. Where t <= 64 eps d, the computed (a, b) is
+// within 64 eps d of the exact one, so that nothing is known of its direction, and neither is
+// longer than 128 eps d: within S, a x + b y is at most 128 eps d S, in either arithmetic. So the
+// site keeps all within S or nothing, by the sign of c = (d^2 + w_i - w_j) / 2, unless
+//   |c| <= 64 eps ((d^2 + |w_i| + |w_j|) / 2 + 2 S d):
+// then rounding may decide whether it takes part in the cell at all.
 #ifndef CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
 #define CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
 
@@ -78,6 +85,34 @@ public:
     double largest = 0;
     for (int id : edges) largest = (std::max)(largest, line(id).displacement);
     return largest;
+  }
+
+  /// Whether rounding may decide if site `j` takes part in the cell.
+  bool may_decide_of(int j) const
+  {
+    const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[j];
+    const Vec3d v = other.point - s.point;
+    const double d2 = squared_length(v), d = std::sqrt(d2), unit = 64 * m_epsilon;
+    const double t = std::hypot(dot(v, m_frame.u), dot(v, m_frame.v));
+    if (t > unit * d) return false;
+    const double c = (d2 + (s.weight - other.weight)) / 2;
+    const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
+    return std::fabs(c) <= unit * (size / 2 + 2 * m_reach * d);
+  }
+
+  /// The farthest vertex's distance from the site in the cell of `sites` within the square of
+  /// half-size `half`, all lines displaced outward or, by `side` -1, inward. 0: it is empty; also
+  /// where it has too many edges to say how far it reaches at least.
+  double radius(const std::vector<int>& sites, double half, int side) const
+  {
+    Tangent_polygon<double> polygon;
+    polygon.set_square(half);
+    for (std::size_t k = 0; k < sites.size() && polygon.size > 0; ++k) {
+      const Line l = line(sites[k]);
+      polygon.clip(std::cos(l.angle), std::sin(l.angle), l.offset + side * l.displacement,
+                   sites[k]);
+    }
+    return polygon.overflow && side < 0 ? 0 : std::sqrt(polygon.squared_radius());
   }
 
 private:

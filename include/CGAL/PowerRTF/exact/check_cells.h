@@ -50,57 +50,97 @@ public:
 
   Answer check(int i, const Cell_polygon& cell) const
   {
-    Answer answer;
     const double guard = guard_radius(m_view, i);
     if (!(guard > 0)) { // see construct_exact_cell()
+      Answer answer;
       const bool is_here = m_exact.cell_of_all(i, nullptr, &answer.predicates).contains_site;
       answer.is_right = cell.status == (is_here ? Cell_status::guarded : Cell_status::empty);
       answer.is_equal = answer.is_right;
       return answer;
     }
+    const Rounding_bound bound(m_view, i, 4 * (std::max)(guard, m_spacing), m_epsilon);
+    Answer answer = check(i, cell, guard, bound, {});
+    if (answer.is_right) return answer;
+    std::vector<int> undecided;
+    for (int j = 0; j < int(m_exact.size()); ++j)
+      if (j != i && m_exact.same_patch(i, j) && bound.may_decide_of(j)) undecided.push_back(j);
+    if (undecided.empty()) return answer;
+    // Each of them leaves nothing of the cell, or all.
+    Answer without = check(i, cell, guard, bound, undecided);
+    without.is_equal = false;
+    const auto counts = [&](int j) { return m_exact.compatible(i, j); };
+    without.is_right |=
+        cell.neighbors.empty() && std::any_of(undecided.begin(), undecided.end(), counts);
+    without.predicates += answer.predicates;
+    return without;
+  }
+
+private:
+  /// Compares with the exact cell of the sites that are not in `left_out`.
+  Answer check(int i, const Cell_polygon& cell, double guard, const Rounding_bound& bound,
+               const std::vector<int>& left_out) const
+  {
+    Answer answer;
+    bool is_of_all = false;
+    const auto counts = [&](int j) {
+      return !std::binary_search(left_out.begin(), left_out.end(), j) &&
+             (is_of_all ? m_exact.same_patch(i, j) : m_exact.compatible(i, j));
+    };
+    const auto displaced_radius = [&](double half, int side) {
+      std::vector<int> sites;
+      for (int j = 0; j < int(m_exact.size()); ++j)
+        if (j != i && counts(j)) sites.push_back(j);
+      return bound.radius(sites, half, side);
+    };
     const PowerRTF::Tangent_frame<double> frame(m_view.normals[i]);
     const Exact_square square{frame.u, frame.v, guard};
     // A status may differ by the rounding of R alone.
     const double slack = (std::max)(1e-9, 64 * m_epsilon);
-    Exact_cell exact = m_exact.cell(i, &square, &answer.predicates);
+    Exact_cell exact = m_exact.cell_of(i, &square, &answer.predicates, counts);
     Exact_cell_geometry geometry = m_exact.geometry(i, exact, &square);
     double radius = 0;
     for (const Vec3d& v : geometry.vertices) radius = (std::max)(radius, length(v));
     const bool is_large = exact.reaches_square() || radius > guard * (1 + slack);
     const bool is_small = !exact.reaches_square() && radius < guard * (1 - slack);
+    // In a cell as thin as a needle, R depends much on the lines: it must be on the wrong side of
+    // the guard radius with all of them displaced, too.
     bool is_status_right = true;
     switch (cell.status) {
     case Cell_status::ok:
-      is_status_right = !is_large;
+      is_status_right = !(is_large && displaced_radius(2 * guard, -1) > guard);
       break;
     case Cell_status::guarded: // of an empty cell `compare()` tells whether it has an area
-      is_status_right = exact.is_empty() || !is_small;
+      is_status_right = exact.is_empty() || !(is_small && displaced_radius(2 * guard, 1) < guard);
       break;
     case Cell_status::empty: // the whole cell, or else the guarded one
     case Cell_status::incomplete:
       break;
     }
     if (cell.status == Cell_status::guarded || (cell.status != Cell_status::ok && is_large)) {
-      exact = m_exact.cell_of_all(i, &square, &answer.predicates);
+      is_of_all = true;
+      exact = m_exact.cell_of(i, &square, &answer.predicates, counts);
       geometry = m_exact.geometry(i, exact, &square);
     }
-    compare(i, cell, exact, geometry, guard, answer);
+    compare(i, cell, exact, geometry, bound, answer);
+    // Displaced lines must leave nothing of the one, or something of the other.
+    if (answer.is_right && cell.neighbors.empty() != exact.is_empty())
+      answer.is_right =
+          exact.is_empty() ? displaced_radius(guard, 1) > 0 : !(displaced_radius(guard, -1) > 0);
     answer.is_right = answer.is_right && is_status_right;
     if (answer.is_right && cell.vertices.size() > 2 && geometry.area > 0)
       measure(i, cell, geometry, answer);
     return answer;
   }
 
-private:
   void compare(int i, const Cell_polygon& cell, const Exact_cell& exact,
-               const Exact_cell_geometry& geometry, double guard, Answer& answer) const
+               const Exact_cell_geometry& geometry, const Rounding_bound& bound,
+               Answer& answer) const
   {
     std::vector<int> cycle = cell.neighbors;
     std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
     answer.is_right = answer.is_equal = cycle == exact.neighbors;
     if (answer.is_equal) return;
 
-    const Rounding_bound bound(m_view, i, 4 * (std::max)(guard, m_spacing), m_epsilon);
     // The vertices were rounded once more when the site was added to them.
     const Vec3d& s = m_view.sites[i].point;
     const double unit =
@@ -119,7 +159,8 @@ private:
       const std::vector<int>& edges = cycle.empty() ? exact.neighbors : cycle;
       for (const double l : geometry.edge_lengths) perimeter += l; // the other one has none
       const double most = perimeter * bound.displacement(edges);
-      answer.worst_edge = (cycle.empty() ? geometry.area : cell.area) / most;
+      const double area = cycle.empty() ? geometry.area : cell.area;
+      answer.worst_edge = area > 0 ? area / most : 0; // a polygon that is a point has no perimeter
       answer.differing_edges = int(edges.size());
     } else {
       const std::vector<int> common = common_cycle(exact.neighbors, cell.neighbors);
