@@ -64,6 +64,16 @@ TEST_CASE("phasors are those of the library, counted numbers are uniform")
   CHECK(chi_2 < 110);
 }
 
+TEST_CASE("a product of stored phasors can be stored")
+{
+  const Phasor a = Short_phasor(Phasor{1, 0}), near_a = Short_phasor(phasor_at(0.0009f));
+  for (const Phasor turn : {Phasor{1, 0}, Phasor{0, 1}, Phasor{-1, 0}, Phasor{0, -1}})
+    for (const Phasor p : {a, near_a}) {
+      const Phasor longer = Phasor{1.00006f, 0} * p * turn; // the most by three factors' rounding
+      CHECK(distance_of(Short_phasor(longer), longer) < 1e-4);
+    }
+}
+
 TEST_CASE("a perfect lattice is a fixed point, whatever the nodes' axes")
 {
   for (unsigned seed = 0; seed < 5; ++seed) {

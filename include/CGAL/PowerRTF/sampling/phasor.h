@@ -61,21 +61,25 @@ CGAL_POWER_RTF_HD inline Phasor phasor_at(float turns)
   return {sign * cosine, sign * sine};
 }
 
-/// A phasor of length 1 in half the memory, up to 2e-5.
+/// A phasor of length 1 in half the memory, up to 2e-5. Products may be a little longer.
 struct Short_phasor {
   std::int16_t x = 0, y = 0;
 
   static constexpr float unit = 32767;
 
   Short_phasor() = default;
-  CGAL_POWER_RTF_HD Short_phasor(Phasor a)
-      : x(static_cast<std::int16_t>(nearest_integer(unit * a.x))),
-        y(static_cast<std::int16_t>(nearest_integer(unit * a.y)))
-  {}
+  CGAL_POWER_RTF_HD Short_phasor(Phasor a) : x(shortened(a.x)), y(shortened(a.y)) {}
   CGAL_POWER_RTF_HD operator Phasor() const
   {
     constexpr float by_unit = 1 / unit;
     return {by_unit * float(x), by_unit * float(y)};
+  }
+
+private:
+  CGAL_POWER_RTF_HD static std::int16_t shortened(float part)
+  {
+    const float number = nearest_integer(unit * part);
+    return static_cast<std::int16_t>(number > unit ? unit : number < -unit ? -unit : number);
   }
 };
 
