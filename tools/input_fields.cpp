@@ -150,7 +150,7 @@ Refinement parse_refinement(const std::string& text)
   const std::string shape = text.substr(0, colon);
   std::vector<double> x;
   const char* const end = text.data() + text.size();
-  const char* at = text.data() + std::min(colon, text.size() - 1) + 1;
+  const char* at = colon == std::string::npos ? end : text.data() + colon + 1;
   for (bool more = colon != std::string::npos; more;) {
     double number = 0;
     const auto [stop, error] = std::from_chars(at, end, number);
