@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Any polygons become a sound surface, or are refused with the reason.
+#include "../exact_judge.h"
 #include "engine.h"
 #include "mutate_polygons.h"
 #include "options_of.h"
 #include "promise.h"
 
-#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/input/import_surface.h>
 
 #include <cmath>
@@ -18,14 +18,15 @@ using namespace CGAL::PowerRTF;
 
 void check(const Surface& s, std::size_t input_points)
 {
-  const auto adjacency = facet_adjacency(s.triangles, s.points.size());
-  fuzz::promise(!s.triangles.empty(), "a surface has facets");
-  fuzz::promise(adjacency.non_manifold_edges == 0 && !adjacency.same_direction &&
-                    !adjacency.repeated_facets,
-                "facets agree at edges of one or two");
-  fuzz::promise(count_non_manifold_vertices(s.triangles, adjacency, s.points.size()) == 0,
-                "sheets do not touch in vertices");
-  fuzz::promise(adjacency.opposite == s.adjacency.opposite, "the adjacency is up to date");
+  judge::Mesh mesh;
+  for (const Vec3d& p : s.points) mesh.points.emplace_back(p.x, p.y, p.z);
+  for (const Triangle& t : s.triangles)
+    mesh.facets.push_back({std::size_t(t[0]), std::size_t(t[1]), std::size_t(t[2])});
+  const judge::Topology topology = judge::topology(mesh);
+  fuzz::promise(topology.facets > 0, "a surface has facets");
+  fuzz::promise(topology.unused_vertices == 0, "all vertices are those of facets");
+  fuzz::promise(topology.is_manifold(), "a surface is a 2-manifold");
+  fuzz::promise(topology.oriented == topology.orientable, "facets agree where they can");
   for (const auto& n : s.facet_normals)
     fuzz::promise(std::abs(length(n) - 1) < 1e-9, "facets have unit normals");
   for (const auto& n : s.vertex_normals)

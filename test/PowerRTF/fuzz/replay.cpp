@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A fuzz target without a fuzzing engine: runs the files of a corpus and, from each, a chain of
-// mutants, always the same ones. What fails is left in the file failed_input.
+// A fuzz target without a fuzzing engine: runs the files of a corpus and mutants of each, always
+// the same ones, in chains of one from another. What fails is left in the file failed_input.
 //
 // Usage: TARGET CORPUS MUTANTS
 #include "engine.h"
@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t max_size = 4096;
+constexpr std::size_t max_size = 16384;
+constexpr int chain_length = 20;
 
 std::string input; // the one that runs
 
@@ -67,9 +68,11 @@ int main(int argc, char** argv)
   const int mutants = std::atoi(argv[2]);
   for (const fs::path& file : files) {
     std::ifstream in(file, std::ios::binary);
-    input.assign(std::istreambuf_iterator<char>(in), {});
+    const std::string content(std::istreambuf_iterator<char>(in), {});
+    input = content;
     run();
     for (int k = 0; k < mutants; ++k) {
+      if (k % chain_length == 0) input = content;
       mutate(static_cast<unsigned>(k));
       run();
     }
