@@ -38,6 +38,7 @@ class Cell_checker {
 public:
   struct Answer {
     bool is_right = false, is_equal = false, has_errors = false;
+    bool is_of_all = false; ///< compared with the cell of all neighbors, whatever their normals
     int differing_edges = 0;
     double worst_edge = 0, area_error = 0, centroid_error = 0;
     Filter_statistics predicates;
@@ -81,10 +82,9 @@ private:
                const std::vector<int>& left_out) const
   {
     Answer answer;
-    bool is_of_all = false;
     const auto counts = [&](int j) {
       return !std::binary_search(left_out.begin(), left_out.end(), j) &&
-             (is_of_all ? m_exact.same_patch(i, j) : m_exact.compatible(i, j));
+             (answer.is_of_all ? m_exact.same_patch(i, j) : m_exact.compatible(i, j));
     };
     const auto displaced_radius = [&](double half, int side) {
       std::vector<int> sites;
@@ -117,7 +117,7 @@ private:
       break;
     }
     if (cell.status == Cell_status::guarded || (cell.status != Cell_status::ok && is_large)) {
-      is_of_all = true;
+      answer.is_of_all = true;
       exact = m_exact.cell_of(i, &square, &answer.predicates, counts);
       geometry = m_exact.geometry(i, exact, &square);
     }
