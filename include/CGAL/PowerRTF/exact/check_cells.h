@@ -69,7 +69,7 @@ public:
     // Each of them leaves nothing of the cell, or all.
     Answer without = check(i, cell, guard, bound, undecided);
     without.is_equal = false;
-    const auto counts = [&](int j) { return m_exact.compatible(i, j); };
+    const auto counts = [&](int j) { return without.is_of_all || m_exact.compatible(i, j); };
     without.is_right |=
         cell.neighbors.empty() && std::any_of(undecided.begin(), undecided.end(), counts);
     without.predicates += answer.predicates;
