@@ -189,6 +189,22 @@ CGAL_POWER_RTF_HD inline bool Cell_clipper<FT, Filtered>::is_certain() const
   return true;
 }
 
+/// Hands the cell of all neighbors, whatever their normals, within the square of half-size `half`
+/// to `deliver(status, clipper, false)`.
+template <bool Filtered, class FT, class Candidates, class Deliver>
+CGAL_POWER_RTF_HD inline void construct_guarded_cell(const Sites_view<FT>& view, int i, FT half,
+                                                     Candidates&& candidates, Deliver&& deliver)
+{
+  Cell_clipper<FT, Filtered> clipper(view, i, half * FT(1.41421357), FT(-2));
+  clipper.set_square(half);
+  candidates(half * FT(1.41421357), [&](int j) { clipper.add(j); });
+  const Tangent_polygon<FT>& polygon = clipper.finish();
+  deliver(polygon.size == 0  ? Cell_status::empty
+          : polygon.overflow ? Cell_status::incomplete
+                             : Cell_status::guarded,
+          clipper, false);
+}
+
 /// Constructs cell `i` and hands it to `sink(i, status, polygon, frame)`.
 ///
 /// `radius` is the first guess of R; `candidates(radius, f)` calls `f(j)` for a superset of the
@@ -252,16 +268,7 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
     radius = 2 * radius < guard_radius() ? 2 * radius : guard_radius();
   }
 
-  // Guarded: all neighbors count, whatever their normals, within the square of the guard radius.
-  const FT half = guard_radius();
-  Cell_clipper<FT, Filtered> clipper(view, i, half * FT(1.41421357), FT(-2));
-  clipper.set_square(half);
-  candidates(half * FT(1.41421357), [&](int j) { clipper.add(j); });
-  const Tangent_polygon<FT>& polygon = clipper.finish();
-  deliver(polygon.size == 0  ? Cell_status::empty
-          : polygon.overflow ? Cell_status::incomplete
-                             : Cell_status::guarded,
-          clipper, false);
+  construct_guarded_cell<Filtered>(view, i, guard_radius(), candidates, deliver);
 }
 
 } // namespace CGAL::PowerRTF
