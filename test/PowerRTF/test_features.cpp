@@ -303,3 +303,15 @@ TEST_CASE("density does not see a crease as curvature")
   set_density(surface, options);
   for (double rho : surface.vertex_density) CHECK(rho == doctest::Approx(1));
 }
+
+TEST_CASE("where an edge joins two copies of a vertex, sewing up collapses it")
+{
+  Extracted_mesh mesh;
+  mesh.points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {0, 4, 3}, {1, 5, 2}, {1, 3, 5}};
+  mesh.feature_edges = {{0, 1}, {0, 4}};
+  Opened_surface::sew_up(mesh);
+  CHECK(mesh.points.size() == 5);
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 3}, {0, 2, 4}, {0, 3, 2}, {0, 4, 1}});
+  CHECK(mesh.feature_edges == std::vector<Edge>{{0, 3}});
+}
