@@ -89,7 +89,7 @@ private:
     for (auto it = near.begin(); it != near.end() && !rest.empty(); ++it)
       cover(normal, view.facets[*it], rest, largest);
     for (const Convex_polygon& other : rest)
-      largest = std::max(largest, refined(other, m_enough, 0));
+      largest = std::max(largest, refined(other, std::max(m_enough, largest), 0));
     return largest;
   }
 
@@ -125,7 +125,8 @@ private:
     polygons = std::move(rest);
   }
 
-  // By its nearest facet, or by its halves.
+  // By its nearest facet, or by its halves. What bounds the first half is enough for the second,
+  // too: it is `enough`, or near a distance that there is.
   double refined(const Convex_polygon& polygon, double enough, int depth) const
   {
     const Vec3d center = center_of(polygon);
@@ -136,7 +137,8 @@ private:
     if (by_nearest <= enough || depth == max_depth) return by_nearest;
     double largest = 0;
     for (const Convex_polygon& half : halves(polygon))
-      if (!half.empty()) largest = std::max(largest, refined(half, enough, depth + 1));
+      if (!half.empty())
+        largest = std::max(largest, refined(half, std::max(enough, largest), depth + 1));
     return largest;
   }
 
