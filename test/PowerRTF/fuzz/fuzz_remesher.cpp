@@ -37,7 +37,8 @@ judge::Mesh mesh_of(const Extracted_mesh& extracted)
   return mesh;
 }
 
-/// The input, if it is a 2-manifold of triangles with areas; else nothing.
+/// The input, if it is a 2-manifold of triangles with areas that do not even touch (else vertices
+/// on edges may be joined with them); else nothing.
 judge::Mesh clean_input(const fuzz::Polygons& input)
 {
   judge::Mesh mesh;
@@ -47,7 +48,8 @@ judge::Mesh clean_input(const fuzz::Polygons& input)
     mesh.facets.push_back({std::size_t(p[0]), std::size_t(p[1]), std::size_t(p[2])});
   }
   mesh = judge::merged(mesh);
-  const bool is_clean = judge::topology(mesh).is_manifold() && judge::degenerate_facets(mesh) == 0;
+  const bool is_clean = judge::topology(mesh).is_manifold() &&
+                        judge::degenerate_facets(mesh) == 0 && judge::self_intersections(mesh) == 0;
   return is_clean ? mesh : judge::Mesh();
 }
 
