@@ -116,6 +116,38 @@ TEST_CASE("rounding may decide of a site straight above, but of no other")
   }
 }
 
+TEST_CASE("rounding may decide if a cell without room is there, but not among copies of its site")
+{
+  const int copies = 7;
+  const auto with_weight = [&](double weight) { // at 1 its bisector passes through the copies
+    Cloud cloud;
+    cloud.cos_angle = -2;
+    for (int k = 0; k < copies; ++k) cloud.add({0, 0, 0}, up);
+    cloud.add({1, 0, 0}, up, weight);
+    return cloud;
+  };
+  const auto wrong_cells = [&](double weight, double constructed_weight) {
+    Cloud cloud = with_weight(weight), constructed = with_weight(constructed_weight);
+    const std::vector<Cell_polygon> cells = cells_of(constructed);
+    sort(cloud);
+    return compare(cloud, cells).certified_wrong;
+  };
+  for (const int side : {-1, 1}) {
+    CHECK(wrong_cells(1 + side * 1e-15, 1 - side * 1e-15) == 0);
+    CHECK(wrong_cells(1 + side * 1e-6, 1 + side * 1e-6) == 0);
+    CHECK(wrong_cells(1 + side * 1e-6, 1 - side * 1e-6) == 1);
+  }
+
+  Cloud cloud = with_weight(1);
+  std::vector<Cell_polygon> cells = cells_of(cloud);
+  for (Cell_polygon& cell : cells) {
+    if (cell.status != Cell_status::empty) continue;
+    cell.status = Cell_status::guarded;
+    CHECK(compare(cloud, cells).certified_wrong == 1);
+    cell.status = Cell_status::empty;
+  }
+}
+
 TEST_CASE(
     "whether a needle reaches the guard radius may be due to rounding; whether a cell does, not")
 {

@@ -22,6 +22,10 @@
 // site keeps all within S or nothing, by the sign of c = (d^2 + w_i - w_j) / 2, unless
 //   |c| <= 64 eps ((d^2 + |w_i| + |w_j|) / 2 + 2 S d):
 // then rounding may decide whether it takes part in the cell at all.
+//
+// A cell without room (S = 0) is its site or nothing, by the signs of c of all others: rounding may
+// decide where |c| <= 64 eps (d^2 + |w_i| + |w_j|) / 2, but not of a copy of s_i, of which c is the
+// difference of two weights and has the exact sign.
 #ifndef CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
 #define CGAL_POWER_RTF_EXACT_ROUNDING_BOUND_H
 
@@ -98,6 +102,15 @@ public:
     const double c = (d2 + (s.weight - other.weight)) / 2;
     const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
     return std::fabs(c) <= unit * (size / 2 + 2 * m_reach * d);
+  }
+
+  /// Whether rounding may decide on which side of the plane between it and site `j` the site lies.
+  bool may_decide_of_site(int j) const
+  {
+    const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[j];
+    const double d2 = squared_length(other.point - s.point), c = d2 + (s.weight - other.weight);
+    const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
+    return d2 > 0 && std::fabs(c) <= 64 * m_epsilon * size;
   }
 
   /// The farthest vertex's distance from the site in the cell of `sites` within the square of

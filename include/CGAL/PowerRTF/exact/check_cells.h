@@ -52,13 +52,7 @@ public:
   Answer check(int i, const Cell_polygon& cell) const
   {
     const double guard = guard_radius(m_view, i);
-    if (!(guard > 0)) { // see construct_exact_cell()
-      Answer answer;
-      const bool is_here = m_exact.cell_of_all(i, nullptr, &answer.predicates).contains_site;
-      answer.is_right = cell.status == (is_here ? Cell_status::guarded : Cell_status::empty);
-      answer.is_equal = answer.is_right;
-      return answer;
-    }
+    if (!(guard > 0)) return check_site(i, cell.status);
     const Rounding_bound bound(m_view, i, 4 * (std::max)(guard, m_spacing), m_epsilon);
     Answer answer = check(i, cell, guard, bound, {});
     if (answer.is_right) return answer;
@@ -77,6 +71,28 @@ public:
   }
 
 private:
+  /// Compares the status of a cell without room, which is its site or nothing: see
+  /// `construct_exact_cell()`.
+  Answer check_site(int i, Cell_status status) const
+  {
+    Answer answer;
+    const auto status_of = [&](const auto& counts) {
+      const bool is_here = m_exact.cell_of(i, nullptr, &answer.predicates, counts).contains_site;
+      return is_here ? Cell_status::guarded : Cell_status::empty;
+    };
+    const auto is_other = [&](int j) { return j != i && m_exact.same_patch(i, j); };
+    answer.is_right = answer.is_equal = status == status_of(is_other);
+    if (answer.is_right) return answer;
+    const Rounding_bound bound(m_view, i, 0, m_epsilon);
+    const auto is_decided = [&](int j) { return is_other(j) && !bound.may_decide_of_site(j); };
+    if (status == Cell_status::guarded) // even so without all that rounding may decide of
+      answer.is_right = status == status_of(is_decided);
+    else if (status == Cell_status::empty)
+      for (int j = 0; j < int(m_exact.size()) && !answer.is_right; ++j)
+        answer.is_right = is_other(j) && !is_decided(j);
+    return answer;
+  }
+
   /// Compares with the exact cell of the sites that are not in `left_out`.
   Answer check(int i, const Cell_polygon& cell, double guard, const Rounding_bound& bound,
                const std::vector<int>& left_out) const
