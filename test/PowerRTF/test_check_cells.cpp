@@ -116,6 +116,35 @@ TEST_CASE("rounding may decide of a site straight above, but of no other")
   }
 }
 
+TEST_CASE(
+    "a tiny cell may be lost to a line known less well than the cell's edges, but to no other")
+{
+  const double size = 1e-16, height = 1e-5, squared = height * height;
+  const auto with_weight = [&](double weight) {
+    Cloud cloud;
+    cloud.cos_angle = -2;
+    cloud.add({0, 0, 0}, up);
+    for (int k = 0; k < 3; ++k) {
+      const double angle = 2 * sample_families::pi * k / 3;
+      cloud.add(Vec3d{std::cos(angle), std::sin(angle), 0} * size, up);
+    }
+    cloud.add({2 * size, size, height}, up, weight); // at `squared` its bisector is the plane's
+    return cloud;
+  };
+  const auto is_right = [&](double weight, double constructed_weight) {
+    Cloud cloud = with_weight(weight), constructed = with_weight(constructed_weight);
+    std::vector<Cell_polygon> cells = cells_of(constructed);
+    sort(cloud);
+    const int place = place_of(cloud, {0, 0, 0});
+    REQUIRE(cells[place].neighbors.empty());
+    const Cell_comparison c = compare(cloud, cells);
+    return std::find(c.wrong.begin(), c.wrong.end(), place) == c.wrong.end();
+  };
+  const double heavier = squared * (1 + 1e-14);
+  CHECK(is_right(squared * (1 - 1e-14), heavier));
+  CHECK_FALSE(is_right(squared * (1 - 1e-6), heavier));
+}
+
 TEST_CASE("rounding may decide if a cell without room is there, but not among copies of its site")
 {
   const int copies = 7;

@@ -16,6 +16,13 @@
 // within S, however displaced, cannot both have edges, nor can rounding decide which of them has:
 // then the bound is 0.
 //
+// Where one of the cells is empty, its lines leave nothing of the other one. Displaced by at most
+// delta, they leave something of a polygon that holds a disc of radius delta, and one of area A and
+// perimeter L holds a disc of radius A / L: so A is at most L delta. The lines that count are not
+// only the polygon's edges: beside a cell as small as delta any line may pass that takes all of it.
+// A line takes none if it is farther from s_i than the polygon's vertices by more than 2 delta_j,
+// once for each of its two places.
+//
 // A site straight above or below s_i has no such line. Where t <= 64 eps d, the computed (a, b) is
 // within 64 eps d of the exact one, so that nothing is known of its direction, and neither is
 // longer than 128 eps d: within S, a x + b y is at most 128 eps d S, in either arithmetic. So the
@@ -83,22 +90,28 @@ public:
            (after.displacement + e.displacement) / std::fabs(std::sin(to_after));
   }
 
-  /// The largest displacement of the lines of `edges`.
-  double displacement(const std::vector<int>& edges) const
+  /// The largest displacement of the lines of `edges`, and of those of `sites` that may come, once
+  /// displaced, within `radius` of the site.
+  double displacement(const std::vector<int>& edges, const std::vector<int>& sites,
+                      double radius) const
   {
     double largest = 0;
     for (int id : edges) largest = (std::max)(largest, line(id).displacement);
+    for (int id : sites) {
+      if (is_straight_above(id)) continue;
+      const Line l = line(id);
+      if (l.offset <= radius + 2 * l.displacement) largest = (std::max)(largest, l.displacement);
+    }
     return largest;
   }
 
   /// Whether rounding may decide if site `j` takes part in the cell.
   bool may_decide_of(int j) const
   {
+    if (!is_straight_above(j)) return false;
     const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[j];
     const Vec3d v = other.point - s.point;
     const double d2 = squared_length(v), d = std::sqrt(d2), unit = 64 * m_epsilon;
-    const double t = std::hypot(dot(v, m_frame.u), dot(v, m_frame.v));
-    if (t > unit * d) return false;
     const double c = (d2 + (s.weight - other.weight)) / 2;
     const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
     return std::fabs(c) <= unit * (size / 2 + 2 * m_reach * d);
@@ -129,6 +142,14 @@ public:
   }
 
 private:
+  /// Above or below, up to rounding.
+  bool is_straight_above(int j) const
+  {
+    const Vec3d v = m_view.sites[j].point - m_view.sites[m_i].point;
+    const double t = std::hypot(dot(v, m_frame.u), dot(v, m_frame.v));
+    return !(t > 64 * m_epsilon * length(v));
+  }
+
   bool stays_off(const Line& e, const Line& other, double angle) const
   {
     return std::fabs(e.offset - other.offset) >

@@ -102,11 +102,14 @@ private:
       return !std::binary_search(left_out.begin(), left_out.end(), j) &&
              (answer.is_of_all ? m_exact.same_patch(i, j) : m_exact.compatible(i, j));
     };
-    const auto displaced_radius = [&](double half, int side) {
-      std::vector<int> sites;
+    const auto sites = [&]() {
+      std::vector<int> result;
       for (int j = 0; j < int(m_exact.size()); ++j)
-        if (j != i && counts(j)) sites.push_back(j);
-      return bound.radius(sites, half, side);
+        if (j != i && counts(j)) result.push_back(j);
+      return result;
+    };
+    const auto displaced_radius = [&](double half, int side) {
+      return bound.radius(sites(), half, side);
     };
     const PowerRTF::Tangent_frame<double> frame(m_view.normals[i]);
     const Exact_square square{frame.u, frame.v, guard};
@@ -137,7 +140,7 @@ private:
       exact = m_exact.cell_of(i, &square, &answer.predicates, counts);
       geometry = m_exact.geometry(i, exact, &square);
     }
-    compare(i, cell, exact, geometry, bound, answer);
+    compare(i, cell, exact, geometry, bound, sites, answer);
     // Displaced lines must leave nothing of the one, or something of the other.
     if (answer.is_right && cell.neighbors.empty() != exact.is_empty())
       answer.is_right =
@@ -148,8 +151,10 @@ private:
     return answer;
   }
 
+  /// `sites()`: all that count.
+  template <class Sites>
   void compare(int i, const Cell_polygon& cell, const Exact_cell& exact,
-               const Exact_cell_geometry& geometry, const Rounding_bound& bound,
+               const Exact_cell_geometry& geometry, const Rounding_bound& bound, const Sites& sites,
                Answer& answer) const
   {
     std::vector<int> cycle = cell.neighbors;
@@ -170,11 +175,12 @@ private:
       perimeter += l + 2 * unit;
     }
     if (cycle.empty() || exact.is_empty()) {
-      // Lines displaced by delta empty no polygon that holds a disc of radius delta; the area is
-      // at most inradius times perimeter.
       const std::vector<int>& edges = cycle.empty() ? exact.neighbors : cycle;
       for (const double l : geometry.edge_lengths) perimeter += l; // the other one has none
-      const double most = perimeter * bound.displacement(edges);
+      double radius = 0;
+      for (const Vec3d& v : geometry.vertices) radius = (std::max)(radius, length(v));
+      for (const Vec3d& v : cell.vertices) radius = (std::max)(radius, length(v - s) + unit);
+      const double most = perimeter * bound.displacement(edges, sites(), radius);
       const double area = cycle.empty() ? geometry.area : cell.area;
       answer.worst_edge = area > 0 ? area / most : 0; // a polygon that is a point has no perimeter
       answer.differing_edges = int(edges.size());
