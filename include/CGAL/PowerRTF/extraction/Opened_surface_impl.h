@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
+#include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
@@ -112,14 +113,10 @@ CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh)
   for (Edge& e : mesh.feature_edges) e = sorted_edge(name[e[0]], name[e[1]]);
   // Where an edge joins two copies, it and its facets collapse.
   const auto is_point = [](const Edge& e) { return e[0] == e[1]; };
-  const auto is_edge = [](const Triangle& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  };
   mesh.feature_edges.erase(
       std::remove_if(mesh.feature_edges.begin(), mesh.feature_edges.end(), is_point),
       mesh.feature_edges.end());
-  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_edge),
-                       mesh.triangles.end());
+  internal::drop_collapsed(mesh.triangles);
   sort_uniquely(mesh.feature_edges);
   mesh.sort_triangles();
 }
