@@ -106,24 +106,12 @@ public:
   }
 
   /// Whether rounding may decide if site `j` takes part in the cell.
-  bool may_decide_of(int j) const
-  {
-    if (!is_straight_above(j)) return false;
-    const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[j];
-    const Vec3d v = other.point - s.point;
-    const double d2 = squared_length(v), d = std::sqrt(d2), unit = 64 * m_epsilon;
-    const double c = (d2 + (s.weight - other.weight)) / 2;
-    const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
-    return std::fabs(c) <= unit * (size / 2 + 2 * m_reach * d);
-  }
+  bool may_decide_of(int j) const { return is_straight_above(j) && may_be_zero(j, m_reach); }
 
   /// Whether rounding may decide on which side of the plane between it and site `j` the site lies.
   bool may_decide_of_site(int j) const
   {
-    const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[j];
-    const double d2 = squared_length(other.point - s.point), c = d2 + (s.weight - other.weight);
-    const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
-    return d2 > 0 && std::fabs(c) <= 64 * m_epsilon * size;
+    return !(m_view.sites[j].point == m_view.sites[m_i].point) && may_be_zero(j, 0);
   }
 
   /// The farthest vertex's distance from the site in the cell of `sites` within the square of
@@ -142,6 +130,16 @@ public:
   }
 
 private:
+  /// Whether c of site `j` may be 0 but for rounding, and for that of a x + b y within `reach`.
+  bool may_be_zero(int j, double reach) const
+  {
+    const Site<double>&s = m_view.sites[m_i], &other = m_view.sites[j];
+    const double d2 = squared_length(other.point - s.point);
+    const double c = (d2 + (s.weight - other.weight)) / 2;
+    const double size = d2 + std::fabs(s.weight) + std::fabs(other.weight);
+    return std::fabs(c) <= 64 * m_epsilon * (size / 2 + 2 * reach * std::sqrt(d2));
+  }
+
   /// Above or below, up to rounding.
   bool is_straight_above(int j) const
   {

@@ -117,8 +117,7 @@ private:
     const double slack = (std::max)(1e-9, 64 * m_epsilon);
     Exact_cell exact = m_exact.cell_of(i, &square, &answer.predicates, counts);
     Exact_cell_geometry geometry = m_exact.geometry(i, exact, &square);
-    double radius = 0;
-    for (const Vec3d& v : geometry.vertices) radius = (std::max)(radius, length(v));
+    const double radius = radius_of(geometry);
     const bool is_large = exact.reaches_square() || radius > guard * (1 + slack);
     const bool is_small = !exact.reaches_square() && radius < guard * (1 - slack);
     // In a cell as thin as a needle, R depends much on the lines: it must be on the wrong side of
@@ -151,6 +150,14 @@ private:
     return answer;
   }
 
+  /// The farthest vertex's distance from the site.
+  static double radius_of(const Exact_cell_geometry& geometry)
+  {
+    double radius = 0;
+    for (const Vec3d& v : geometry.vertices) radius = (std::max)(radius, length(v));
+    return radius;
+  }
+
   /// `sites()`: all that count.
   template <class Sites>
   void compare(int i, const Cell_polygon& cell, const Exact_cell& exact,
@@ -177,8 +184,7 @@ private:
     if (cycle.empty() || exact.is_empty()) {
       const std::vector<int>& edges = cycle.empty() ? exact.neighbors : cycle;
       for (const double l : geometry.edge_lengths) perimeter += l; // the other one has none
-      double radius = 0;
-      for (const Vec3d& v : geometry.vertices) radius = (std::max)(radius, length(v));
+      double radius = radius_of(geometry);
       for (const Vec3d& v : cell.vertices) radius = (std::max)(radius, length(v - s) + unit);
       const double most = perimeter * bound.displacement(edges, sites(), radius);
       const double area = cycle.empty() ? geometry.area : cell.area;
