@@ -131,9 +131,3 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
   }
   return 0;
 }
-
-std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                    unsigned seed)
-{
-  return fuzz::mutate_polygons(data, size, max_size, seed);
-}

@@ -31,7 +31,7 @@ void check(const Surface& s, std::size_t input_points)
     fuzz::promise(std::abs(length(n) - 1) < 1e-9, "facets have unit normals");
   for (const auto& n : s.vertex_normals)
     fuzz::promise(std::abs(length(n) - 1) < 1e-9, "vertices have unit normals");
-  double area = 0; // some facets may have none: those that the topology needs
+  double area = 0; // a facet may have none: not all can be removed
   for (const double a : s.facet_areas) {
     fuzz::promise(a >= 0, "no area is negative");
     area += a;
@@ -56,10 +56,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
     fuzz::promise(e.what()[0] != 0, "a refusal has a reason");
   }
   return 0;
-}
-
-std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                    unsigned seed)
-{
-  return fuzz::mutate_polygons(data, size, max_size, seed);
 }

@@ -186,23 +186,23 @@ private:
   }
 };
 
-/// Changes an input as `LLVMFuzzerCustomMutator()` is to; what is none, byte by byte.
-inline std::size_t mutate_polygons(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                   unsigned seed)
+} // namespace fuzz
+
+/// The target's that includes this: changes polygons; what is none, byte by byte.
+std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                    unsigned seed)
 {
-  auto input = polygons_of(text_of(data, size));
+  auto input = fuzz::polygons_of(fuzz::text_of(data, size));
   if (!input) return LLVMFuzzerMutate(data, size, max_size);
-  Random random(seed);
-  Polygons_mutator mutator(*input, random);
+  fuzz::Random random(seed);
+  fuzz::Polygons_mutator mutator(*input, random);
   do {
     if (random.integer(0, 3) == 0)
-      mutate_options(*input, random);
+      fuzz::mutate_options(*input, random);
     else
       mutator.mutate();
   } while (random.integer(0, 2) > 0);
-  return replace(data, size, max_size, to_text(*input));
+  return fuzz::replace(data, size, max_size, fuzz::to_text(*input));
 }
-
-} // namespace fuzz
 
 #endif // CGAL_POWER_RTF_TEST_FUZZ_MUTATE_POLYGONS_H
