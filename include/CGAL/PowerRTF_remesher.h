@@ -183,10 +183,10 @@ private:
     const PowerRTF::Feature_samples& features = m_patches.features();
     PowerRTF::Extracted_mesh mesh;
     if (!m_surface.is_closed_up()) {
-      mesh = triangulate(m_surface, samples(), features);
+      mesh = triangulate(m_surface, samples(), features, {});
     } else {
       const PowerRTF::Opened_surface opened(m_surface, samples(), features);
-      mesh = triangulate(opened.surface(), opened.samples(), opened.features());
+      mesh = triangulate(opened.surface(), opened.samples(), opened.features(), opened.seams());
       PowerRTF::Opened_surface::sew_up(mesh);
     }
     const Stage stage("quality", m_report.seconds.quality);
@@ -248,13 +248,13 @@ private:
 
   PowerRTF::Extracted_mesh triangulate(const PowerRTF::Surface& surface,
                                        const PowerRTF::Samples& samples,
-                                       const PowerRTF::Feature_samples& features)
+                                       const PowerRTF::Feature_samples& features,
+                                       const PowerRTF::Seam_places& seams)
   {
     PowerRTF::Extracted_mesh mesh;
     {
       const Stage stage("extraction", m_report.seconds.extraction);
-      mesh = triangles(surface, samples, features);
-      mesh.is_opened = m_surface.is_closed_up();
+      mesh = triangles(surface, samples, features, seams);
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
@@ -266,7 +266,8 @@ private:
 
   PowerRTF::Extracted_mesh triangles(const PowerRTF::Surface& surface,
                                      const PowerRTF::Samples& samples,
-                                     const PowerRTF::Feature_samples& features)
+                                     const PowerRTF::Feature_samples& features,
+                                     const PowerRTF::Seam_places& seams)
   {
     using Method = PowerRTF::Extraction_method;
     const bool is_opened = m_surface.is_closed_up(); // its cells are those of the surface as it was
@@ -276,9 +277,13 @@ private:
     if (by_cells) neighbors = m_engine.neighbors();
     m_engine.release_memory();
     part.next(1);
-    if (m_options.extraction == Method::restricted_delaunay)
-      return PowerRTF::extract_restricted_delaunay(surface, samples, features);
-    if (!by_cells) return PowerRTF::extract_by_insertion(surface, samples, features, is_opened);
+    if (m_options.extraction == Method::restricted_delaunay) {
+      PowerRTF::Extracted_mesh mesh =
+          PowerRTF::extract_restricted_delaunay(surface, samples, features);
+      mesh.places = seams.samples;
+      return mesh;
+    }
+    if (!by_cells) return PowerRTF::extract_by_insertion(surface, samples, features, seams);
     return PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
         surface, samples, features, std::move(neighbors));
   }

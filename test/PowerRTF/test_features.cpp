@@ -245,8 +245,8 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
       const Samples free = sample_surface(patches.surface(), options, patches.features());
       const Opened_surface opened(
           surface, joined(patches.on_whole(free), patches.features().samples), patches.features());
-      Extracted_mesh mesh =
-          extract_by_insertion(opened.surface(), opened.samples(), opened.features(), true);
+      Extracted_mesh mesh = extract_by_insertion(opened.surface(), opened.samples(),
+                                                 opened.features(), opened.seams());
       CHECK(topology(mesh.triangles).oriented);
       CHECK(mesh.points.size() > 300);
       Opened_surface::sew_up(mesh);
@@ -286,7 +286,7 @@ TEST_CASE("a sample that comes to lie on a seam is no vertex of one sheet there"
   while (!has(seam[0]) || !has(seam[1])) ++samples.facets[0];
   const Opened_surface opened(surface, samples, patches.features());
   Extracted_mesh mesh =
-      extract_by_insertion(opened.surface(), opened.samples(), opened.features(), true);
+      extract_by_insertion(opened.surface(), opened.samples(), opened.features(), opened.seams());
   Opened_surface::sew_up(mesh);
   const Topology_statistics is = topology(mesh.triangles), was = topology(surface.triangles);
   CHECK(was.junctions == 1);
@@ -309,6 +309,7 @@ TEST_CASE("where an edge joins two copies of a vertex, sewing up collapses it")
   Extracted_mesh mesh;
   mesh.points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {0, 4, 3}, {1, 5, 2}, {1, 3, 5}};
+  mesh.places = {7, 7, -1, -1, -1, -1};
   mesh.feature_edges = {{0, 1}, {0, 4}};
   Opened_surface::sew_up(mesh);
   CHECK(mesh.points.size() == 5);

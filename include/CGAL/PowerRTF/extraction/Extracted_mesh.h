@@ -21,8 +21,9 @@ struct Extracted_mesh {
   std::vector<Vec3d> points;
   std::vector<Triangle> triangles; ///< counter-clockwise seen from outside
   std::vector<Edge> feature_edges; ///< the pieces of creases and borders; sorted
-  /// Of an `Opened_surface`: points at the same place will be one vertex.
-  bool is_opened = false;
+  /// Of an `Opened_surface`, by point: its place (see `Seam_places`), whose points will be one
+  /// vertex. Empty: all are alone.
+  std::vector<int> places;
 
   /// Puts the triangles into an order that depends on nothing but which triangles there are.
   void sort_triangles(internal::Concurrency concurrency = Sequential_tag())

@@ -8,6 +8,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_OPENED_SURFACE_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/extraction/Seam_places.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 
@@ -25,16 +26,18 @@ public:
   const Surface& surface() const { return m_surface; }
   const Samples& samples() const { return m_samples; }
   const Feature_samples& features() const { return m_features; }
+  const Seam_places& seams() const { return m_seams; }
 
-  /// Makes the copies of each vertex, which are at the same place, one again.
+  /// Makes the points at each place one again.
   static void sew_up(Extracted_mesh& mesh);
 
 private:
-  void move_off_seams(const std::vector<char>& is_copied, std::size_t count);
+  void move_off_seams(std::size_t count);
 
   Surface m_surface;
   Samples m_samples;
   Feature_samples m_features;
+  Seam_places m_seams;
 };
 
 } // namespace CGAL::PowerRTF

@@ -8,12 +8,12 @@
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
-#include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -36,9 +36,8 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   std::vector<std::vector<int>> copies(surface.points.size());
   for (std::size_t v = 0; v < cut.originals.size(); ++v)
     copies[cut.originals[v]].push_back(static_cast<int>(v));
-  std::vector<char> is_copied;
-  for (const int v : cut.originals) is_copied.push_back(copies[v].size() > 1);
-  move_off_seams(is_copied, first_feature);
+  for (const int v : cut.originals) m_seams.vertices.push_back(copies[v].size() > 1 ? v : -1);
+  move_off_seams(first_feature);
   std::map<Edge, std::vector<Edge>> edge_copies;
   for (std::size_t f = 0; f < surface.triangles.size(); ++f)
     for (int i = 0; i < 3; ++i) {
@@ -57,6 +56,7 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
   std::sort(m_surface.creases.begin(), m_surface.creases.end());
 
   std::vector<Edge_place> twins;
+  m_seams.samples.assign(samples.size(), -1);
   for (std::size_t k = 0; k < features.size(); ++k) {
     const Edge_place& p = features.places[k];
     std::vector<Edge_place> places;
@@ -67,6 +67,9 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
         places.push_back(p.from < p.to ? Edge_place{e[0], e[1], p.at}
                                        : Edge_place{e[1], e[0], p.at});
     m_features.places.push_back(places.front());
+    if (places.size() > 1)
+      m_seams.samples[first_feature + k] =
+          p.from == p.to ? p.from : static_cast<int>(surface.points.size() + k);
     for (std::size_t c = 1; c < places.size(); ++c) {
       twins.push_back(places[c]);
       const std::size_t s = first_feature + k;
@@ -75,6 +78,7 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
       m_samples.normals.push_back(samples.normals[s]);
       m_samples.density.push_back(samples.density[s]);
       m_samples.weights.push_back(samples.weights[s]);
+      m_seams.samples.push_back(m_seams.samples[s]);
     }
   }
   m_features.places.insert(m_features.places.end(), twins.begin(), twins.end());
@@ -83,13 +87,12 @@ Opened_surface::Opened_surface(const Surface& surface, const Samples& samples,
 
 // The first samples, so many, into their facets where these touch a seam: a vertex that is inserted
 // on the seam would be there in one sheet only.
-CGAL_POWER_RTF_INLINE void Opened_surface::move_off_seams(const std::vector<char>& is_copied,
-                                                          std::size_t count)
+CGAL_POWER_RTF_INLINE void Opened_surface::move_off_seams(std::size_t count)
 {
   constexpr double share = 1e-5; // a third of it is more than what counts as on an edge, 1e-6
   for (std::size_t s = 0; s < count; ++s) {
     const auto [a, b, c] = m_surface.triangles[m_samples.facets[s]];
-    if (!is_copied[a] && !is_copied[b] && !is_copied[c]) continue;
+    if (m_seams.vertices[a] < 0 && m_seams.vertices[b] < 0 && m_seams.vertices[c] < 0) continue;
     const std::vector<Vec3d>& p = m_surface.points;
     const Vec3d center = (1. / 3) * (p[a] + p[b] + p[c]);
     m_samples.points[s] += share * (center - m_samples.points[s]);
@@ -98,16 +101,17 @@ CGAL_POWER_RTF_INLINE void Opened_surface::move_off_seams(const std::vector<char
 
 CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh)
 {
-  const std::vector<int> first = first_of_equal_points(mesh.points);
   std::vector<int> name(mesh.points.size());
   std::vector<Vec3d> points;
+  std::unordered_map<int, int> name_of_place;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const bool is_copy = first[v] != static_cast<int>(v);
-    name[v] = is_copy ? name[first[v]] : static_cast<int>(points.size());
-    if (!is_copy) points.push_back(mesh.points[v]);
+    name[v] = static_cast<int>(points.size());
+    const int place = mesh.places.empty() ? -1 : mesh.places[v];
+    if (place >= 0) name[v] = name_of_place.emplace(place, name[v]).first->second;
+    if (name[v] == static_cast<int>(points.size())) points.push_back(mesh.points[v]);
   }
   mesh.points.swap(points);
-  mesh.is_opened = false;
+  mesh.places.clear();
   for (Triangle& t : mesh.triangles)
     for (int& v : t) v = name[v];
   for (Edge& e : mesh.feature_edges) e = sorted_edge(name[e[0]], name[e[1]]);

@@ -6,9 +6,9 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_WORKING_MESH_H
 
+#include <CGAL/PowerRTF/extraction/Seam_places.h>
 #include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
-#include <CGAL/PowerRTF/input/near_borders.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -39,8 +39,7 @@ struct Working_mesh {
   std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
   std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
   std::vector<int> patches;   ///< by face: the surface's flat patch; -1, or empty: of none
-  /// By vertex, of an opened surface: a number that those at the same place have, which will be one
-  /// vertex; -1: it is alone. Empty: all are.
+  /// By vertex, of an opened surface: its place (see `Seam_places`). Empty: all are alone.
   std::vector<int> places;
 
   /// \throw Invalid_input_error if the triangles are no oriented 2-manifold
@@ -66,17 +65,13 @@ struct Working_mesh {
     });
   }
 
-  /// Sets `places`.
-  void find_places()
+  /// Sets `places`; \pre the mesh is the surface, with or without its samples.
+  void set_places(const Seam_places& seams)
   {
-    std::vector<Vec3d> points;
-    for (const Vertex v : mesh.vertices()) points.push_back(point(v));
-    places = first_of_equal_points(points);
-    std::vector<char> is_shared(points.size(), 0);
-    for (std::size_t v = 0; v < points.size(); ++v)
-      if (places[v] != static_cast<int>(v)) is_shared[v] = is_shared[places[v]] = 1;
-    for (std::size_t v = 0; v < points.size(); ++v)
-      if (!is_shared[v]) places[v] = -1;
+    if (seams.vertices.empty()) return;
+    places = seams.vertices; // the samples come after them
+    for (std::size_t v = places.size(); v < samples.size(); ++v)
+      places.push_back(seams.samples[samples[v]]);
   }
   /// The vertices at each place of several, in the order of the places and of their numbers.
   std::map<int, std::vector<Vertex>> copies() const

@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_BY_INSERTION_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/extraction/Seam_places.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 
@@ -26,12 +27,13 @@ namespace CGAL::PowerRTF {
 /// `features`: the last samples; edges between those that are next to each other on a curve stay.
 /// Without it borders recede to the samples.
 ///
-/// `is_opened`: vertices at the same place will be one (see `Opened_surface`).
+/// `seams`: the vertices and samples that will be one (see `Opened_surface`).
 ///
 /// \pre `surface` is an oriented 2-manifold
 /// \throw Invalid_input_error if it is not, or if a sample lies on no facet
 Extracted_mesh extract_by_insertion(const Surface& surface, const Samples& samples,
-                                    const Feature_samples& features = {}, bool is_opened = false);
+                                    const Feature_samples& features = {},
+                                    const Seam_places& seams = {});
 
 } // namespace CGAL::PowerRTF
 

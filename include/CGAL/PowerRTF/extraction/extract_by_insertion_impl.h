@@ -31,6 +31,11 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
       name[v] = int(result.points.size());
       result.points.push_back(working.point(v));
     }
+  if (!working.places.empty()) {
+    result.places.assign(result.points.size(), -1);
+    for (const auto v : mesh.vertices())
+      if (name[v] >= 0) result.places[name[v]] = working.places[v];
+  }
   result.triangles = working.triangles();
   for (Triangle& t : result.triangles)
     for (int& v : t) v = name[v];
@@ -43,10 +48,10 @@ inline Extracted_mesh to_extracted_mesh(const Working_mesh& working, const Sampl
 }
 
 /// The number of them in the surface itself.
-inline std::size_t intersections(const Surface& surface, bool is_opened)
+inline std::size_t intersections(const Surface& surface, const Seam_places& seams)
 {
   Working_mesh mesh(surface.points, surface.triangles, Sequential_tag());
-  if (is_opened) mesh.find_places();
+  mesh.set_places(seams);
   return Intersection_finder(mesh).all().size();
 }
 
@@ -55,12 +60,12 @@ inline std::size_t intersections(const Surface& surface, bool is_opened)
 CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface,
                                                           const Samples& samples,
                                                           const Feature_samples& features,
-                                                          bool is_opened)
+                                                          const Seam_places& seams)
 {
   internal::Progress_part part(0.3);
   internal::Working_mesh mesh(internal::insert_samples(surface, samples, features.places));
   part.next(0.95); // what follows is rare
-  if (is_opened) mesh.find_places();
+  mesh.set_places(seams);
   const std::size_t defects = internal::reduce_to_samples(mesh);
   Extracted_mesh result = internal::to_extracted_mesh(mesh, samples);
   if (defects == 0) return result;
@@ -70,10 +75,10 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
   if (sparse.balls.empty()) return result;
   std::size_t fewest = sparse.defects();
   std::vector<internal::Ball> guarded;
-  const std::size_t input_intersections = internal::intersections(surface, is_opened);
+  const std::size_t input_intersections = internal::intersections(surface, seams);
   for (const double reach : {2., 8., 1e3}) {
     guarded.insert(guarded.end(), sparse.balls.begin(), sparse.balls.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, is_opened);
+    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, seams);
     extraction.run();
     sparse = internal::sparse_places(extraction.mesh());
     if (sparse.defects() < fewest) {

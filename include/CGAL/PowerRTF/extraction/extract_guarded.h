@@ -64,11 +64,11 @@ public:
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
   Guarded_extraction(const Surface& surface, const Samples& samples,
                      const Feature_samples& features, const std::vector<Ball>& balls, double reach,
-                     bool is_opened)
+                     const Seam_places& seams)
       : m_may_go(may_go(samples, features)),
-        m(mesh_with_samples(surface, samples, features, is_opened)),
-        m_guard(m, sight(balls, reach)), m_was_everywhere(m_guard.watches_all()),
-        m_flipper(m, 0.1, &m_guard), m_next_twin(static_cast<int>(samples.size()))
+        m(mesh_with_samples(surface, samples, features, seams)), m_guard(m, sight(balls, reach)),
+        m_was_everywhere(m_guard.watches_all()), m_flipper(m, 0.1, &m_guard),
+        m_next_twin(static_cast<int>(samples.size()))
   {}
 
   void run()
@@ -91,10 +91,10 @@ private:
   enum class Place { inside, on_feature };
 
   static Working_mesh mesh_with_samples(const Surface& surface, const Samples& samples,
-                                        const Feature_samples& features, bool is_opened)
+                                        const Feature_samples& features, const Seam_places& seams)
   {
     Working_mesh mesh(insert_samples(surface, samples, features.places));
-    if (is_opened) mesh.find_places();
+    mesh.set_places(seams);
     return mesh;
   }
 
