@@ -327,24 +327,35 @@ namespace {
 
 using Candidates = internal::Elimination_candidates;
 
-/// The heaviest candidate goes, of equal ones the last, until n are left.
+/// The heaviest candidate goes, of equal ones the last, until n are left. When all are weightless,
+/// they look farther, and after some time to all sides.
 std::vector<int> eliminated_in_turn(const Candidates& candidates, std::size_t n)
 {
+  double reach = 1;
+  int round = 0;
   const auto weight = [&](int i, const std::vector<int>& alive) {
     double w = 0;
     for (const int j : alive) {
       const auto &a = candidates[i], &b = candidates[j];
-      const double x = 1 - length(a.point - b.point) / (a.radius + b.radius);
-      if (j != i && x > 0 && dot(a.normal, b.normal) > 0) w += std::pow(x, 8);
+      const double x = 1 - length(a.point - b.point) / (reach * (a.radius + b.radius));
+      const bool is_seen = round >= 16 || dot(a.normal, b.normal) > 0;
+      if (j != i && x > 0 && is_seen) w += std::pow(x, 8);
     }
     return w;
   };
   std::vector<int> alive(candidates.size());
   std::iota(alive.begin(), alive.end(), 0);
-  while (alive.size() > n)
-    alive.erase(std::max_element(alive.begin(), alive.end(), [&](int a, int b) {
+  while (alive.size() > n) {
+    const auto heaviest = std::max_element(alive.begin(), alive.end(), [&](int a, int b) {
       return std::pair(weight(a, alive), a) < std::pair(weight(b, alive), b);
-    }));
+    });
+    if (n == 0 || weight(*heaviest, alive) > 0) {
+      alive.erase(heaviest);
+    } else {
+      reach *= 1.25;
+      ++round;
+    }
+  }
   return alive;
 }
 
@@ -375,6 +386,21 @@ TEST_CASE("elimination where each candidate waits for the next one")
   for (int i = 0; i < 300; ++i) line.push_back({{-1 + std::pow(0.99, i), 0, 0}, {0, 0, 1}, 0.1});
   for (const std::size_t n : {5, 100, 250})
     CHECK(eliminate_samples(line, 0.5, n) == eliminated_in_turn(line, n));
+}
+
+TEST_CASE("elimination leaves no part out where candidates are too far apart to see each other")
+{
+  Candidates line;
+  for (int i = 0; i < 300; ++i)
+    line.push_back({{0.01 * i, 0, 0}, {0, 0, i % 2 == 0 ? 1. : -1.}, 0.001});
+  for (const std::size_t n : {40, 100, 200}) {
+    const std::vector<int> chosen = eliminate_samples(line, 0.5, n);
+    CHECK(chosen.size() == n);
+    CHECK(chosen == eliminated_in_turn(line, n));
+    int largest = (std::max)(chosen.front(), 299 - chosen.back());
+    for (std::size_t k = 1; k < n; ++k) largest = (std::max)(largest, chosen[k] - chosen[k - 1]);
+    CHECK(largest <= 3 * 300 / static_cast<int>(n));
+  }
 }
 
 TEST_CASE("fixed candidates crowd the others, and stay")

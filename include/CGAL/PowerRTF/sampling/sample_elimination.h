@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -34,16 +35,19 @@ public:
         m_is_alive(m_size, 1), m_weight(m_size, 0)
   {}
 
-  /// The `n` free candidates that are left, increasing.
+  /// The free candidates that are left, increasing: `n`, or more that do not see each other.
   std::vector<int> run(std::size_t n)
   {
+    constexpr double seen = std::numeric_limits<double>::min(); // the least weight
     const std::size_t excess = m_free > static_cast<int>(n) ? m_free - n : 0;
-    while (m_gone.size() < excess) {
+    for (bool progress = true; progress && m_gone.size() < excess;) {
+      const std::size_t before = m_gone.size();
       for_each_index(m_concurrency, m_size, [&](int k) { update_weight(k); });
-      eliminate_down_to(threshold(excess - m_gone.size()));
+      eliminate_down_to(std::max(threshold(excess - before), seen));
+      progress = m_gone.size() > before;
     }
     // The last ones stay, after all.
-    const auto end = m_gone.begin() + excess;
+    const auto end = m_gone.begin() + std::min(excess, m_gone.size());
     std::nth_element(m_gone.begin(), end, m_gone.end(),
                      [&](int j, int k) { return comes_before(j, k); });
     for (auto k = end; k != m_gone.end(); ++k) m_is_alive[*k] = 1;
@@ -163,7 +167,8 @@ private:
 } // namespace internal
 
 /// Chooses `n` of the candidates so that they lie far from each other: the candidate with the
-/// closest surroundings goes first, until `n` are left.
+/// closest surroundings goes first, until `n` are left. If so many more are left that do not see
+/// each other, they look farther.
 /// \param cos_normal_angle candidates whose normals' dot product is below it do not see each other
 ///   (NVISPC)
 /// \param fixed so many candidates, the last ones, crowd the others, but are not among the `n`
@@ -173,10 +178,27 @@ inline std::vector<int> eliminate_samples(const internal::Elimination_candidates
                                           std::size_t fixed = 0,
                                           internal::Concurrency concurrency = Sequential_tag())
 {
-  return internal::Sample_elimination(
-             internal::candidate_graph(candidates, cos_normal_angle, concurrency), fixed,
-             concurrency)
-      .run(n);
+  constexpr int patience = 16; // then those with other normals see each other, too
+  constexpr double any_normal = -2, farther = 1.25;
+  const auto chosen = [&](const internal::Elimination_candidates& among, double cos_angle) {
+    return internal::Sample_elimination(internal::candidate_graph(among, cos_angle, concurrency),
+                                        fixed, concurrency)
+        .run(n);
+  };
+  if (n == 0) return {}; // a last one sees no other
+  std::vector<int> left = chosen(candidates, cos_normal_angle);
+  double reach = 1;
+  for (int round = 1; left.size() > n; ++round) {
+    reach *= farther;
+    internal::Elimination_candidates rest;
+    for (const int i : left) rest.push_back(candidates[i]);
+    rest.insert(rest.end(), candidates.end() - fixed, candidates.end());
+    for (auto& candidate : rest) candidate.radius *= reach;
+    std::vector<int> next = chosen(rest, round < patience ? cos_normal_angle : any_normal);
+    for (int& k : next) k = left[k];
+    left.swap(next);
+  }
+  return left;
 }
 
 } // namespace CGAL::PowerRTF
