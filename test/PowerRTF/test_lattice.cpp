@@ -3,6 +3,7 @@
 #include "flat_lattice.h"
 #include "relative_distances.h"
 #include "shapes.h"
+#include "sweeps.h"
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
@@ -14,8 +15,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
@@ -260,4 +263,31 @@ TEST_CASE("a lattice: most samples have their neighbors at its spacing")
     }
   CHECK(wide <= 1);
   CHECK(sum < 1.05 * runs);
+}
+
+TEST_CASE("on a surface thinner than the spacing samples are distinct, and everywhere")
+{
+  for (const unsigned seed : {0u, 1u})
+    for (const shapes::Soup& soup :
+         {shapes::ellipsoid(1, 1e-4, 1e-4, 3), shapes::cone(32, 1, 1e4, 1)}) {
+      const Surface s = shapes::make_surface(soup);
+      const Samples samples = sample_surface(s, options(3000, Sampling::lattice, seed));
+      CHECK(samples.size() == 3000);
+      Box3<double> box{s.points[0], s.points[0]};
+      for (const Vec3d& p : s.points) box.add(p);
+      const Vec3d size = box.hi - box.lo;
+      const bool is_along_x = size.x > size.z;
+      std::vector<double> along{is_along_x ? box.lo.x : box.lo.z, is_along_x ? box.hi.x : box.hi.z};
+      std::set<std::array<double, 3>> distinct;
+      for (const Vec3d& p : samples.points) {
+        along.push_back(is_along_x ? p.x : p.z);
+        distinct.insert({p.x, p.y, p.z});
+      }
+      CHECK(distinct.size() == 3000);
+      std::sort(along.begin(), along.end());
+      double largest = 0;
+      for (std::size_t k = 1; k < along.size(); ++k)
+        largest = (std::max)(largest, along[k] - along[k - 1]);
+      CHECK(largest < 0.03); // the tips are thin: few samples have so much area
+    }
 }

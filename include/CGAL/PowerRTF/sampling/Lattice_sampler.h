@@ -342,7 +342,7 @@ private:
     }
     const auto [a, b, c] = corners(f);
     double beta, gamma;
-    barycentric_coordinates(point, a, b, c, beta, gamma);
+    barycentric_coordinates(nearest_point_on_triangle(point, a, b, c), a, b, c, beta, gamma);
     return {f, {1 - beta - gamma, beta, gamma}};
   }
 
