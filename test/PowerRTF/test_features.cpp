@@ -6,6 +6,7 @@
 
 #include "creased_surface.h"
 #include "dirty_shapes.h"
+#include "odd_shapes.h"
 
 #include <CGAL/PowerRTF/cells/clip_at_features.h>
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
@@ -233,7 +234,8 @@ TEST_CASE("surfaces with one side only are cut open, sampled and sewn up again")
   };
   for (const Case& c :
        {Case{shapes::moebius_strip(60), 1},
-        Case{shapes::some_reversed(shapes::moebius_strip(61), 4), 1}, Case{klein, 0}})
+        Case{shapes::some_reversed(shapes::moebius_strip(61), 4), 1}, Case{klein, 0},
+        Case{shapes::klein_bottle(20, 12), 0}}) // two sheets have vertices at the same points
     for (const Preset preset : {Preset::quality, Preset::paper}) {
       Surface surface = shapes::make_surface(c.soup);
       CHECK_FALSE(surface.seams.empty());
@@ -315,4 +317,16 @@ TEST_CASE("where an edge joins two copies of a vertex, sewing up collapses it")
   CHECK(mesh.points.size() == 5);
   CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 3}, {0, 2, 4}, {0, 3, 2}, {0, 4, 1}});
   CHECK(mesh.feature_edges == std::vector<Edge>{{0, 3}});
+}
+
+TEST_CASE("points of different places are not sewn up")
+{
+  Extracted_mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  mesh.places = {4, -1, -1, 4, -1, -1};
+  Opened_surface::sew_up(mesh);
+  CHECK(mesh.points.size() == 5);
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}});
+  CHECK(mesh.places.empty());
 }
