@@ -10,6 +10,7 @@
 
 #include <CGAL/PowerRTF/cells/clip_at_features.h>
 #include <CGAL/PowerRTF/extraction/Opened_surface.h>
+#include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
@@ -329,4 +330,28 @@ TEST_CASE("points of different places are not sewn up")
   CHECK(mesh.points.size() == 5);
   CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}});
   CHECK(mesh.places.empty());
+}
+
+TEST_CASE("no edge joins two places that another sheet joins already")
+{
+  using Vertex = internal::Working_mesh::Vertex;
+  // Two squares; 0 and 2 of the first are copies of 4 and 6 of the second.
+  const std::vector<Vec3d> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                     {0, 0, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}};
+  internal::Working_mesh m(points, {{0, 1, 3}, {1, 2, 3}, {4, 5, 6}, {4, 6, 7}},
+                           CGAL::Sequential_tag());
+  const auto edge = [&](int a, int b) {
+    return m.mesh.edge(m.mesh.halfedge(Vertex(a), Vertex(b)));
+  };
+  CHECK(m.is_flippable(edge(1, 3)));
+  CHECK(m.is_flippable(edge(4, 6)));
+  m.set_places({7, -1, 8, -1, 7, -1, 8, -1});
+  CHECK(m.copies(7) == std::vector<Vertex>{Vertex(0), Vertex(4)});
+  CHECK_FALSE(m.is_flippable(edge(1, 3)));
+  CHECK(m.is_flippable(edge(4, 6)));
+  CHECK(m.are_joined_elsewhere(Vertex(0), Vertex(2)));
+  CHECK_FALSE(m.are_joined_elsewhere(Vertex(4), Vertex(6)));
+  CHECK(m.are_joined_elsewhere(Vertex(0), Vertex(4)));         // copies of one
+  CHECK(m.joins_twice(m.mesh.halfedge(Vertex(1), Vertex(0)))); // it would join 0 and 2
+  CHECK_FALSE(m.joins_twice(m.mesh.halfedge(Vertex(5), Vertex(4))));
 }

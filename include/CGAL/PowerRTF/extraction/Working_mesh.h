@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -69,17 +68,34 @@ struct Working_mesh {
   void set_places(const Seam_places& seams)
   {
     if (seams.vertices.empty()) return;
-    places = seams.vertices; // the samples come after them
-    for (std::size_t v = places.size(); v < samples.size(); ++v)
-      places.push_back(seams.samples[samples[v]]);
+    std::vector<int> all = seams.vertices; // the samples come after them
+    for (std::size_t v = all.size(); v < samples.size(); ++v)
+      all.push_back(seams.samples[samples[v]]);
+    set_places(std::move(all));
   }
-  /// The vertices at each place of several, in the order of the places and of their numbers.
-  std::map<int, std::vector<Vertex>> copies() const
+  /// The same; `all`: by vertex.
+  void set_places(std::vector<int> all)
   {
-    std::map<int, std::vector<Vertex>> result;
+    places = std::move(all);
+    m_copies.clear();
     for (const Vertex v : mesh.vertices())
-      if (is_on_seam(v) && !mesh.is_isolated(v)) result[places[v]].push_back(v);
-    return result;
+      if (is_on_seam(v) && !mesh.is_isolated(v)) m_copies[places[v]].push_back(v);
+  }
+  /// The vertices at a place.
+  const std::vector<Vertex>& copies(int place) const { return m_copies.at(place); }
+  /// To be called when a collapse of `u` into `v` has kept one of them.
+  void replace_copy(Vertex u, Vertex v, Vertex kept)
+  {
+    if (places.empty()) return;
+    if (is_on_seam(u)) {
+      std::vector<Vertex>& at_u = m_copies.at(places[u]);
+      at_u.erase(std::find(at_u.begin(), at_u.end(), u));
+    }
+    if (is_on_seam(v)) {
+      std::vector<Vertex>& at_v = m_copies.at(places[v]);
+      std::replace(at_v.begin(), at_v.end(), v, kept);
+    }
+    places[kept] = places[v];
   }
   bool is_on_seam(Vertex v) const { return !places.empty() && places[v] >= 0; }
 
@@ -208,6 +224,38 @@ struct Working_mesh {
     return false;
   }
 
+  /// Whether there is an edge between other copies of both, or they are copies of one: sewn up, an
+  /// edge between them would be there twice, or none. `as_seam`: other edges of seams do not count.
+  bool are_joined_elsewhere(Vertex a, Vertex b, bool as_seam = false) const
+  {
+    if (!is_on_seam(a) || !is_on_seam(b)) return false;
+    if (places[a] == places[b]) return true;
+    for (const Vertex c : copies(places[a]))
+      for (const Vertex d : copies(places[b])) {
+        if ((c == a && d == b) || !are_adjacent(c, d)) continue;
+        if (!as_seam || !mesh.is_border(mesh.edge(mesh.halfedge(c, d)))) return true;
+      }
+    return false;
+  }
+  /// Whether an edge between them can be added to the mesh, and to what it becomes sewn up.
+  bool can_be_joined(Vertex a, Vertex b) const
+  {
+    return !are_adjacent(a, b) && !are_joined_elsewhere(a, b);
+  }
+  /// Whether a collapse of the source of `h` into its target joins what is joined elsewhere.
+  bool joins_twice(Halfedge h) const
+  {
+    const Vertex v = mesh.target(h);
+    if (!is_on_seam(v)) return false;
+    for (const Halfedge g : halfedges_around_source(mesh.source(h), mesh)) {
+      const Vertex w = mesh.target(g);
+      if (w != v && !are_adjacent(v, w) &&
+          are_joined_elsewhere(v, w, mesh.is_border(mesh.edge(g)) && mesh.is_border(mesh.edge(h))))
+        return true;
+    }
+    return false;
+  }
+
   /// The number of edges at `v`; `most` if there are more.
   int degree_up_to(int most, Vertex v) const
   {
@@ -224,7 +272,7 @@ struct Working_mesh {
   {
     if (mesh.is_removed(e) || mesh.is_border(e)) return false;
     const Halfedge h = mesh.halfedge(e);
-    return !are_adjacent(apex(h), apex(mesh.opposite(h)));
+    return can_be_joined(apex(h), apex(mesh.opposite(h)));
   }
 
   /// Twice the area times the normal.
@@ -266,6 +314,7 @@ private:
   }
 
   std::unordered_map<Vertex, std::vector<Vertex>> m_features;
+  std::unordered_map<int, std::vector<Vertex>> m_copies; // by place
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,7 +28,6 @@ public:
   Decimator(Working_mesh& mesh, Edge_flipper& flipper, Intersection_guard* guard = nullptr)
       : m(mesh), m_flipper(flipper), m_guard(guard), m_touched(mesh.samples.size(), 0)
   {
-    if (m_guard) m_copies = m.copies();
     for (const Vertex v : m.mesh.vertices())
       if (m.samples[v] < 0 && !m.mesh.is_isolated(v)) m_rest.push_back(v);
     m_all = m_rest.size();
@@ -131,7 +129,7 @@ private:
   bool remove_copies(int place)
   {
     std::vector<Seam_collapse> candidates;
-    for (const Vertex w : m.feature_neighbors(m_copies.at(place)[0]))
+    for (const Vertex w : m.feature_neighbors(m.copies(place)[0]))
       if (std::optional<Seam_collapse> c = seam_collapse(place, m.places[w]))
         candidates.push_back(std::move(*c));
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -144,7 +142,6 @@ private:
         changed += m_ring.size();
         collapse(h);
       }
-      m_copies.erase(place);
       m_flipper.run(10 * changed);
       return true;
     }
@@ -157,7 +154,7 @@ private:
   {
     Seam_collapse result{1, {}, {-1, -1}};
     std::vector<Vertex> near; // at the sources
-    for (const Vertex u : m_copies.at(from)) {
+    for (const Vertex u : m.copies(from)) {
       const std::vector<Vertex>& curve = m.feature_neighbors(u);
       if (curve.size() != 2 || m.is_feature(curve[0], curve[1])) return {};
       const int i = m.places[curve[0]] == to ? 0 : 1, other = m.places[curve[1 - i]];
@@ -165,7 +162,8 @@ private:
       if (to < 0 || other < 0 || other == to || m.places[curve[i]] != to) return {};
       if (!result.halfedges.empty() && seam != result.seam) return {};
       const Halfedge h = m.mesh.halfedge(u, curve[i]);
-      if (!Euler::does_satisfy_link_condition(m.mesh.edge(h), m.mesh)) return {};
+      if (!Euler::does_satisfy_link_condition(m.mesh.edge(h), m.mesh) || m.joins_twice(h))
+        return {};
       find_ring(u);
       result.shape = std::min(result.shape, shape_after(u, curve[i]));
       if (result.shape < 0) return {};
@@ -179,7 +177,7 @@ private:
     const auto vanishes = [&](Halfedge g) {
       return !m.mesh.is_border(g) && m.places[m.apex(g)] == from;
     };
-    for (const Vertex v : m_copies.at(to))
+    for (const Vertex v : m.copies(to))
       for (const Halfedge g : halfedges_around_source(v, m.mesh))
         if (sorted_edge(to, m.places[m.mesh.target(g)]) == result.seam && !vanishes(g) &&
             !vanishes(m.mesh.opposite(g)))
@@ -199,7 +197,7 @@ private:
     std::stable_sort(m_candidates.begin(), m_candidates.end());
     for (const Candidate& c : m_candidates)
       if (Euler::does_satisfy_link_condition(m.mesh.edge(c.halfedge), m.mesh) &&
-          !(m_guard && m_guard->forbids_collapse(c.halfedge))) {
+          !m.joins_twice(c.halfedge) && !(m_guard && m_guard->forbids_collapse(c.halfedge))) {
         collapse(c.halfedge);
         m_flipper.run(10 * m_ring.size());
         return true;
@@ -265,7 +263,7 @@ private:
     const Vertex v = m.mesh.target(to_v);
     const auto point = m.mesh.point(v);
     const Vec3d normal = m.normals[v];
-    const int sample = m.samples[v], place = m.places.empty() ? -1 : m.places[v];
+    const int sample = m.samples[v];
     const Vertex u = m.mesh.source(to_v);
     if (m_guard) m_guard->erase_around(std::array{u, v});
     leave_patches(u);
@@ -275,11 +273,7 @@ private:
     m.mesh.point(kept) = point;
     m.normals[kept] = normal;
     m.samples[kept] = sample;
-    if (!m.places.empty()) m.places[kept] = place;
-    if (m_guard && place >= 0) {
-      std::vector<Vertex>& copies = m_copies.at(place);
-      std::replace(copies.begin(), copies.end(), v, kept);
-    }
+    m.replace_copy(u, v, kept);
     m_touched[kept] = m_pass;
     if (m_guard) m_guard->insert_around(kept);
     for (const Halfedge h : halfedges_around_target(kept, m.mesh)) {
@@ -332,7 +326,6 @@ private:
   std::vector<int> m_touched;  // by vertex: the last pass that changed something around it
   std::vector<Halfedge> m_ring;
   std::vector<Candidate> m_candidates;
-  std::map<int, std::vector<Vertex>> m_copies; // by place: those on seams
   int m_pass = 0;
   double m_min_agreement = 1;
   bool m_borders_may_recede = false;

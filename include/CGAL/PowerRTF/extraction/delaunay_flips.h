@@ -150,7 +150,7 @@ private:
     const double fit_then = fit(d, c, a, b);
     const bool lies_better = fit_then > fit_now + clearly && m_flips[e] < max_flips_for_fit;
     if (!(lies_better || (not_delaunay && fit_then >= fit_now))) return false;
-    if (m.are_adjacent(c, d) || (m_guard && m_guard->forbids_flip(e))) return false;
+    if (!m.can_be_joined(c, d) || (m_guard && m_guard->forbids_flip(e))) return false;
     ++m_flips[e];
     flip(e);
     return true;

@@ -134,13 +134,12 @@ private:
       const std::vector<Vertex> removable = removable_samples();
       const std::size_t count = std::min(m_rest.size(), removable.size());
       if (count == 0) return;
-      const auto copies = m.copies();
       for (std::size_t k = 0; k < count; ++k) {
         const int s = m.samples[removable[k]];
         m_may_go[s] = false;
         m.samples[m_rest[k]] = s;
         m.samples[removable[k]] = -1;
-        if (m.is_on_seam(m_rest[k])) add_twins(copies.at(m.places[m_rest[k]]));
+        if (m.is_on_seam(m_rest[k])) add_twins(m_rest[k]);
         m_guard.watch_around(removable[k]);
       }
       decimate();
@@ -158,11 +157,11 @@ private:
         m_rest.push_back(v);
   }
 
-  // The vertices at a place, of which the first has become a sample: the others' numbers come after
-  // all samples.
-  void add_twins(const std::vector<Vertex>& copies)
+  // `v` has become a sample: the numbers of its copies come after all samples.
+  void add_twins(Vertex v)
   {
-    for (auto v = copies.begin() + 1; v != copies.end(); ++v) m.samples[*v] = m_next_twin++;
+    for (const Vertex copy : m.copies(m.places[v]))
+      if (copy != v) m.samples[copy] = m_next_twin++;
   }
 
   // Those on creases and borders only if there are no others: they show the shape.
