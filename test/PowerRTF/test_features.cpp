@@ -354,4 +354,7 @@ TEST_CASE("no edge joins two places that another sheet joins already")
   CHECK(m.are_joined_elsewhere(Vertex(0), Vertex(4)));         // copies of one
   CHECK(m.joins_twice(m.mesh.halfedge(Vertex(1), Vertex(0)))); // it would join 0 and 2
   CHECK_FALSE(m.joins_twice(m.mesh.halfedge(Vertex(5), Vertex(4))));
+  m.set_places({7, -1, 7, -1, -1, -1, -1, -1}); // 1 is joined to both copies
+  CHECK(m.are_joined_elsewhere(Vertex(1), Vertex(0)));
+  CHECK_FALSE(m.are_joined_elsewhere(Vertex(1), Vertex(3)));
 }

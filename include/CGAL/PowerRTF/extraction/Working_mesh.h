@@ -83,6 +83,11 @@ struct Working_mesh {
   }
   /// The vertices at a place.
   const std::vector<Vertex>& copies(int place) const { return m_copies.at(place); }
+  /// The vertices that will be one with `v`, and itself.
+  std::vector<Vertex> copies(Vertex v) const
+  {
+    return is_on_seam(v) ? copies(places[v]) : std::vector<Vertex>{v};
+  }
   /// To be called when a collapse of `u` into `v` has kept one of them.
   void replace_copy(Vertex u, Vertex v, Vertex kept)
   {
@@ -228,10 +233,10 @@ struct Working_mesh {
   /// edge between them would be there twice, or none. `as_seam`: other edges of seams do not count.
   bool are_joined_elsewhere(Vertex a, Vertex b, bool as_seam = false) const
   {
-    if (!is_on_seam(a) || !is_on_seam(b)) return false;
+    if (!is_on_seam(a) && !is_on_seam(b)) return false;
     if (places[a] == places[b]) return true;
-    for (const Vertex c : copies(places[a]))
-      for (const Vertex d : copies(places[b])) {
+    for (const Vertex c : copies(a))
+      for (const Vertex d : copies(b)) {
         if ((c == a && d == b) || !are_adjacent(c, d)) continue;
         if (!as_seam || !mesh.is_border(mesh.edge(mesh.halfedge(c, d)))) return true;
       }
@@ -245,8 +250,8 @@ struct Working_mesh {
   /// Whether a collapse of the source of `h` into its target joins what is joined elsewhere.
   bool joins_twice(Halfedge h) const
   {
+    if (places.empty()) return false;
     const Vertex v = mesh.target(h);
-    if (!is_on_seam(v)) return false;
     for (const Halfedge g : halfedges_around_source(mesh.source(h), mesh)) {
       const Vertex w = mesh.target(g);
       if (w != v && !are_adjacent(v, w) &&
