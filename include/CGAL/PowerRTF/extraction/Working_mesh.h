@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <unordered_map>
 #include <utility>
@@ -78,8 +79,12 @@ struct Working_mesh {
   {
     places = std::move(all);
     m_copies.clear();
+    m_copy_counts.clear();
     for (const Vertex v : mesh.vertices())
-      if (is_on_seam(v) && !mesh.is_isolated(v)) m_copies[places[v]].push_back(v);
+      if (is_on_seam(v) && !mesh.is_isolated(v)) {
+        m_copies[places[v]].push_back(v);
+        ++m_copy_counts[places[v]];
+      }
   }
   /// The vertices at a place.
   const std::vector<Vertex>& copies(int place) const { return m_copies.at(place); }
@@ -87,6 +92,11 @@ struct Working_mesh {
   std::vector<Vertex> copies(Vertex v) const
   {
     return is_on_seam(v) ? copies(places[v]) : std::vector<Vertex>{v};
+  }
+  /// Whether copies of `v` have been collapsed, but not itself.
+  bool is_torn(Vertex v) const
+  {
+    return is_on_seam(v) && copies(places[v]).size() < m_copy_counts.at(places[v]);
   }
   /// To be called when a collapse of `u` into `v` has kept one of them.
   void replace_copy(Vertex u, Vertex v, Vertex kept)
@@ -320,6 +330,7 @@ private:
 
   std::unordered_map<Vertex, std::vector<Vertex>> m_features;
   std::unordered_map<int, std::vector<Vertex>> m_copies; // by place
+  std::unordered_map<int, std::size_t> m_copy_counts;    // at the beginning
 };
 
 } // namespace CGAL::PowerRTF::internal

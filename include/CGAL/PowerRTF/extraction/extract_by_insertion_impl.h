@@ -12,6 +12,11 @@
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 namespace CGAL::PowerRTF {
 namespace internal {
 
@@ -73,7 +78,7 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
   // Where the samples are too sparse: more carefully there, and more widely if that does not help.
   internal::Sparse_places sparse = internal::sparse_places(mesh);
   if (sparse.balls.empty()) return result;
-  std::size_t fewest = sparse.defects();
+  std::pair<std::size_t, std::size_t> fewest = sparse.defects();
   std::vector<internal::Ball> guarded;
   const std::size_t input_intersections = internal::intersections(surface, seams);
   for (const double reach : {2., 8., 1e3}) {

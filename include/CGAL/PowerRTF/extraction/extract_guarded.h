@@ -29,10 +29,14 @@ namespace CGAL::PowerRTF::internal {
 /// Where the samples are too sparse.
 struct Sparse_places {
   std::vector<Ball> balls; // around corners of intersecting triangles, and what is no sample
+  std::size_t torn = 0;    // vertices, without all their copies on a seam
   std::size_t intersections = 0, vertices = 0; // that are no samples
 
-  // An intersection is worse than a vertex too many.
-  std::size_t defects() const { return 6 * intersections + vertices; }
+  // A seam that is torn is worst, and an intersection worse than a vertex too many.
+  std::pair<std::size_t, std::size_t> defects() const
+  {
+    return {torn, 6 * intersections + vertices};
+  }
 };
 
 inline Sparse_places sparse_places(const Working_mesh& m)
@@ -48,6 +52,7 @@ inline Sparse_places sparse_places(const Working_mesh& m)
     const bool is_sample = m.samples[v] >= 0;
     if (m.mesh.is_isolated(v) || !(is_sparse[v] || !is_sample)) continue;
     if (!is_sample) ++result.vertices;
+    if (m.is_torn(v)) ++result.torn;
     double longest = 0;
     for (const auto h : halfedges_around_target(v, m.mesh))
       longest = std::max(longest, length(m.point(m.mesh.source(h)) - m.point(v)));
