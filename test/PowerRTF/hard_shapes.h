@@ -57,6 +57,9 @@ inline void add_pointed_shapes(Named_shapes& all)
   for (const double factor : {16., 1024., 65536.})
     all.emplace_back(numbered("icosahedron_drawn_out", factor), drawn_out(icosahedron(), factor));
   all.emplace_back("tetrahedron_drawn_out_1e4", drawn_out(tetrahedron(), 1e4));
+  all.emplace_back("tetrahedron_drawn_out_askew",
+                   Soup{{{20000, 0, 1000}, {0, -2, 0}, {0, 2, -0.1}, {-2, 0, 0}},
+                        {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}});
   all.emplace_back("star_prism_5", star_prism(5, 0.4, 0.5));
   all.emplace_back("star_prism_24_sharp", star_prism(24, 0.1, 0.2));
   all.emplace_back("star_prism_100_sharp", star_prism(100, 0.01, 0.01));

@@ -141,7 +141,7 @@ public:
 
 private:
   // In pairs of triangles that a plane parts, by face; those that intersect take longer.
-  static constexpr std::size_t max_work = 4000, work_of_intersection = 10;
+  static constexpr std::size_t max_work = 6000, work_of_intersection = 10;
 
   Rtree_entry<Face> entry(Face f) const
   {

@@ -81,10 +81,21 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
   std::pair<std::size_t, std::size_t> fewest = sparse.defects();
   std::vector<internal::Ball> guarded;
   const std::size_t input_intersections = internal::intersections(surface, seams);
-  for (const double reach : {2., 8., 1e3}) {
+  using Care = internal::Guarded_extraction::Care;
+  struct Attempt {
+    double reach;
+    Care care;
+  };
+  bool was_everywhere = false;
+  for (const auto& [reach, care] :
+       {Attempt{2, Care::off_patches}, Attempt{8, Care::off_patches},
+        Attempt{1e3, Care::off_patches}, Attempt{1e3, Care::everywhere}}) {
+    if (was_everywhere && care == Care::off_patches) continue;
     guarded.insert(guarded.end(), sparse.balls.begin(), sparse.balls.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, seams);
+    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, seams,
+                                            care);
     extraction.run();
+    was_everywhere = extraction.was_everywhere();
     sparse = internal::sparse_places(extraction.mesh());
     if (sparse.defects() < fewest) {
       fewest = sparse.defects();
@@ -92,7 +103,7 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
     }
     // More care does not help where the surface intersects itself as much as the mesh.
     if (sparse.balls.empty() || sparse.intersections <= input_intersections ||
-        extraction.was_everywhere() || extraction.has_too_few_samples())
+        (was_everywhere && input_intersections > 0) || extraction.has_too_few_samples())
       break;
   }
   return result;

@@ -66,14 +66,18 @@ public:
   using Vertex = Working_mesh::Vertex;
   using Halfedge = Working_mesh::Halfedge;
 
+  /// Changes within a flat patch add no intersections, but where another sheet lies in its plane
+  /// up to rounding.
+  enum class Care { off_patches, everywhere };
+
   /// Self-intersections are avoided in `balls`, which are taken `reach` times as large.
   Guarded_extraction(const Surface& surface, const Samples& samples,
                      const Feature_samples& features, const std::vector<Ball>& balls, double reach,
-                     const Seam_places& seams)
+                     const Seam_places& seams, Care care)
       : m_may_go(may_go(samples, features)),
-        m(mesh_with_samples(surface, samples, features, seams)), m_guard(m, sight(balls, reach)),
-        m_was_everywhere(m_guard.watches_all()), m_flipper(m, 0.1, &m_guard),
-        m_next_twin(static_cast<int>(samples.size()))
+        m(mesh_with_samples(surface, samples, features, seams, care)),
+        m_guard(m, sight(balls, reach)), m_was_everywhere(m_guard.watches_all()),
+        m_flipper(m, 0.1, &m_guard), m_next_twin(static_cast<int>(samples.size()))
   {}
 
   void run()
@@ -96,10 +100,12 @@ private:
   enum class Place { inside, on_feature };
 
   static Working_mesh mesh_with_samples(const Surface& surface, const Samples& samples,
-                                        const Feature_samples& features, const Seam_places& seams)
+                                        const Feature_samples& features, const Seam_places& seams,
+                                        Care care)
   {
     Working_mesh mesh(insert_samples(surface, samples, features.places));
     mesh.set_places(seams);
+    if (care == Care::everywhere) std::fill(mesh.patches.begin(), mesh.patches.end(), -1);
     return mesh;
   }
 
