@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/features/curve_samples.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
@@ -357,4 +358,17 @@ TEST_CASE("no edge joins two places that another sheet joins already")
   m.set_places({7, -1, 7, -1, -1, -1, -1, -1}); // 1 is joined to both copies
   CHECK(m.are_joined_elsewhere(Vertex(1), Vertex(0)));
   CHECK_FALSE(m.are_joined_elsewhere(Vertex(1), Vertex(3)));
+}
+
+TEST_CASE("curves without length get samples, too")
+{
+  Surface surface; // two of its vertices are at the same point
+  surface.points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+  surface.vertex_density = {1, 1, 1};
+  const std::vector<Feature_curve> curves = {{{0, 1}, true, 2}, {{0, 1}, true, 2}, {{1, 2}}};
+  const internal::Curve_sampler sampler(surface, curves);
+  const Curve_samples samples = sampler.run(0.5);
+  CHECK(samples.places.size() == sampler.count(0.5));
+  CHECK(samples.places.size() == 6); // three corners, one on each curve
+  for (const Edge_place& p : samples.places) CHECK(0 <= p.at);
 }

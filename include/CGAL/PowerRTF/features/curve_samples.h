@@ -108,7 +108,8 @@ private:
     const double sum = share * sums.back();
     const std::size_t k =
         std::upper_bound(sums.begin() + 1, sums.end() - 1, sum) - sums.begin() - 1;
-    const double at = (sum - sums[k]) / (sums[k + 1] - sums[k]);
+    const double length = sums[k + 1] - sums[k];
+    const double at = length > 0 ? (sum - sums[k]) / length : 0.5; // two vertices at one point
     if (at < near) return {vertices[k], vertices[k], 0};
     if (at > 1 - near) return {vertices[k + 1], vertices[k + 1], 0};
     return {vertices[k], vertices[k + 1], at};
