@@ -6,8 +6,10 @@
 
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_guarded.h>
+#include <CGAL/PowerRTF/extraction/separated_samples.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
+#include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/assess_impl.h>
@@ -17,8 +19,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace PRTF = CGAL::PowerRTF;
@@ -200,4 +204,41 @@ TEST_CASE("the guard knows which flips and collapses add intersections")
       CHECK(guard.forbids_collapse(h) == (crosses && sight == Intersection_guard::watched));
     }
   }
+}
+
+TEST_CASE("samples at one point are taken apart, each in its facet")
+{
+  const Surface surface = shapes::make_surface(shapes::icosphere(1));
+  Samples samples;
+  const auto add = [&](const Vec3d& p, int facet) {
+    samples.points.push_back(p);
+    samples.facets.push_back(facet);
+  };
+  for (const int f : {3, 5}) { // at a corner, on an edge, at the center, and apart
+    const Triangle& t = surface.triangles[f];
+    const Vec3d a = surface.points[t[0]], b = surface.points[t[1]], c = surface.points[t[2]];
+    for (int k = 0; k < 5; ++k) {
+      add(a, f);
+      add(0.5 * (a + b), f);
+      add((1. / 3) * (a + b + c), f);
+    }
+    add(0.6 * a + 0.2 * b + 0.2 * c, f);
+  }
+  add(samples.points[0], 3); // fixed
+  const Samples apart = PRTF::internal::separated_samples(surface, samples, 1);
+  std::set<std::array<double, 3>> distinct;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    const Vec3d p = apart.points[s];
+    distinct.insert({p.x, p.y, p.z});
+    const Triangle& t = surface.triangles[apart.facets[s]];
+    const Vec3d q = PRTF::nearest_point_on_triangle(p, surface.points[t[0]], surface.points[t[1]],
+                                                    surface.points[t[2]]);
+    CHECK(length(p - q) < 1e-15);
+  }
+  CHECK(distinct.size() == samples.size());
+  CHECK(apart.points.back() == samples.points.back());
+  CHECK_FALSE(apart.points[0] == samples.points[0]); // the fixed one is there
+  CHECK(apart.points[1] == samples.points[1]);
+  CHECK(apart.points[15] == samples.points[15]);
+  CHECK(PRTF::internal::separated_samples(surface, apart, 1).points == apart.points);
 }

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/extraction/extract_guarded.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
+#include <CGAL/PowerRTF/extraction/separated_samples.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
@@ -81,6 +82,7 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
   std::pair<std::size_t, std::size_t> fewest = sparse.defects();
   std::vector<internal::Ball> guarded;
   const std::size_t input_intersections = internal::intersections(surface, seams);
+  const Samples apart = internal::separated_samples(surface, samples, features.size());
   using Care = internal::Guarded_extraction::Care;
   struct Attempt {
     double reach;
@@ -92,14 +94,13 @@ CGAL_POWER_RTF_INLINE Extracted_mesh extract_by_insertion(const Surface& surface
         Attempt{1e3, Care::off_patches}, Attempt{1e3, Care::everywhere}}) {
     if (was_everywhere && care == Care::off_patches) continue;
     guarded.insert(guarded.end(), sparse.balls.begin(), sparse.balls.end());
-    internal::Guarded_extraction extraction(surface, samples, features, guarded, reach, seams,
-                                            care);
+    internal::Guarded_extraction extraction(surface, apart, features, guarded, reach, seams, care);
     extraction.run();
     was_everywhere = extraction.was_everywhere();
     sparse = internal::sparse_places(extraction.mesh());
     if (sparse.defects() < fewest) {
       fewest = sparse.defects();
-      result = internal::to_extracted_mesh(extraction.mesh(), samples);
+      result = internal::to_extracted_mesh(extraction.mesh(), apart);
     }
     // More care does not help where the surface intersects itself as much as the mesh.
     if (sparse.balls.empty() || sparse.intersections <= input_intersections ||
