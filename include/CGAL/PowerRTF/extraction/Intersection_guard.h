@@ -39,7 +39,8 @@ public:
   /// `sight`: by vertex.
   Intersection_guard(const Working_mesh& mesh, std::vector<Sight>&& sight)
       : m(mesh), m_triangles(mesh), m_sight(std::move(sight)),
-        m_is_inserted(mesh.mesh.num_faces(), false), m_work_left(max_work * mesh.mesh.num_faces())
+        m_is_inserted(mesh.mesh.num_faces(), false),
+        m_work_left(least_work + work_of_face * mesh.mesh.num_faces())
   {
     for (const Face f : m.mesh.faces()) insert(f);
   }
@@ -140,8 +141,9 @@ public:
   }
 
 private:
-  // In pairs of triangles that a plane parts, by face; those that intersect take longer.
-  static constexpr std::size_t max_work = 6000, work_of_intersection = 10;
+  // In pairs of triangles that a plane parts; those that intersect take longer.
+  static constexpr std::size_t least_work = 20000000, work_of_face = 6000,
+                               work_of_intersection = 10;
 
   Rtree_entry<Face> entry(Face f) const
   {
