@@ -238,6 +238,24 @@ TEST_CASE("a mesh may touch itself in a vertex; its vertices are known by their 
       PRTF::Invalid_input_error);
 }
 
+TEST_CASE("vertices that no facet has stand for none at the same point")
+{
+  shapes::Soup cube = shapes::box(1);
+  std::vector<Vec3d> points = cube.points; // unused
+  const int unused = static_cast<int>(points.size());
+  points.insert(points.end(), cube.points.begin(), cube.points.end());
+  points[1] = {1e9, 0, 0}; // and this one somewhere else
+  for (Triangle& t : cube.triangles)
+    for (int& v : t) v += unused;
+  Repair_counts repairs;
+  const Surface s = PRTF::import_soup(points, cube.triangles, repairs);
+  CHECK(s.triangles.size() == cube.triangles.size());
+  CHECK(s.points.size() == 8);
+  CHECK(repairs.unused_vertices == std::size_t(unused));
+  CHECK(repairs.degenerate_facets == 0);
+  for (const int v : s.input_vertices) CHECK(v >= unused);
+}
+
 TEST_CASE("the fewest vertices of a surface of given topology")
 {
   CHECK(PRTF::least_vertices(2, 0) == 4);   // tetrahedron

@@ -13,7 +13,7 @@
 #include <CGAL/PowerRTF/input/clean_surface.h>
 #include <CGAL/PowerRTF/input/cured_soup.h>
 #include <CGAL/PowerRTF/input/merge_near.h>
-#include <CGAL/PowerRTF/input/near_borders.h>
+#include <CGAL/PowerRTF/input/soup_triangles.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/quality/topology.h>
@@ -57,8 +57,9 @@ inline std::vector<Edge> more_creases(const Surface& surface, const Polygon_soup
 {
   std::vector<Edge> lines = fields.lines;
   if (soup.merges_vertices && !lines.empty()) {
-    const std::vector<int> first = first_of_equal_points(soup.points, concurrency);
-    for (const Edge& e : fields.lines) lines.push_back({first[e[0]], first[e[1]]});
+    const std::vector<int> vertex =
+        merged_vertices(soup, used_points(soup, concurrency), concurrency);
+    for (const Edge& e : fields.lines) lines.push_back({vertex[e[0]], vertex[e[1]]});
   }
   std::vector<Edge> creases;
   if (!lines.empty()) creases = marked_edges(surface, std::move(lines), concurrency);

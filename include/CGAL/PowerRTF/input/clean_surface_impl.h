@@ -233,6 +233,7 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
     repairs.degenerate_facets += before - degenerate_facets(soup.points, soup.triangles).size();
     soup.update_adjacency();
   }
+  if (soup.triangles.empty()) return {"the surface has no area"};
   surface = compacted(std::move(soup), normalization, concurrency);
   compute_geometry(surface, concurrency);
   return {};
@@ -291,7 +292,7 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
   std::vector<int> own_vertex(soup.points.size());
   std::iota(own_vertex.begin(), own_vertex.end(), 0);
   const std::vector<int> vertex =
-      soup.merges_vertices ? first_of_equal_points(soup.points, concurrency) : own_vertex;
+      soup.merges_vertices ? merged_vertices(soup, used, concurrency) : own_vertex;
   std::size_t duplicates = 0, unused = 0;
   for (std::size_t v = 0; v < used.size(); ++v) {
     duplicates += used[v] && vertex[v] != own_vertex[v];

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
+#include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/input/polygon_triangulation.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
@@ -106,6 +107,31 @@ inline std::vector<Triangle> triangulated(const Polygon_soup& soup,
   return triangles;
 }
 
+/// By point: whether a polygon has it.
+inline std::vector<int> used_points(const Polygon_soup& soup, Concurrency concurrency)
+{
+  std::vector<int> used(soup.points.size(), 0);
+  for_each_index(concurrency, static_cast<int>(soup.corners.size()),
+                 [&](int c) { atomic_store(&used[soup.corners[c]], 1); });
+  return used;
+}
+
+/// For each vertex the one that stands for all at the same point: the first of those that are used.
+inline std::vector<int> merged_vertices(const Polygon_soup& soup, const std::vector<int>& used,
+                                        Concurrency concurrency)
+{
+  std::vector<int> vertex = first_of_equal_points(soup.points, concurrency);
+  if (std::find(used.begin(), used.end(), 0) == used.end()) return vertex;
+  std::vector<int> first_used(vertex.size(), -1);
+  for (std::size_t v = 0; v < vertex.size(); ++v) {
+    if (!used[v]) continue;
+    int& first = first_used[vertex[v]];
+    if (first < 0) first = static_cast<int>(v);
+    vertex[v] = first;
+  }
+  return vertex;
+}
+
 /// The points of a soup in the unit box.
 struct Boxed_points {
   Normalization normalization;
@@ -119,9 +145,7 @@ inline Boxed_points boxed_points(const Polygon_soup& soup, Concurrency concurren
   if (soup.first.size() == 1) throw Invalid_input_error("the mesh has no facet");
   Boxed_points result;
   std::vector<int>& used = result.used;
-  used.assign(soup.points.size(), 0);
-  for_each_index(concurrency, static_cast<int>(soup.corners.size()),
-                 [&](int c) { atomic_store(&used[soup.corners[c]], 1); });
+  used = used_points(soup, concurrency);
   result.normalization = unit_box(soup.points, used, concurrency);
   resize_in_parallel(concurrency, result.points, soup.points.size());
   for_each_index(concurrency, static_cast<int>(soup.points.size()), [&](int v) {
