@@ -93,6 +93,7 @@ private:
   {
     const auto v = corners(f);
     const Vector axis = cross_product(v[2]->point() - v[0]->point(), v[1]->point() - v[0]->point());
+    if (axis == NULL_VECTOR) return false; // collinear but for rounding
     if (m_delaunay.dimension() == 2) {
       const Point center = circumcenter(v[0]->point(), v[1]->point(), v[2]->point());
       return is_finite(center) && m_tree.do_intersect(Kernel::Line_3(center, axis));

@@ -236,6 +236,7 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
   if (soup.triangles.empty()) return {"the surface has no area"};
   surface = compacted(std::move(soup), normalization, concurrency);
   compute_geometry(surface, concurrency);
+  if (!(surface.area > 0)) return {"the surface has no area"}; // that rounding leaves
   return {};
 }
 
