@@ -7,9 +7,15 @@
 
 #include <CGAL/PowerRTF/internal/errors.h>
 
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stdexcept>
+#include <string>
 
 namespace tools {
 
@@ -30,6 +36,25 @@ Failure current_failure(const std::string& input)
   } catch (const std::exception& e) {
     return {unusable_input, input + ": cannot be remeshed: " + e.what()};
   }
+}
+
+void end_where_threads_fail()
+{
+  static const std::terminate_handler usual = std::get_terminate();
+  std::set_terminate([] {
+    static std::atomic_flag is_ending = ATOMIC_FLAG_INIT;
+    while (is_ending.test_and_set()) ::pause(); // another thread ends the program
+    try {
+      if (std::current_exception()) throw;
+    } catch (const std::runtime_error& e) {
+      const std::string reason = e.what();
+      if (reason.find("pthread_create") != std::string::npos)
+        std::_Exit(fail({unusable_input, "the system gives no more threads: " + reason +
+                                             "; --threads N sets their number"}));
+    } catch (...) {
+    }
+    usual(); // a bug
+  });
 }
 
 Exit_code exit_code(const Run& run)

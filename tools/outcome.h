@@ -39,6 +39,9 @@ void print_faults(const Run& run);
 /// Tells the user why the CPU stands in for a GPU.
 void tell_of_gpu(const Run& run);
 
+/// Lets a thread that cannot start another one, as TBB's do, end the program with a message.
+void end_where_threads_fail();
+
 /// Tells the user that something failed. \returns the code
 Exit_code fail(const Failure& failure);
 

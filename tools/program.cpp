@@ -60,6 +60,7 @@ Exit_code remesh(const Program_options& options)
 int run_program(int argc, const char* const* argv)
 {
   handle_interrupts();
+  end_where_threads_fail();
   std::string input;
   try {
     std::string information;
