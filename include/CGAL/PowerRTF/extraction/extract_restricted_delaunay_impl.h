@@ -18,6 +18,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -92,21 +93,31 @@ private:
   bool dual_meets_surface(const Facet& f) const
   {
     const auto v = corners(f);
-    const Vector axis = cross_product(v[2]->point() - v[0]->point(), v[1]->point() - v[0]->point());
-    if (axis == NULL_VECTOR) return false; // collinear but for rounding
+    const Vector normal =
+        cross_product(v[2]->point() - v[0]->point(), v[1]->point() - v[0]->point());
+    const double size =
+        (std::max)({std::abs(normal.x()), std::abs(normal.y()), std::abs(normal.z())});
+    if (!(size > 0)) return false;     // collinear but for rounding
+    const Vector axis = normal / size; // a ray holds a second point
     if (m_delaunay.dimension() == 2) {
       const Point center = circumcenter(v[0]->point(), v[1]->point(), v[2]->point());
-      return is_finite(center) && m_tree.do_intersect(Kernel::Line_3(center, axis));
+      return is_finite(center) && meets(Kernel::Line_3(center, axis));
     }
     const Facet mirror = m_delaunay.mirror_facet(f);
     Point here, there;
     const bool is_here = finite_center(f.first, here),
                is_there = finite_center(mirror.first, there);
-    if (is_here && is_there)
-      return here != there && m_tree.do_intersect(Kernel::Segment_3(here, there));
-    if (is_here) return m_tree.do_intersect(Kernel::Ray_3(here, axis));
-    if (is_there) return m_tree.do_intersect(Kernel::Ray_3(there, -axis));
+    if (is_here && is_there) return meets(Kernel::Segment_3(here, there));
+    if (is_here) return meets(Kernel::Ray_3(here, axis));
+    if (is_there) return meets(Kernel::Ray_3(there, -axis));
     return false;
+  }
+
+  // Of a line, a ray or a segment that rounding may have left without direction.
+  template <class Dual>
+  bool meets(const Dual& dual) const
+  {
+    return !dual.is_degenerate() && m_tree.do_intersect(dual);
   }
 
   bool finite_center(Delaunay::Cell_handle c, Point& center) const
