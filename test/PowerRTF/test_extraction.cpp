@@ -7,6 +7,7 @@
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
+#include <CGAL/PowerRTF/extraction/separated_samples.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -251,7 +252,7 @@ TEST_CASE("samples on edges, from both sides, and at vertices")
   }
 }
 
-TEST_CASE("samples at the same place stay separate vertices")
+TEST_CASE("samples at the same place become separate vertices")
 {
   for (const Shape& shape : all_shapes()) {
     CAPTURE(shape.name);
@@ -262,8 +263,9 @@ TEST_CASE("samples at the same place stay separate vertices")
       places.push_back({0, .5, .5, 0});
       places.push_back({0, .2, .3, .5});
     }
-    check_topology(surface, samples_at(surface, places),
-                   extract_by_insertion(surface, samples_at(surface, places)));
+    const Samples samples = samples_at(surface, places);
+    const Samples apart = internal::separated_samples(surface, samples, 0);
+    check_topology(surface, apart, extract_by_insertion(surface, samples));
   }
 }
 

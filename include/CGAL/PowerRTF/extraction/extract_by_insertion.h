@@ -24,6 +24,8 @@ namespace CGAL::PowerRTF {
 /// mesh can do without elsewhere, so that there are still as many points. Only if there are too few
 /// samples for that altogether, points come after them.
 ///
+/// Of several samples at one point all but the first may move into their facets.
+///
 /// `features`: the last samples; edges between those that are next to each other on a curve stay.
 /// Without it borders recede to the samples.
 ///
