@@ -97,8 +97,8 @@ private:
         cross_product(v[2]->point() - v[0]->point(), v[1]->point() - v[0]->point());
     const double size =
         (std::max)({std::abs(normal.x()), std::abs(normal.y()), std::abs(normal.z())});
-    if (!(size > 0)) return false;     // collinear but for rounding
-    const Vector axis = normal / size; // a ray holds a second point
+    if (!(size * size > 0)) return false; // collinear but for rounding
+    const Vector axis = normal / size;    // a ray holds a second point
     if (m_delaunay.dimension() == 2) {
       const Point center = circumcenter(v[0]->point(), v[1]->point(), v[2]->point());
       return is_finite(center) && meets(Kernel::Line_3(center, axis));
@@ -123,6 +123,10 @@ private:
   bool finite_center(Delaunay::Cell_handle c, Point& center) const
   {
     if (m_delaunay.is_infinite(c)) return false;
+    const Point& p = c->vertex(0)->point();
+    const Vector a = c->vertex(1)->point() - p, b = c->vertex(2)->point() - p,
+                 d = c->vertex(3)->point() - p;
+    if (CGAL::determinant(a, b, d) == 0) return false; // coplanar but for rounding
     center = m_delaunay.dual(c);
     return is_finite(center);
   }
