@@ -376,6 +376,17 @@ TEST_CASE("a doubled layer is one within the tolerance")
   for (const std::string& missed : run.report.missed_guarantees()) FAIL_CHECK(missed);
 }
 
+TEST_CASE("facets without area are refused, however they are to be cured")
+{
+  const Soup line{{{0, 3, -1}, {0, 1, 1}, {0, 2, 0}}, {{0, 1, 2}}};
+  Remeshing_report report;
+  for (const Intersections intersections :
+       {Intersections::keep, Intersections::resolve, Intersections::wrap})
+    CHECK_THROWS_AS(
+        prepare_surface(line.points, line.triangles, options_for(intersections), report),
+        Invalid_input_error);
+}
+
 TEST_CASE("what cannot be had of a cured input is refused")
 {
   Remeshing_options options = options_for(Intersections::wrap);

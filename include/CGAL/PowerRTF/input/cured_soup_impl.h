@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_INPUT_CURED_SOUP_IMPL_H
 #define CGAL_POWER_RTF_INPUT_CURED_SOUP_IMPL_H
 
+#include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/input/cured_soup.h>
 #include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/input/resolve_intersections.h>
@@ -78,7 +79,8 @@ inline Polygon_soup make_cured_soup(const Polygon_soup& soup, const Remeshing_op
   constexpr double radius_over_offset = 30; // as CGAL has it
   const Boxed_points box = boxed_points(soup, concurrency);
   Triangle_set set = triangle_set(soup, box, concurrency);
-  if (set.triangles.empty()) throw Invalid_input_error("the surface has no area");
+  if (degenerate_facets(set.points, set.triangles, concurrency).size() == set.triangles.size())
+    throw Invalid_input_error("the surface has no area");
   const double grid = box.normalization.grid, scale = box.normalization.scale;
   if (options.intersections == Intersections::resolve) {
     cure.resolved_pairs = resolve_intersections(set, grid, concurrency);
