@@ -5,6 +5,7 @@
 #include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -254,6 +255,34 @@ TEST_CASE("vertices that no facet has stand for none at the same point")
   CHECK(repairs.unused_vertices == std::size_t(unused));
   CHECK(repairs.degenerate_facets == 0);
   for (const int v : s.input_vertices) CHECK(v >= unused);
+}
+
+TEST_CASE("lines may have vertices of their own, before those of the facets or after them")
+{
+  const shapes::Soup patch = shapes::plane_patch(4, 4);
+  const std::vector<Vec3d> own = {{0.5, 0.25, 0}, {0.5, 0.5, 0}}; // an edge of two facets
+  for (const bool is_before : {true, false}) {
+    std::vector<Vec3d> points = is_before ? own : patch.points;
+    const int first_facet_point = is_before ? 2 : 0;
+    const std::vector<Vec3d>& others = is_before ? patch.points : own;
+    const int first_own = is_before ? 0 : static_cast<int>(points.size());
+    points.insert(points.end(), others.begin(), others.end());
+    std::vector<Triangle> triangles = patch.triangles;
+    for (Triangle& t : triangles)
+      for (int& v : t) v += first_facet_point;
+    PRTF::Surface_fields fields;
+    fields.lines = {{first_own, first_own + 1}};
+    PRTF::Remeshing_options options;
+    options.number_of_samples = 100;
+    PRTF::Remeshing_report report;
+    const Surface s = PRTF::prepare_surface(PRTF::internal::soup_of_ranges(points, triangles),
+                                            fields, options, report);
+    REQUIRE(s.creases.size() == 1);
+    for (int k = 0; k < 2; ++k) {
+      const Vec3d p = s.normalization.to_outside(s.points[s.creases[0][k]]);
+      CHECK((p == own[0] || p == own[1]));
+    }
+  }
 }
 
 TEST_CASE("the fewest vertices of a surface of given topology")

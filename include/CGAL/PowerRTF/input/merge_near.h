@@ -10,7 +10,6 @@
 #include <CGAL/PowerRTF/geometry/Box_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/point_grid.h>
-#include <CGAL/PowerRTF/input/near_borders.h>
 #include <CGAL/PowerRTF/input/soup_triangles.h>
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -50,10 +49,10 @@ private:
   /// The first of the vertices that are one stands for all. \returns how many others there are
   std::size_t join_vertices()
   {
-    const std::vector<int> first = first_of_equal_points(m_soup.points, m_concurrency);
+    const std::vector<int> first = merged_vertices(m_soup, m_box.used, m_concurrency);
     std::vector<int> places; // each place once
     for (int v = 0; v < static_cast<int>(first.size()); ++v)
-      if (m_box.used[v] && (first[v] == v || !m_box.used[first[v]])) places.push_back(v);
+      if (m_box.used[v] && first[v] == v) places.push_back(v);
     boost::disjoint_sets_with_storage<> joined(first.size());
     const Point_grid grid(m_box.points, places, m_tolerance);
     for (const int a : places)
@@ -62,7 +61,7 @@ private:
     std::size_t count = 0;
     for (int v = 0; v < static_cast<int>(first.size()); ++v) {
       if (!m_box.used[v]) continue;
-      const int root = joined.find_set(m_box.used[first[v]] ? first[v] : v);
+      const int root = joined.find_set(first[v]);
       if (name[root] < 0) name[root] = v;
       vertex[v] = name[root];
       count += vertex[v] != v;

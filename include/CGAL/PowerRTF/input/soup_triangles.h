@@ -116,7 +116,8 @@ inline std::vector<int> used_points(const Polygon_soup& soup, Concurrency concur
   return used;
 }
 
-/// For each vertex the one that stands for all at the same point: the first of those that are used.
+/// For each vertex the one that stands for all at the same point: the first of those that are used,
+/// or of all if none is.
 inline std::vector<int> merged_vertices(const Polygon_soup& soup, const std::vector<int>& used,
                                         Concurrency concurrency)
 {
@@ -124,11 +125,11 @@ inline std::vector<int> merged_vertices(const Polygon_soup& soup, const std::vec
   if (std::find(used.begin(), used.end(), 0) == used.end()) return vertex;
   std::vector<int> first_used(vertex.size(), -1);
   for (std::size_t v = 0; v < vertex.size(); ++v) {
-    if (!used[v]) continue;
     int& first = first_used[vertex[v]];
-    if (first < 0) first = static_cast<int>(v);
-    vertex[v] = first;
+    if (used[v] && first < 0) first = static_cast<int>(v);
   }
+  for (int& v : vertex)
+    if (first_used[v] >= 0) v = first_used[v];
   return vertex;
 }
 
