@@ -233,10 +233,9 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
     repairs.degenerate_facets += before - degenerate_facets(soup.points, soup.triangles).size();
     soup.update_adjacency();
   }
-  if (soup.triangles.empty()) return {"the surface has no area"};
   surface = compacted(std::move(soup), normalization, concurrency);
   compute_geometry(surface, concurrency);
-  if (!(surface.area > 0)) return {"the surface has no area"}; // that rounding leaves
+  if (!(surface.area > 0)) return {"the surface has no area"}; // left of it, or by rounding
   return {};
 }
 
