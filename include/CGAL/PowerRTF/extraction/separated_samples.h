@@ -15,8 +15,9 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// The samples, no two of which are at the same point of the output's grid: the first of several
-/// stays, or one of the last `fixed`, and the others move into their facets.
+/// The samples, as few as can be at one point of the output's grid: the first of several stays, or
+/// one of the last `fixed`, and the others move into their facets. Those of a facet that is as
+/// small as the grid stay, too, and what is left after some tries.
 inline Samples separated_samples(const Surface& surface, Samples samples, std::size_t fixed)
 {
   constexpr int max_tries = 64;
