@@ -160,8 +160,8 @@ CGAL_POWER_RTF_HD inline bool clip_listed(const Group_view<Real>& view, Lane_cel
     if (normal.patch != own.patch) continue;
     if (!are_compatible(own.normal, normal.normal, view.cos_angle)) continue;
     const Vec3<Real> offset = other.point - cell.site.point;
-    const Real power = squared_length(offset) + (cell.site.weight - other.weight);
-    const Real a = dot(offset, frame.u), b = dot(offset, frame.v);
+    const Real d2 = squared_length(offset), power = d2 + (cell.site.weight - other.weight);
+    const auto [a, b] = frame.components(offset, d2);
     if (a * a + b * b > 0)
       polygon.clip(a, b, power / 2, k);
     else if (!(power > 0))

@@ -81,8 +81,9 @@ public:
   CGAL_POWER_RTF_HD Edge_line<Real> line(const Packed_site<Real>& other) const
   {
     const Vec3<Real> offset = other.point - m_cell.site.point;
-    const Real power = squared_length(offset) + (m_cell.site.weight - other.weight);
-    return {dot(offset, m_frame.u), dot(offset, m_frame.v), power / 2};
+    const Real d2 = squared_length(offset);
+    const auto [a, b] = m_frame.components(offset, d2);
+    return {a, b, (d2 + (m_cell.site.weight - other.weight)) / 2};
   }
 
 private:

@@ -124,9 +124,8 @@ protected:
         if (k >= kept.lines) continue;
         const Vec3<Real> offset = sites[l].point - m_site.point;
         const Real d2 = squared_length(offset);
-        Real a = dot(offset, m_frame.u), b = dot(offset, m_frame.v);
+        const auto [a, b] = m_frame.components(offset, d2);
         const bool has_direction = a * a + b * b > 0;
-        if (!has_direction) a = b = 0;
         m_nearest2 = fmin(m_nearest2, d2);
         m_memory.a[k] = a;
         m_memory.b[k] = b;

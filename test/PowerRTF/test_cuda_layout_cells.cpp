@@ -152,3 +152,24 @@ TEST_CASE("nothing wrong is called finished")
   CHECK(c.wrong_cycles == 0);
   CHECK(c.area_error < 1e-5);
 }
+
+TEST_CASE("groups: sites above each other give each other no edge")
+{
+  // The tangent plane of the lower one is at a distance of rounding from the plane between them,
+  // and parallel to it but for rounding.
+  const double height = 0.1;
+  const Input flat = sphere(1000, 0.45, 3);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> tilt(-0.1, 0.1);
+  Input in;
+  for (std::size_t i = 0; i < flat.points.size(); ++i) {
+    const Vec3d normal =
+        normalized(flat.normals[i] + Vec3d{tilt(random), tilt(random), tilt(random)});
+    in.add(flat.points[i], normal);
+    in.add(flat.points[i] + normal * height, normal, height * height);
+  }
+  const Comparison c = in.compare<double>();
+  CHECK(c.finished > 300);
+  CHECK(c.wrong_cycles == 0);
+  CHECK(c.area_error < 1e-10);
+}

@@ -195,8 +195,8 @@ private:
       const Site<Real>&site = view.sites[i], &other = view.sites[j];
       const Vec3<Real> offset = other.point - site.point;
       squared_distance = squared_length(offset);
-      line = {dot(offset, frame.u), dot(offset, frame.v),
-              (squared_distance + (site.weight - other.weight)) / 2};
+      const auto [a, b] = frame.components(offset, squared_distance);
+      line = {a, b, (squared_distance + (site.weight - other.weight)) / 2};
     }
   };
 

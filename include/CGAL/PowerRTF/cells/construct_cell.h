@@ -60,11 +60,10 @@ public:
       return;
     }
     if (!are_compatible(m_normal, m_view.normals[j], m_cos_angle)) return;
-    const FT a = dot(offset, m_frame.u), b = dot(offset, m_frame.v), t2 = a * a + b * b;
-    // A plane parallel to the tangent plane, up to rounding, which alone would give the line its
-    // direction; or a duplicate: the first one wins.
-    constexpr FT least_slope = 64 * internal::epsilon<FT>();
-    if (!(t2 > least_slope * least_slope * d2)) {
+    const auto [a, b] = m_frame.components(offset, d2);
+    const FT t2 = a * a + b * b;
+    // A plane parallel to the tangent plane, or a duplicate: the first one wins.
+    if (!(t2 > 0)) {
       if (power < 0 || (power == 0 && j < m_i)) m_polygon.size = 0;
       if constexpr (Filtered)
         if (!is_large(power - std::sqrt(d2) * m_radius * FT(1e-8), d2, other.weight))

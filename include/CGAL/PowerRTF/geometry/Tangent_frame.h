@@ -20,6 +20,20 @@ struct Tangent_frame {
     u = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
     v = {b, sign + n.y * n.y * a, -n.y};
   }
+
+  /// A vector's components along u and v.
+  struct Components {
+    FT a, b;
+  };
+
+  /// Those of `offset`, the square of whose length is `d2`; zero where rounding alone would give
+  /// them their direction: `offset` is then parallel to the normal.
+  CGAL_POWER_RTF_HD Components components(const Vec3<FT>& offset, FT d2) const
+  {
+    constexpr FT least_slope = 64 * internal::epsilon<FT>();
+    const FT a = dot(offset, u), b = dot(offset, v);
+    return a * a + b * b > least_slope * least_slope * d2 ? Components{a, b} : Components{0, 0};
+  }
 };
 
 } // namespace CGAL::PowerRTF
