@@ -32,9 +32,11 @@ public:
   Restricted_delaunay_extractor(const Surface& surface, const Samples& samples) : m_samples(samples)
   {
     m_facets.reserve(surface.triangles.size());
-    for (const Triangle& t : surface.triangles)
-      m_facets.emplace_back(to_point(surface.points[t[0]]), to_point(surface.points[t[1]]),
-                            to_point(surface.points[t[2]]));
+    for (const Triangle& t : surface.triangles) {
+      const Kernel::Triangle_3 facet(to_point(surface.points[t[0]]), to_point(surface.points[t[1]]),
+                                     to_point(surface.points[t[2]]));
+      if (!facet.is_degenerate()) m_facets.push_back(facet); // others are on their neighbors' edges
+    }
     m_tree.rebuild(m_facets.begin(), m_facets.end());
     Delaunay::Vertex_handle last; // each is near the one before
     for (const int s : spatial_order(samples.points)) {
@@ -93,14 +95,17 @@ private:
   bool dual_meets_surface(const Facet& f) const
   {
     const auto v = corners(f);
-    const Vector normal =
-        cross_product(v[2]->point() - v[0]->point(), v[1]->point() - v[0]->point());
+    const Vector a = v[1]->point() - v[0]->point(), b = v[2]->point() - v[0]->point(),
+                 normal = cross_product(b, a);
     const double size =
         (std::max)({std::abs(normal.x()), std::abs(normal.y()), std::abs(normal.z())});
     if (!(size * size > 0)) return false; // collinear but for rounding
     const Vector axis = normal / size;    // a ray holds a second point
     if (m_delaunay.dimension() == 2) {
-      const Point center = circumcenter(v[0]->point(), v[1]->point(), v[2]->point());
+      const Vector to_center =
+          cross_product(b.squared_length() * a - a.squared_length() * b, normal) /
+          (2 * normal.squared_length());
+      const Point center = v[0]->point() + to_center;
       return is_finite(center) && meets(Kernel::Line_3(center, axis));
     }
     const Facet mirror = m_delaunay.mirror_facet(f);
