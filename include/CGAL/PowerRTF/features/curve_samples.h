@@ -95,8 +95,9 @@ private:
     if (curve.vertices.size() == 1) return 1;
     const bool is_closed = curve.vertices.front() == curve.vertices.back();
     const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
+    constexpr double most = 1e9; // more than memory holds
     return static_cast<std::size_t>(
-        (std::max)(least, std::floor(m_sums[c].back() / spacing + 0.5)));
+        std::clamp(std::floor(m_sums[c].back() / spacing + 0.5), least, most));
   }
 
   /// The place on curve `c` with the given share of its weighted length before it.

@@ -225,6 +225,7 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
                               " samples are too few: the borders and creases need " +
                               std::to_string(count(infinity)));
   double spacing = spacing_constant(surface, n);
+  while (count(spacing) > 16 * n) spacing *= 1.05; // a density may be large on the curves alone
   spacing *= std::sqrt(static_cast<double>(n) / equivalent_cells(n, samples(spacing)));
   // On slender surfaces there may be more border than n samples can line.
   while (count(spacing) > n) spacing *= 1.05;
