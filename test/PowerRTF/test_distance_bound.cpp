@@ -97,6 +97,24 @@ TEST_CASE("a distance is known in closed form: parallel planes, and where one en
   }
 }
 
+TEST_CASE("a facet cut into few pieces only has a larger bound")
+{
+  const shapes::Soup from = small(shapes::icosphere(0)), to = small(shapes::torus(30, 20, 1, 0.4));
+  const Facet_tree from_tree = tree_of(from), to_tree = tree_of(to);
+  const double known = sampled(from, to, 64);
+  double last = 0;
+  for (const int pieces : {1, 10, 100000}) {
+    const internal::Distance_bound bound(to_tree, 1e-12, 1.01, pieces);
+    double most = 0;
+    for (int f = 0; f < int(from.triangles.size()); ++f)
+      most = std::max(most, bound(from_tree.view().facets[f]));
+    CHECK(most >= known);
+    if (last > 0) CHECK(most < last);
+    last = most;
+  }
+  CHECK(last <= 1.02 * known);
+}
+
 TEST_CASE("the bound is the same for any number of threads")
 {
   const shapes::Soup a = small(shapes::icosphere(4)), b = small(shapes::torus(30, 20, 1, 0.4));

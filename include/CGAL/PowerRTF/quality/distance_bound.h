@@ -48,25 +48,26 @@ inline std::array<Convex_polygon, 2> parted(const Convex_polygon& polygon, const
 /// Bounds distances from the surface of a tree.
 class Distance_bound {
 public:
-  /// Bounds are found that are at most `factor` times the largest distance, or `enough`.
-  Distance_bound(const Facet_tree& tree, double enough, double factor)
-      : m_tree(tree), m_enough(enough), m_factor(factor)
+  /// Bounds are found that are at most `factor` times the largest distance, or `enough`; larger
+  /// ones for a facet that would have to be cut into more than about `most_pieces`.
+  Distance_bound(const Facet_tree& tree, double enough, double factor, int most_pieces)
+      : m_tree(tree), m_enough(enough), m_factor(factor), m_most_pieces(most_pieces)
   {}
 
   /// Of the points of a facet.
   double operator()(const Facet_corners<double>& facet) const
   {
-    return over({facet.a, facet.b, facet.c}, facet.normal);
+    int work = m_most_pieces;
+    return over({facet.a, facet.b, facet.c}, facet.normal, work);
   }
 
 private:
   static constexpr std::size_t many = 48;     // facets near a polygon
-  static constexpr int max_depth = 40;        // of halvings
   static constexpr double least_cosine = 0.1; // of normals: a facet is seen from above
   using Corners = Facet_corners<double>;
 
   // Of a polygon, or of its halves where it is large and has many facets near it.
-  double over(const Convex_polygon& polygon, const Vec3d& normal) const
+  double over(const Convex_polygon& polygon, const Vec3d& normal, int& work) const
   {
     const Surface_view<double> view = m_tree.view();
     Box3<double> box{polygon[0], polygon[0]};
@@ -82,14 +83,14 @@ private:
     double largest = 0;
     if (is_large && are_many(near)) {
       for (const Convex_polygon& half : halves(polygon))
-        if (!half.empty()) largest = std::max(largest, over(half, normal));
+        if (!half.empty()) largest = std::max(largest, over(half, normal, work));
       return largest;
     }
     std::vector<Convex_polygon> rest{polygon};
     for (auto it = near.begin(); it != near.end() && !rest.empty(); ++it)
       cover(normal, view.facets[*it], rest, largest);
     for (const Convex_polygon& other : rest)
-      largest = std::max(largest, refined(other, std::max(m_enough, largest), 0));
+      largest = std::max(largest, refined(other, std::max(m_enough, largest), work));
     return largest;
   }
 
@@ -125,21 +126,33 @@ private:
     polygons = std::move(rest);
   }
 
-  // By its nearest facet, or by its halves. What bounds the first half is enough for the second,
-  // too: it is `enough`, or near a distance that there is.
-  double refined(const Convex_polygon& polygon, double enough, int depth) const
+  // By its nearest facet, or by its parts': halves the piece with the largest bound until all are
+  // `enough`, or near a distance that there is, or the work is used up.
+  double refined(const Convex_polygon& polygon, double enough, int& work) const
   {
-    const Vec3d center = center_of(polygon);
-    const auto nearest = m_tree.nearest_anywhere(center);
-    enough = std::max(enough, m_factor * std::sqrt(nearest.squared_distance));
-    const Corners& facet = m_tree.view().facets[m_tree.place(nearest.facet)];
-    const double by_nearest = bound(polygon, facet);
-    if (by_nearest <= enough || depth == max_depth) return by_nearest;
-    double largest = 0;
-    for (const Convex_polygon& half : halves(polygon))
-      if (!half.empty())
-        largest = std::max(largest, refined(half, std::max(enough, largest), depth + 1));
-    return largest;
+    struct Piece {
+      double bound;
+      Convex_polygon polygon;
+      bool operator<(const Piece& other) const { return bound < other.bound; }
+    };
+    std::vector<Piece> pieces; // a heap
+    const auto add = [&](Convex_polygon part) {
+      const auto nearest = m_tree.nearest_anywhere(center_of(part));
+      enough = std::max(enough, m_factor * std::sqrt(nearest.squared_distance));
+      const Corners& facet = m_tree.view().facets[m_tree.place(nearest.facet)];
+      pieces.push_back({bound(part, facet), std::move(part)});
+      std::push_heap(pieces.begin(), pieces.end());
+      --work;
+    };
+    add(polygon);
+    while (pieces.front().bound > enough && work > 0) {
+      std::array<Convex_polygon, 2> parts = halves(pieces.front().polygon);
+      if (parts[0].empty() || parts[1].empty()) break; // as small as rounding lets them be
+      std::pop_heap(pieces.begin(), pieces.end());
+      pieces.pop_back();
+      for (Convex_polygon& part : parts) add(std::move(part));
+    }
+    return pieces.front().bound;
   }
 
   static Vec3d center_of(const Convex_polygon& polygon)
@@ -176,16 +189,21 @@ private:
 
   const Facet_tree& m_tree;
   double m_enough, m_factor;
+  int m_most_pieces;
 };
 
 /// An upper bound of the distances of all points of the surface of `from` from that of `to`, at
-/// most 1 % above the largest, but for rounding. `known`: the distance of some point.
+/// most 1 % above the largest, but for rounding, where no facet takes too much work for that.
+/// `known`: the distance of some point.
 inline double distance_bound(const Facet_tree& from, const Facet_tree& to, double known,
                              Concurrency concurrency)
 {
   constexpr double factor = 1.01, rounding = 1e-12; // in the unit box
-  const Distance_bound bound(to, std::max(factor * known, rounding), factor);
+  constexpr int all_pieces = 4'000'000, least_pieces = 100;
   const Surface_view<double> view = from.view();
+  const int facets = (std::max)(1, view.facet_tree.items);
+  const Distance_bound bound(to, std::max(factor * known, rounding), factor,
+                             (std::max)(least_pieces, all_pieces / facets));
   return rounding +
          reduce(
              concurrency, view.facet_tree.items, 0.,
