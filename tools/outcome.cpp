@@ -10,8 +10,11 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <initializer_list>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -40,6 +43,11 @@ Failure current_failure(const std::string& input)
 
 void end_where_threads_fail()
 {
+  // Where memory is short nothing may be allocated: what a terminate handler throws aborts.
+  static const auto end = [](std::initializer_list<const char*> message) {
+    for (const char* part : message) std::fputs(part, stderr);
+    std::_Exit(unusable_input);
+  };
   static const std::terminate_handler usual = std::get_terminate();
   std::set_terminate([] {
     static std::atomic_flag is_ending = ATOMIC_FLAG_INIT;
@@ -47,10 +55,11 @@ void end_where_threads_fail()
     try {
       if (std::current_exception()) throw;
     } catch (const std::runtime_error& e) {
-      const std::string reason = e.what();
-      if (reason.find("pthread_create") != std::string::npos)
-        std::_Exit(fail({unusable_input, "the system gives no more threads: " + reason +
-                                             "; --threads N sets their number"}));
+      if (std::strstr(e.what(), "pthread_create"))
+        end({"power_rtf_remesh: the system gives no more threads: ", e.what(),
+             "; --threads N sets their number\n"});
+    } catch (const std::bad_alloc&) {
+      end({"power_rtf_remesh: the memory does not suffice\n"});
     } catch (...) {
     }
     usual(); // a bug

@@ -39,7 +39,8 @@ void print_faults(const Run& run);
 /// Tells the user why the CPU stands in for a GPU.
 void tell_of_gpu(const Run& run);
 
-/// Lets a thread that cannot start another one, as TBB's do, end the program with a message.
+/// Lets a thread that cannot start another one, as TBB's do, or finds no memory where nothing can
+/// be caught end the program with a message.
 void end_where_threads_fail();
 
 /// Tells the user that something failed. \returns the code

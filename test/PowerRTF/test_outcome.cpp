@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -54,6 +55,14 @@ TEST_CASE("a thread that cannot start another one ends the program with a messag
   CHECK(WEXITSTATUS(end.status) == tools::unusable_input);
   CHECK(end.message == "power_rtf_remesh: the system gives no more threads: pthread_create has "
                        "failed: no memory; --threads N sets their number\n");
+}
+
+TEST_CASE("a thread without memory ends the program with a message")
+{
+  const End end = end_of_process(std::bad_alloc());
+  CHECK(WIFEXITED(end.status));
+  CHECK(WEXITSTATUS(end.status) == tools::unusable_input);
+  CHECK(end.message == "power_rtf_remesh: the memory does not suffice\n");
 }
 
 TEST_CASE("what else nobody catches ends the program as usual")
