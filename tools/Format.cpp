@@ -18,10 +18,23 @@ Format format_of(const std::string& file)
   if (end == ".ply") return Format::ply;
   if (end == ".stl") return Format::stl;
   if (end == ".vtp") return Format::vtp;
+  if (end == ".vtu") return Format::vtu;
+  if (end == ".msh") return Format::msh;
   return Format::unknown;
 }
 
-bool holds_numbers(Format format) { return format == Format::ply || format == Format::vtp; }
+bool is_read(Format format)
+{
+  return format == Format::off || format == Format::obj || format == Format::ply ||
+         format == Format::stl;
+}
+
+bool holds_numbers(Format format)
+{
+  return holds_cells(format) || format == Format::vtu || format == Format::msh;
+}
+
+bool holds_cells(Format format) { return format == Format::ply || format == Format::vtp; }
 
 bool holds_floats(Format format, Encoding encoding)
 {

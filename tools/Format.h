@@ -9,14 +9,23 @@
 
 namespace tools {
 
-enum class Format { unknown, off, obj, ply, stl, vtp };
+enum class Format { unknown, off, obj, ply, stl, vtp, vtu, msh };
 enum class Encoding { binary, text };
+
+/// How the names of files end that can be written.
+constexpr char written_endings[] = ".off, .obj, .ply, .stl, .vtp, .vtu or .msh";
 
 /// The format that the extension of the file's name stands for, in upper or lower case.
 Format format_of(const std::string& file);
 
-/// Whether a format holds any numbers of vertices and faces: PLY and VTP do.
+/// Whether files of a format can be read: OFF, OBJ, PLY and STL; the others are written only.
+bool is_read(Format format);
+
+/// Whether a format holds any numbers of vertices and faces: PLY, VTP, VTU and MSH do.
 bool holds_numbers(Format format);
+
+/// Whether a format holds cells and samples with numbers: PLY and VTP do.
+bool holds_cells(Format format);
 
 /// Whether a mesh is written with coordinates of single precision: as binary STL.
 bool holds_floats(Format format, Encoding encoding);

@@ -83,7 +83,7 @@ bool is_color(const std::string& name);
 /// What a property means, in words: "normals".
 std::string in_words(const std::string& name, bool of_vertices);
 
-/// Those that files of a format hold: PLY and VTP all, OBJ the colors of vertices
+/// Those that files of a format hold: PLY, VTP, VTU and MSH all, OBJ the colors of vertices
 /// and the names of faces.
 Mesh_properties held_by(Format format, const Mesh_properties& properties);
 

@@ -42,7 +42,7 @@ std::vector<std::string> files_in(const std::string& folder)
   for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
     const std::string file = i->path().string();
     const Format format = format_of(file);
-    if (format != Format::unknown && format != Format::vtp) files.push_back(file);
+    if (is_read(format)) files.push_back(file);
   }
   if (error) cannot_list(folder, error.message());
   std::sort(files.begin(), files.end());

@@ -160,7 +160,7 @@ void ply_body(Rows rows, const Dataset& data)
   }
 }
 
-void vtp_array_begin(Streamed_text& text, const char* type, const std::string& name,
+void vtk_array_begin(Streamed_text& text, const char* type, const std::string& name,
                      int components = 1)
 {
   text << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
@@ -176,47 +176,85 @@ std::string escaped(const std::string& name)
   return text;
 }
 
-void vtp_array_end(Streamed_text& text) { text << "</DataArray>\n"; }
+void vtk_array_end(Streamed_text& text) { text << "</DataArray>\n"; }
 
-void vtp_vectors(Streamed_text& text, const std::string& name, const std::vector<Vec3d>& vectors)
+void vtk_vectors(Streamed_text& text, const std::string& name, const std::vector<Vec3d>& vectors)
 {
-  vtp_array_begin(text, "Float64", name, 3);
+  vtk_array_begin(text, "Float64", name, 3);
   for (const Vec3d& v : vectors) text << v << "\n";
-  vtp_array_end(text);
+  vtk_array_end(text);
 }
 
-void vtp_fields(Streamed_text& text, const std::vector<Field>& fields)
+void vtk_fields(Streamed_text& text, const std::vector<Field>& fields)
 {
   constexpr const char* names[] = {"Int8",  "UInt8",  "Int16",   "UInt16",
                                    "Int32", "UInt32", "Float32", "Float64"};
   for (const Field& f : fields) {
     if (!f.vectors.empty()) {
-      vtp_vectors(text, f.name, f.vectors);
+      vtk_vectors(text, f.name, f.vectors);
       continue;
     }
-    vtp_array_begin(text, f.integers.empty() ? names[static_cast<int>(f.type)] : "Int32",
+    vtk_array_begin(text, f.integers.empty() ? names[static_cast<int>(f.type)] : "Int32",
                     escaped(f.name));
     for (const double x : f.values) visit_as(f.type, x, [&](auto y) { text << y << "\n"; });
     for (const int x : f.integers) text << x << "\n";
-    vtp_array_end(text);
+    vtk_array_end(text);
   }
 }
 
-/// A section of VTP cells: connectivity and offsets.
-void vtp_cells(Streamed_text& text, const char* section, const Index_lists& cells)
+/// The connectivity and offsets of cells.
+void vtk_cells(Streamed_text& text, const Index_lists& cells)
 {
-  text << "<" << section << ">\n";
-  vtp_array_begin(text, "Int64", "connectivity");
+  vtk_array_begin(text, "Int64", "connectivity");
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (const int v : cells[i]) text << v << " ";
     text << "\n";
   }
-  vtp_array_end(text);
-  vtp_array_begin(text, "Int64", "offsets");
+  vtk_array_end(text);
+  vtk_array_begin(text, "Int64", "offsets");
   std::size_t end = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) text << (end += cells[i].size()) << "\n";
-  vtp_array_end(text);
+  vtk_array_end(text);
+}
+
+/// A section of VTP cells.
+void vtp_section(Streamed_text& text, const char* section, const Index_lists& cells)
+{
+  text << "<" << section << ">\n";
+  vtk_cells(text, cells);
   text << "</" << section << ">\n";
+}
+
+/// The beginning of a file with one piece. `type`: of the data; `sizes`: what the piece counts
+void vtk_begin(Streamed_text& text, const char* type, std::size_t points, const std::string& sizes)
+{
+  text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type
+       << "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" << type
+       << ">\n<Piece NumberOfPoints=\"" << points << "\"" << sizes << ">\n";
+}
+
+void vtk_end(Streamed_text& text, const char* type)
+{
+  text << "</Piece>\n</" << type << ">\n</VTKFile>\n";
+}
+
+/// The points and all values.
+void vtk_points(Streamed_text& text, const Dataset& data)
+{
+  text << "<PointData>\n";
+  if (!data.normals.empty()) vtk_vectors(text, "normals", data.normals);
+  vtk_fields(text, data.point_fields);
+  text << "</PointData>\n<CellData>\n";
+  vtk_fields(text, data.cell_fields);
+  text << "</CellData>\n<Points>\n";
+  vtk_vectors(text, "Points", data.points);
+  text << "</Points>\n";
+}
+
+/// Of the piece of VTP or VTU: how many of `name` there are.
+std::string vtk_count(const char* name, std::size_t count)
+{
+  return std::string(" NumberOf") + name + "=\"" + std::to_string(count) + "\"";
 }
 
 } // namespace
@@ -242,23 +280,30 @@ void write_vtp(std::ostream& out, const Dataset& data)
   Index_lists dots = data.dots;
   if (dots.empty() && data.lines.empty() && data.polygons.empty())
     for (std::size_t i = 0; i < data.points.size(); ++i) dots.add(std::array{static_cast<int>(i)});
-  text << "<?xml version=\"1.0\"?>\n"
-          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-          "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\""
-       << data.points.size() << "\" NumberOfVerts=\"" << dots.size() << "\" NumberOfLines=\""
-       << data.lines.size() << "\" NumberOfStrips=\"0\" NumberOfPolys=\"" << data.polygons.size()
-       << "\">\n<PointData>\n";
-  if (!data.normals.empty()) vtp_vectors(text, "normals", data.normals);
-  vtp_fields(text, data.point_fields);
-  text << "</PointData>\n<CellData>\n";
-  vtp_fields(text, data.cell_fields);
-  text << "</CellData>\n<Points>\n";
-  vtp_vectors(text, "Points", data.points);
-  text << "</Points>\n";
-  vtp_cells(text, "Verts", dots);
-  vtp_cells(text, "Lines", data.lines);
-  vtp_cells(text, "Polys", data.polygons);
-  text << "</Piece>\n</PolyData>\n</VTKFile>\n";
+  vtk_begin(text, "PolyData", data.points.size(),
+            vtk_count("Verts", dots.size()) + vtk_count("Lines", data.lines.size()) +
+                vtk_count("Strips", 0) + vtk_count("Polys", data.polygons.size()));
+  vtk_points(text, data);
+  vtp_section(text, "Verts", dots);
+  vtp_section(text, "Lines", data.lines);
+  vtp_section(text, "Polys", data.polygons);
+  vtk_end(text, "PolyData");
+}
+
+void write_vtu(std::ostream& out, const Dataset& data)
+{
+  constexpr int triangle = 5, polygon = 7; // VTK's numbers
+  Streamed_text text(out);
+  vtk_begin(text, "UnstructuredGrid", data.points.size(), vtk_count("Cells", data.polygons.size()));
+  vtk_points(text, data);
+  text << "<Cells>\n";
+  vtk_cells(text, data.polygons);
+  vtk_array_begin(text, "UInt8", "types");
+  for (std::size_t i = 0; i < data.polygons.size(); ++i)
+    text << (data.polygons[i].size() == 3 ? triangle : polygon) << "\n";
+  vtk_array_end(text);
+  text << "</Cells>\n";
+  vtk_end(text, "UnstructuredGrid");
 }
 
 } // namespace tools

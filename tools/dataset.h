@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points, lines and polygons with named values, and their files: PLY and VTP. (CGAL writes these
-// formats without such values.)
+// Points, lines and polygons with named values, and their files: PLY, VTP and VTU. (CGAL writes
+// these formats without such values.)
 #ifndef POWER_RTF_TOOLS_DATASET_H
 #define POWER_RTF_TOOLS_DATASET_H
 
@@ -85,6 +85,8 @@ std::vector<Field> fields_of(const std::vector<Mesh_property>& properties);
 void write_ply(std::ostream& out, const Dataset& data, Encoding encoding);
 /// As text. Points without any cells become dots.
 void write_vtp(std::ostream& out, const Dataset& data);
+/// As text: the polygons are the cells of an unstructured grid, as programs for simulation read it.
+void write_vtu(std::ostream& out, const Dataset& data);
 
 } // namespace tools
 

@@ -4,6 +4,7 @@
 
 #include "dataset.h"
 #include "foreign_file.h"
+#include "gmsh_mesh.h"
 #include "output_file.h"
 #include "ply_mesh.h"
 #include "stl_mesh.h"
@@ -69,8 +70,7 @@ std::string kind_error(const std::string& file, Format format)
   if (format == Format::stl && is_binary_stl(beginning, fs::file_size(file))) return {};
   const std::string foreign = foreign_kind(beginning, format);
   if (!foreign.empty()) return foreign;
-  if (format == Format::unknown || format == Format::vtp)
-    return "its name does not end in .off, .obj, .ply or .stl";
+  if (!is_read(format)) return "its name does not end in .off, .obj, .ply or .stl";
   return {};
 }
 
@@ -148,14 +148,17 @@ void write_mesh(std::ostream& out, Format format, Encoding encoding,
                 const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                 const Mesh_properties& properties)
 {
-  if (format == Format::ply || format == Format::vtp) {
+  if (format == Format::msh) return write_msh(out, points, triangles, properties);
+  if (holds_numbers(format)) {
     Dataset data;
     data.points = points;
     data.point_fields = fields_of(properties.vertices);
     data.cell_fields = fields_of(properties.faces);
     data.polygons.reserve(triangles.size(), 3 * triangles.size());
     for (const Triangle& t : triangles) data.polygons.add(t);
-    return format == Format::ply ? write_ply(out, data, encoding) : write_vtp(out, data);
+    return format == Format::ply   ? write_ply(out, data, encoding)
+           : format == Format::vtp ? write_vtp(out, data)
+                                   : write_vtu(out, data);
   }
   if (format == Format::off) return write_off(out, points, triangles);
   if (format == Format::obj) return write_obj(out, points, triangles, properties);

@@ -115,7 +115,7 @@ public:
         "batch",
         "remesh many files: INPUT is a folder, or a text file with the name of one in each "
         "line; OUTPUT is a folder")("format", text("NAME"),
-                                    "off|obj|ply|stl|vtp: of a batch's outputs (that of "
+                                    "off|obj|ply|stl|vtp|vtu|msh: of a batch's outputs (that of "
                                     "each input)");
     group("Comparison with exact arithmetic")
         .add_options()("check", "compare the cells with the exact ones")(
@@ -136,7 +136,8 @@ public:
     out << "power_rtf_remesh INPUT OUTPUT [options]\n"
            "power_rtf_remesh --batch INPUTS FOLDER [options]\n"
            "Remeshes a surface by power diagrams restricted to tangent planes (PowerRTF).\n"
-           "Reads OFF, OBJ, PLY, STL; writes OFF, OBJ, PLY, STL, VTP, as the file's name ends.\n"
+           "Reads OFF, OBJ, PLY, STL; writes these, VTP, VTU and Gmsh's MSH, as the file's name "
+           "ends.\n"
            "In {braces}: what is allowed; in [brackets]: the paper's symbol; in (parentheses): the "
            "default.\n";
     po::options_description all(line_length, description_length);
@@ -191,10 +192,11 @@ private:
             "may be given several times")(
             "labels", text("NAME"),
             "a property of the input's faces, of whole numbers (PLY), or material or group (OBJ): "
-            "creases are kept between different ones, and the output's faces have them (PLY, VTP; "
-            "names: OBJ)")("lines", "the lines of an OBJ input are creases, too")(
+            "creases are kept between different ones, and the output's faces have them (PLY, VTP, "
+            "VTU; names: OBJ; physical groups: MSH)")("lines",
+                                                      "the lines of an OBJ input are creases, too")(
             "patches", "number the output's faces by the patches between creases: their property "
-                       "\"patch\" (PLY, VTP)");
+                       "\"patch\" (PLY, VTP, VTU, MSH)");
   }
 
   /// Adds an option; without an `argument` it is a switch.
@@ -310,9 +312,9 @@ void set_batch(const po::variables_map& values, Program_options& o)
   if (values.count("format")) {
     o.format = values["format"].as<std::string>();
     if (!o.is_batch) throw Usage_error("--format: for --batch; else OUTPUT's name says it");
-    const std::vector<std::string> names{"off", "obj", "ply", "stl", "vtp"};
+    const std::vector<std::string> names{"off", "obj", "ply", "stl", "vtp", "vtu", "msh"};
     if (std::find(names.begin(), names.end(), o.format) == names.end())
-      reject("format", o.format, "one of off|obj|ply|stl|vtp");
+      reject("format", o.format, "one of off|obj|ply|stl|vtp|vtu|msh");
   }
   if (!o.is_batch) return;
   for (const char* other : {"cells", "samples-out", "fields", "provenance", "no-mesh"})

@@ -37,13 +37,13 @@ using internal::Stopwatch;
 void check_outputs(const Program_options& o)
 {
   if (o.write_mesh && format_of(o.output) == Format::unknown)
-    throw Output_error(o.output + ": cannot be written: its name does not end in .off, .obj, .ply, "
-                                  ".stl or .vtp");
+    throw Output_error(o.output + ": cannot be written: its name does not end in " +
+                       written_endings);
   if (o.writes_patches && !holds_numbers(format_of(o.output)))
-    throw Output_error(o.output + ": cannot be written: only .ply and .vtp hold the numbers of "
-                                  "patches");
+    throw Output_error(o.output + ": cannot be written: only .ply, .vtp, .vtu and .msh hold the "
+                                  "numbers of patches");
   for (const std::string& file : {o.cells_file, o.samples_file, o.provenance_file})
-    if (!file.empty() && !holds_numbers(format_of(file)))
+    if (!file.empty() && !holds_cells(format_of(file)))
       throw Output_error(file + ": cannot be written: its name does not end in .ply or .vtp");
   if (!o.fields_file.empty() && format_of(o.fields_file) != Format::vtp)
     throw Output_error(o.fields_file + ": cannot be written: its name does not end in .vtp");

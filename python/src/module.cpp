@@ -248,8 +248,8 @@ tools::Encoding encoding_of(bool ascii)
 void check_output(const std::string& file)
 {
   if (tools::format_of(file) == tools::Format::unknown)
-    throw tools::Output_error(file + ": cannot be written: its name does not end in .off, .obj, "
-                                     ".ply, .stl or .vtp");
+    throw tools::Output_error(file + ": cannot be written: its name does not end in " +
+                              tools::written_endings);
   tools::check_writable(file);
 }
 

@@ -165,7 +165,8 @@ TEST_CASE("what a format cannot hold is told")
   properties.faces.push_back({"label", Number_type::int32, Values(3, 1)});
   using Names = std::set<std::string>;
   CHECK(not_held_by(Format::ply, properties).empty());
-  CHECK(not_held_by(Format::vtp, properties).empty());
+  for (const Format format : {Format::vtp, Format::vtu, Format::msh})
+    CHECK(not_held_by(format, properties).empty());
   CHECK(not_held_by(Format::obj, properties) ==
         Names{"facet property label", "vertex property height"});
   CHECK(not_held_by(Format::off, properties) ==
@@ -183,6 +184,48 @@ TEST_CASE("VTP: values have their types, names are escaped")
   CHECK(text.find("type=\"UInt8\" Name=\"red\"") != std::string::npos);
   CHECK(text.find("type=\"Int32\" Name=\"a&lt;b&amp;&quot;c&quot;\" NumberOfComponents=\"1\" "
                   "format=\"ascii\">\n1000000\n-2\n3\n") != std::string::npos);
+}
+
+TEST_CASE("VTU: triangles are cells of an unstructured grid")
+{
+  const Mesh_properties properties = {{}, {{"label", Number_type::int32, {7, 8, 9}}}};
+  const std::string text = written(Format::vtu, Encoding::text, properties);
+  CHECK(text.find("<VTKFile type=\"UnstructuredGrid\"") != std::string::npos);
+  CHECK(text.find("NumberOfCells=\"3\"") != std::string::npos);
+  CHECK(text.find("Name=\"label\" NumberOfComponents=\"1\" format=\"ascii\">\n7\n8\n9\n") !=
+        std::string::npos);
+  CHECK(text.find("Name=\"types\" NumberOfComponents=\"1\" format=\"ascii\">\n5\n5\n5\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("MSH: the first labels of faces are physical groups, all properties are values")
+{
+  Mesh_properties properties;
+  const auto text = [&] { return written(Format::msh, Encoding::text, properties); };
+  const auto has = [&](const std::string& part) { return text().find(part) != std::string::npos; };
+  const auto corners = [](std::size_t f) {
+    std::string row;
+    for (const int v : triangles[f]) row += ' ' + std::to_string(v + 1);
+    return row;
+  };
+  CHECK(has("$Elements\n3\n1 2 2 1 1" + corners(0) + "\n2 2 2 1 1" + corners(1)));
+  CHECK_FALSE(has("$PhysicalNames"));
+
+  properties.vertices.push_back({"height", Number_type::float64, {0.1, 2, 3, 4, 5}});
+  properties.faces.push_back({"red", Number_type::uint8, {1, 2, 3}});
+  properties.faces.push_back({"share", Number_type::float32, {0.5, 1, 2}});
+  properties.faces.push_back({"side", Number_type::int32, {7, 9, 7}});
+  properties.faces.push_back({"patch", Number_type::int32, {0, 1, 2}});
+  CHECK(has("$PhysicalNames\n2\n2 7 \"side 7\"\n2 9 \"side 9\"\n$EndPhysicalNames"));
+  CHECK(has("\n2 2 2 9 9" + corners(1) + "\n"));
+  CHECK(has("$NodeData\n1\n\"height\"\n1\n0\n3\n0\n1\n5\n1 0.1\n2 2\n"));
+  for (const char* const name : {"red", "share", "side", "patch"})
+    CHECK(has("$ElementData\n1\n\"" + std::string(name) + "\"\n"));
+
+  properties.faces = {{"material", Number_type::int32, {1, 0, 1}, {"oak \"old\"", "glass"}}};
+  CHECK(has("2 1 \"oak 'old'\"\n2 2 \"glass\"\n"));
+  CHECK(has("\n1 2 2 2 2" + corners(0) + "\n"));
+  CHECK(has("$ElementData\n1\n\"material\"\n1\n0\n3\n0\n1\n3\n1 1\n2 0\n3 1\n"));
 }
 
 TEST_CASE("real numbers and colors are interpolated, labels are not, normals have the length 1")

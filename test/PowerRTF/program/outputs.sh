@@ -121,6 +121,17 @@ expect 'a VTP counts its points and polygons' grep -q 'NumberOfPoints="200".*Num
 expect 'a VTP is complete' grep -q '^</VTKFile>$' m.vtp
 expect 'a VTP has 200 points' [ "$(awk '/<Points>/ { on = 1; next } /<\/Points>/ { on = 0 }
                                         on && NF == 3 && !/</' m.vtp | wc -l)" -eq 200 ]
+run 0 -- torus.off m.vtu "${fast[@]}" --quiet
+expect 'a VTU counts its points and cells' grep -q 'NumberOfPoints="200" NumberOfCells="400"' m.vtu
+expect 'a VTU has the points and triangles of a VTP' cmp \
+  <(sed -n '/"Points"/,/<.Points>/p; /"connectivity"/,/<.DataArray>/p' m.vtu) \
+  <(sed -n '/"Points"/,/<.Points>/p; /<Polys>/,/<.DataArray>/p' m.vtp | grep -v '<Polys>')
+run 0 -- torus.off m.msh "${fast[@]}" --quiet
+# section NAME: its lines, without the number at the beginning
+section() { sed -n "/^.$1\$/,/^.End$1\$/p" m.msh | sed '1,2d; $d' | cut -d ' ' -f 2-; }
+expect 'an MSH has the vertices of the OFF' cmp \
+  <(section Nodes | rounded) <(vertices first.off)
+expect 'an MSH has 400 triangles in one group' [ "$(section Elements | grep -c '^2 2 1 1 ')" -eq 400 ]
 
 # --- cells and samples
 for end in ply vtp; do
@@ -278,7 +289,14 @@ run 0 -- labels.ply plain.ply -n 400 --ascii --report r.json
 has crease_edges 0
 run 0 -- labels.ply out.ply -n 400 --labels half --patches --ascii
 expect 'patches are numbered' grep -q '^property int patch' out.ply
-run 5 'out.off' '.ply and .vtp' -- labels.ply out.off -n 400 --patches
+run 0 -- labels.ply out.msh -n 400 --labels half --patches
+expect 'labels are physical groups' [ "$(grep '^2 [0-9]* "half' out.msh | paste -sd ' ')" = \
+  '2 5 "half 5" 2 6 "half 6"' ]
+expect 'all triangles are in one of them' \
+  [ "$(awk '/^.EndElements/ { on = 0 } on && NF == 8 { print $4 } /^.Elements/ { on = 1 }' out.msh |
+    sort -u | paste -sd ' ')" = '5 6' ]
+expect 'patches are values' grep -q '^"patch"$' out.msh
+run 5 'out.off' '.vtu and .msh hold' -- labels.ply out.off -n 400 --patches
 run 1 'no property third' 'they have half' -- labels.ply out.off --labels third
 sed 's/^\(3 .*\) 5$/\1 5.5/; s/int half/double half/' labels.ply >fractions.ply
 run 1 'its property half' 'no whole number' -- fractions.ply out.off --labels half
