@@ -309,6 +309,7 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
   const Stopwatch total(run.report.seconds.total);
   about_input(options, [&] { return validate(options.remeshing); });
   check_outputs(options);
+  const std::future<void> gpu = start_gpu(options.traits, options.remeshing);
   Progress progress(options.quiet);
   const internal::Cancellation cancellation(progress);
   Input input = load(run);

@@ -14,6 +14,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <future>
 #include <string>
 #include <thread>
 
@@ -42,6 +43,19 @@ inline bool is_gpu_faster(const CGAL::PowerRTF::Remeshing_options& options)
   return per_sample * static_cast<double>(options.number_of_samples) > start * cores;
 }
 #endif
+
+/// Begins to start the GPU if the traits of that name will surely use it; the result waits for
+/// that.
+inline std::future<void>
+start_gpu([[maybe_unused]] const std::string& name,
+          [[maybe_unused]] const CGAL::PowerRTF::Remeshing_options& options)
+{
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+  if (name == "cuda" || (name == "auto" && is_gpu_faster(options)))
+    return CGAL::PowerRTF::start_cuda_device(options.device);
+#endif
+  return {};
+}
 
 /// Returns `run(Type<Traits>(), gpu_not_used, has_failed)` for the traits of that name. For "auto",
 /// they are the faster of CPU and GPU, and the CPU stands in for a GPU that fails: `run` is called

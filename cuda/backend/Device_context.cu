@@ -116,6 +116,16 @@ std::vector<Cuda_device> cuda_devices()
   return devices;
 }
 
+std::future<void> start_cuda_device(int device)
+{
+  return std::async(std::launch::async, [device] {
+    try {
+      device::Device_context::of(device);
+    } catch (const Cuda_error&) { // told to who uses it
+    }
+  });
+}
+
 void release_cuda_memory(int device)
 {
   device::Device_context& context = device::Device_context::of(device);

@@ -4,6 +4,8 @@
 // What is said where a GPU cannot be used. This needs none.
 #include "../backend/failures.h"
 
+#include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
+
 #include <doctest/doctest.h>
 
 #include <map>
@@ -60,4 +62,11 @@ TEST_CASE("a call that fails throws the words, one that does not throws nothing"
   CHECK_NOTHROW(check(cudaSuccess, "clock"));
   CHECK_THROWS_WITH_AS(check(cudaErrorDevicesUnavailable, "clock"), doctest::Contains("busy"),
                        Cuda_error);
+}
+
+TEST_CASE("a GPU that cannot be started ahead fails only where it is used")
+{
+  constexpr int device = 1000; // there are not so many
+  CHECK_NOTHROW(start_cuda_device(device).get());
+  CHECK_THROWS_AS(release_cuda_memory(device), Cuda_error);
 }

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 
 #include <cstddef>
+#include <future>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -35,6 +36,11 @@ struct Cuda_device {
 /// \ingroup PkgPowerRTFTraits
 /// The GPUs that can be used, at least one. \throws Cuda_error when there is none, saying why
 std::vector<Cuda_device> cuda_devices();
+
+/// \ingroup PkgPowerRTFTraits
+/// Begins to start a GPU, which takes a process some .2 seconds the first time, in a thread that
+/// the result waits for. Who uses the GPU meanwhile waits, too, and is told of its failures.
+std::future<void> start_cuda_device(int device = 0);
 
 /// \ingroup PkgPowerRTFTraits
 /// Frees the memory of a GPU that a process keeps between its runs for the next one.
