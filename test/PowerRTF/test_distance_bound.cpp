@@ -101,9 +101,9 @@ TEST_CASE("a facet cut into few pieces only has a larger bound")
 {
   const shapes::Soup from = small(shapes::icosphere(0)), to = small(shapes::torus(30, 20, 1, 0.4));
   const Facet_tree from_tree = tree_of(from), to_tree = tree_of(to);
-  const double known = sampled(from, to, 64);
+  const double known = sampled(from, to, 16);
   double last = 0;
-  for (const int pieces : {1, 10, 100000}) {
+  for (const int pieces : {1, 10, 1000}) {
     const internal::Distance_bound bound(to_tree, 1e-12, 1.01, pieces);
     double most = 0;
     for (int f = 0; f < int(from.triangles.size()); ++f)
@@ -112,7 +112,7 @@ TEST_CASE("a facet cut into few pieces only has a larger bound")
     if (last > 0) CHECK(most < last);
     last = most;
   }
-  CHECK(last <= 1.02 * known);
+  CHECK(last <= 1.05 * known);
 }
 
 TEST_CASE("the bound is the same for any number of threads")
