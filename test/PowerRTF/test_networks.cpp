@@ -5,6 +5,7 @@
 // intersect themselves become such networks, or closed surfaces around them.
 #include "dirty_shapes.h"
 
+#include <CGAL/PowerRTF/geometry/halve_edges.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/quality/topology.h>
@@ -139,6 +140,33 @@ TEST_CASE("sheets that meet in edges still meet there, and in nothing else")
     // Every sheet has a component of its own once the mesh is cut there.
     CHECK(std::size_t(facet_components(facet_adjacency(run.mesh.triangles, 600)).second) ==
           c.sheets);
+  }
+}
+
+TEST_CASE("edges in which sheets meet are halved for all of them")
+{
+  const Soup soup = fin();
+  for (const bool all : {false, true}) {
+    CAPTURE(all);
+    Remeshing_report report;
+    Surface surface =
+        prepare_surface(soup.points, soup.triangles, options_for(Intersections::keep), report);
+    REQUIRE(surface.seams.size() == 4);
+    std::map<Edge, std::vector<int>> at_seams;
+    for (int h = 0; h < int(3 * surface.triangles.size()); ++h) {
+      const Edge edge =
+          sorted_edge(halfedge_source(surface.triangles, h), halfedge_target(surface.triangles, h));
+      if (std::binary_search(surface.seams.begin(), surface.seams.end(), edge))
+        at_seams[edge].push_back(h);
+    }
+    std::vector<int> halfedges; // of each edge one, or one of each facet
+    for (const auto& [edge, own] : at_seams)
+      halfedges.insert(halfedges.end(), own.begin(), all ? own.end() : own.begin() + 1);
+    const std::size_t vertices = surface.points.size();
+    halve_edges(surface, halfedges);
+    CHECK(surface.points.size() == vertices + 4);
+    CHECK(surface.seams.size() == 8);
+    CHECK(crowded_edges(surface.triangles) == std::map<std::size_t, std::size_t>{{3, 8}});
   }
 }
 

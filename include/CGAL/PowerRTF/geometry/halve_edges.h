@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,40 @@ inline void halve_listed(std::vector<Edge>& edges,
   edges.swap(halves);
 }
 
+/// The halfedges at the seams of a network where more than two facets meet, which have no opposite,
+/// by their edges.
+inline std::vector<std::pair<Edge, int>> crowded_halfedges(const Surface& surface)
+{
+  std::vector<std::pair<Edge, int>> result;
+  const int halfedges = surface.seams.empty() ? 0 : int(surface.adjacency.opposite.size());
+  for (int h = 0; h < halfedges; ++h) {
+    if (surface.adjacency.opposite[h] != Facet_adjacency::none) continue;
+    const Edge edge =
+        sorted_edge(halfedge_source(surface.triangles, h), halfedge_target(surface.triangles, h));
+    if (std::binary_search(surface.seams.begin(), surface.seams.end(), edge))
+      result.emplace_back(edge, h);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// What is left of `halfedges` when each edge has one only; `crowded`: `crowded_halfedges()`.
+inline std::vector<int> one_by_edge(const Surface& surface,
+                                    const std::vector<std::pair<Edge, int>>& crowded,
+                                    std::vector<int> halfedges)
+{
+  if (crowded.empty()) return halfedges;
+  std::set<Edge> seen;
+  const auto is_seen = [&](int h) {
+    return surface.adjacency.opposite[h] == Facet_adjacency::none &&
+           !seen.insert(sorted_edge(halfedge_source(surface.triangles, h),
+                                    halfedge_target(surface.triangles, h)))
+                .second;
+  };
+  halfedges.erase(std::remove_if(halfedges.begin(), halfedges.end(), is_seen), halfedges.end());
+  return halfedges;
+}
+
 } // namespace internal
 
 /// What `halve_edges()` has done.
@@ -78,12 +113,15 @@ struct Halved_edges {
   std::vector<int> parents; ///< for each facet, the former facet that it is a part of
 };
 
-/// Halves edges of `surface`, given by one halfedge of each. Its first vertices are the old ones;
-/// new ones have the mean density of their edge's ends, and the place in the input of one of them.
-/// The halves of creases are creases. Normals and areas are computed anew.
-inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& halfedges,
+/// Halves edges of `surface`, given by one halfedge of each, or by several where more than two
+/// facets meet. Its first vertices are the old ones; new ones have the mean density of their edge's
+/// ends, and the place in the input of one of them. The halves of creases are creases. Normals and
+/// areas are computed anew.
+inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& given,
                                 internal::Concurrency concurrency = Sequential_tag())
 {
+  const auto crowded = internal::crowded_halfedges(surface);
+  const std::vector<int> halfedges = internal::one_by_edge(surface, crowded, given);
   const std::vector<int>& opposite = surface.adjacency.opposite;
   const int old = static_cast<int>(surface.points.size()),
             count = static_cast<int>(halfedges.size());
@@ -98,10 +136,14 @@ inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& halfed
     const int a = halfedge_source(surface.triangles, h), b = halfedge_target(surface.triangles, h);
     middles[h] = middle;
     if (o != Facet_adjacency::none) middles[o] = middle;
+    const Edge edge = sorted_edge(a, b);
+    for (auto other = std::lower_bound(crowded.begin(), crowded.end(), std::make_pair(edge, -1));
+         other != crowded.end() && other->first == edge; ++other)
+      middles[other->second] = middle;
     surface.points[middle] = (surface.points[a] + surface.points[b]) * 0.5;
     surface.vertex_density[middle] = (surface.vertex_density[a] + surface.vertex_density[b]) / 2;
     surface.input_vertices[middle] = surface.input_vertices[a];
-    result.ends[k] = sorted_edge(a, b);
+    result.ends[k] = edge;
   });
 
   const int facets = static_cast<int>(surface.triangles.size());
