@@ -3,14 +3,15 @@
 //
 // The program's memory, where Linux can do better: large blocks on huge pages, as threads wait for
 // each other while the kernel makes small ones; smaller blocks on pages that the program keeps, as
-// the kernel would clear new ones for each. Clang's thread sanitizer has operators of
-// its own, and does not link with others.
+// the kernel would clear new ones for each. Clang's thread sanitizer has operators of its own, and
+// does not link with others; the address sanitizer has some of its own, which do not go with these.
 #ifdef __has_feature
 #define POWER_RTF_HAS_FEATURE(feature) __has_feature(feature)
 #else
 #define POWER_RTF_HAS_FEATURE(feature) 0
 #endif
-#if defined(__linux__) && !POWER_RTF_HAS_FEATURE(thread_sanitizer)
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) &&                                        \
+    !POWER_RTF_HAS_FEATURE(address_sanitizer) && !POWER_RTF_HAS_FEATURE(thread_sanitizer)
 
 #include <cstddef>
 #include <cstdlib>
