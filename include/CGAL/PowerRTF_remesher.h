@@ -114,6 +114,7 @@ public:
 
 private:
   using Weight_method = PowerRTF::Weight_method;
+  using Weights_end = PowerRTF::Weights_end;
   using Progress_part = PowerRTF::internal::Progress_part;
   using Stage = PowerRTF::internal::Stage;
 
@@ -145,11 +146,11 @@ private:
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
       const Progress_part part(iterations_share() * (iteration + 1) / (iterations() + 1));
       m_engine.build_cells(); // 8, 9
-      if (iteration == iterations()) break;
       const bool relaxation = iteration < m_options.relaxation_iterations;
-      const bool equal = !relaxation && optimize_weights(); // 11 to 14
+      const bool done = !relaxation && optimize_weights(); // 11 to 14
+      if (iteration == iterations()) break;
       finish_iteration(visitor, iteration);
-      if (m_report.cancelled || equal || (!relaxation && has_settled())) break;
+      if (m_report.cancelled || done || (!relaxation && has_settled())) break;
       m_engine.move_samples(relaxation ? PowerRTF::Position_method::lloyd
                                        : m_options.position_method); // 15 to 19
     }
@@ -217,11 +218,13 @@ private:
     return nearest(recent, steps.end()) > nearer * nearest(steps.begin(), recent);
   }
 
-  /// Algorithm 2. Returns whether all capacities are inside the interval.
+  /// Algorithm 2. Returns whether the capacities end the run.
   bool optimize_weights()
   {
     if (m_options.weight_method != Weight_method::multiplicative) return false;
-    if (m_engine.optimize_weights(m_options.max_weight_iterations)) return true;
+    const bool at_rest = m_options.weights_end == Weights_end::rest && inside_interval();
+    if (m_engine.optimize_weights(m_options.max_weight_iterations))
+      return at_rest || m_options.weights_end == Weights_end::inside;
     if (do_weights_harm()) m_engine.clear_weights(); // they begin anew
     return false;
   }

@@ -116,6 +116,7 @@ def remesh(
     max_weight_iterations: int = 30,
     weight_step: float = 1.0,
     weight_operator: str = "ceiling",
+    weights_end: str = "inside",
     extraction: str = "cells",
     improvement: bool = True,
     dislocations: str = "annihilate",

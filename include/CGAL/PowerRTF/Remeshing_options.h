@@ -29,6 +29,9 @@ enum class Projection { nearest_facet, nearest_vertices };
 enum class Position_method { lbfgs, lloyd };
 /// None (RTF), the paper's rule, or Newton's method.
 enum class Weight_method { none, multiplicative, newton };
+/// When the paper's rule ends the run: once it has brought all capacities inside the interval, or
+/// when they still are after the samples have moved, which so are at rest.
+enum class Weights_end { inside, rest };
 /// Rounding of \f$\alpha\f$ in the paper's rule; `floor`: as printed.
 enum class Weight_operator { ceiling, floor };
 /// How the samples are triangulated.
@@ -141,6 +144,7 @@ struct Remeshing_options {
   int max_weight_iterations = 30;   ///< \f$N_m^w\f$: weight steps at most per position step
   double weight_step = 1;           ///< \f$\tau\f$ of \f$\Delta s = \tau \gamma D_i / 4\f$
   Weight_operator weight_operator = Weight_operator::ceiling; ///< rounding in the paper's rule
+  Weights_end weights_end = Weights_end::inside; ///< when the paper's rule ends the run
 
   int device = 0; ///< CUDA traits: the number of the GPU
 

@@ -37,6 +37,7 @@ inline Value_names value_names(Projection) { return {"nearest-facet", "nearest-v
 inline Value_names value_names(Position_method) { return {"lbfgs", "lloyd"}; }
 inline Value_names value_names(Weight_method) { return {"none", "multiplicative", "newton"}; }
 inline Value_names value_names(Weight_operator) { return {"ceiling", "floor"}; }
+inline Value_names value_names(Weights_end) { return {"inside", "rest"}; }
 inline Value_names value_names(Extraction_method)
 {
   return {"cells", "insertion", "restricted-delaunay"};
@@ -216,6 +217,10 @@ void for_each_option(Visitor&& visit)
       "step of the paper's rule: Delta s = tau gamma D_i / 4", {above_zero, 1000});
   add("weight_operator", &O::weight_operator, "alpha",
       "rounding in the paper's rule; floor: as printed", no_number);
+  add("weights_end", &O::weights_end, "",
+      "when the paper's rule ends the run: all capacities are inside the interval, or "
+      "still are after the samples have moved",
+      no_number);
 
   group = "Extraction";
   add("extraction", &O::extraction, "", "how the triangles are made", no_number);
