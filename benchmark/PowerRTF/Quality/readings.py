@@ -6,8 +6,8 @@
 readings.py --models FOLDER [--seeds 0 1 2 3 4] [--jobs N]
 
 Where the paper leaves something open there are several readings. Each is run alone, everything else
-as in the base, and then some of them together, over several seeds, beside the rows of Tables 1 and 2
-whose models can be had. FOLDER needs Kitten, Homer and Rocker; what is missing is skipped.
+as in the base, and then some of them together, over several seeds, beside the rows of Tables 1
+and 2 whose models can be had. FOLDER needs Kitten, Homer and Rocker; what is missing is skipped.
 Result: readings.md. Runs are kept in the output's folder and not repeated, as by reproduce.py.
 """
 
@@ -35,7 +35,7 @@ UNIFORM, ADAPTIVE = "uniform", "curvature"
 FACTORS = [
     ("base", [("as above", {})], (UNIFORM, ADAPTIVE)),
     ("end of the loop", [
-        ("cells inside γ after the weights' steps, not after the samples have moved", {"weights-end": "inside"}),
+        ("inside γ before the samples move, not after", {"weights-end": "inside"}),
         ("30 iterations", {"iterations": 30}),
         ("400 iterations", {"iterations": 400})], (UNIFORM, ADAPTIVE)),
     ("weight steps per position step", [
@@ -71,25 +71,47 @@ FACTORS = [
     ("extraction", [("restricted Delaunay", {"extraction": "restricted-delaunay"})],
      (UNIFORM, ADAPTIVE)),
 ]
-FEW, WIDE, FACET = {"max-weight-iterations": 3}, {"normal-angle": 100}, {"attributes": "facet"}
-SMOOTH, RHO = {"density-smoothing": 3, "gradation": 0.1}, {"centroid-density-power": 1}
+WIDE, INSIDE = {"normal-angle": 100}, {"weights-end": "inside"}
+LATTICE, FEW = {"sampling": "lattice"}, {"max-weight-iterations": 3}
+FACET, SMOOTH = {"attributes": "facet"}, {"density-smoothing": 3, "gradation": 0.1}
+RHO = {"centroid-density-power": 1}
 # Of the above: (what, options, densities)
 COMBINED = [
-    ("3 weight steps, Θ = 100°", {**FEW, **WIDE}, (UNIFORM, ADAPTIVE)),
-    ("Θ = 100°, facets' normals and densities", {**WIDE, **FACET}, (UNIFORM, ADAPTIVE)),
-    ("3 weight steps, Θ = 100°, facets' normals and densities", {**FEW, **WIDE, **FACET},
+    ("Θ = 100°, until inside γ", {**WIDE, **INSIDE}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, lattice", {**WIDE, **INSIDE, **LATTICE}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 180°, until inside γ, lattice", {**INSIDE, **LATTICE, "normal-angle": 180},
      (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, lattice, 50 relaxation steps",
+     {**WIDE, **INSIDE, **LATTICE, "relaxation-iterations": 50}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, 50 relaxation steps",
+     {**WIDE, **INSIDE, "relaxation-iterations": 50}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, 100 relaxation steps",
+     {**WIDE, **INSIDE, "relaxation-iterations": 100}, (UNIFORM, ADAPTIVE)),
+    ("until inside γ, facets", {**INSIDE, **FACET}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, facets", {**WIDE, **INSIDE, **FACET}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, lattice, facets", {**WIDE, **INSIDE, **LATTICE, **FACET},
+     (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, 3 weight steps", {**WIDE, **INSIDE, **FEW}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, random", {**WIDE, **INSIDE, "sampling": "random"},
+     (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, until inside γ, 0.125 γ D<sub>i</sub>", {**WIDE, **INSIDE, "weight-step": 0.5},
+     (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, 3 weight steps", {**WIDE, **FEW}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, 3 weight steps, lattice", {**WIDE, **FEW, **LATTICE}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, lattice", {**WIDE, **LATTICE}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, facets", {**WIDE, **FACET}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, guard 3", {**WIDE, "guard-factor": 3}, (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, nearest facet of all", {**WIDE, "projection": "nearest-facet"},
+     (UNIFORM, ADAPTIVE)),
+    ("Θ = 100°, facets, nearest facet of all",
+     {**WIDE, **FACET, "projection": "nearest-facet"}, (UNIFORM, ADAPTIVE)),
     ("Θ = 100°, α rounded down", {**WIDE, "weight-operator": "floor"}, (UNIFORM, ADAPTIVE)),
-    ("Θ = 100°, random", {**WIDE, "sampling": "random"}, (UNIFORM, ADAPTIVE)),
-    ("Θ = 100°, until inside γ", {**WIDE, "weights-end": "inside"}, (UNIFORM, ADAPTIVE)),
-    ("Θ = 100°, gradation 0.1 and smoothed density", {**WIDE, **SMOOTH}, (ADAPTIVE,)),
-    ("Θ = 100°, centroids weighted by ρ", {**WIDE, **RHO}, (ADAPTIVE,)),
-    ("Θ = 100°, facets, gradation 0.1 and smoothed density", {**WIDE, **FACET, **SMOOTH},
-     (ADAPTIVE,)),
-    ("3 weight steps, Θ = 100°, gradation 0.1 and smoothed density", {**FEW, **WIDE, **SMOOTH},
-     (ADAPTIVE,)),
-    ("3 weight steps, Θ = 100°, facets, gradation 0.1 and smoothed density",
-     {**FEW, **WIDE, **FACET, **SMOOTH}, (ADAPTIVE,)),
+    ("Θ = 100°, until inside γ, smooth density", {**WIDE, **INSIDE, **SMOOTH}, (ADAPTIVE,)),
+    ("Θ = 100°, until inside γ, lattice, smooth density",
+     {**WIDE, **INSIDE, **LATTICE, **SMOOTH}, (ADAPTIVE,)),
+    ("Θ = 100°, until inside γ, no gradation", {**WIDE, **INSIDE, "gradation": 0}, (ADAPTIVE,)),
+    ("Θ = 100°, until inside γ, centroids by ρ", {**WIDE, **INSIDE, **RHO}, (ADAPTIVE,)),
+    ("Θ = 100°, smooth density", {**WIDE, **SMOOTH}, (ADAPTIVE,)),
 ]
 NO_WEIGHTS = {"weight-method": "none"}
 NO_OPTIMIZATION = {**NO_WEIGHTS, "relaxation-iterations": 0, "iterations": 0}
@@ -160,7 +182,7 @@ def printed_row(what, values):
 
     seconds = values.get("seconds")
     return ["paper", what, text("q_min", ".3f"), text("q_avg", ".3f"), text("theta_min", ".1f"),
-            text("above_90", ".3f"), "", "", "", "", "" if seconds is None else f"{seconds:.2f}", ""]
+            text("above_90", ".3f"), *[""] * 4, "" if seconds is None else f"{seconds:.2f}", ""]
 
 
 def row(what, reading, values, shortfall):
@@ -251,7 +273,7 @@ def main():
     if options.only:
         words += ["--only", *options.only]
     text = ["# Readings of the paper's algorithms\n", made_by(__file__, words) + "\n",
-            f"n = {SAMPLES}; means over {len(options.seeds)} seeds. `paper` rows: the printed "
+            f"n = {SAMPLES}; means over {len(options.seeds)} random seeds. `paper` rows: the printed "
             "numbers (T: on a GeForce RTX 2080 Ti); ? where they are not legible. Each reading "
             "differs from the base in what it names: "
             f"`{' '.join(f'{key} {value}' for key, value in BASE.items())}`. "

@@ -138,6 +138,27 @@ TEST_CASE("the paper's preset ends with every cell inside the interval")
     }
 }
 
+TEST_CASE("the paper's rule goes on until the samples rest")
+{
+  Remeshing_options options = Remeshing_options::paper_preset();
+  options.density = Density::uniform;
+  options.capacity_tolerance = 0.1;
+  const Remeshing_report inside = remesh(torus(), 300, options).report;
+  options.weights_end = Weights_end::rest;
+  const Remeshing_report rest = remesh(torus(), 300, options).report;
+  options.max_iterations = 1; // the last cells get their weights, too
+  const Remeshing_report last = remesh(torus(), 300, options).report;
+  for (const Remeshing_report& report : {inside, rest, last}) {
+    check_guarantees(report);
+    CHECK(report.capacity.inside_interval == 1);
+  }
+  CHECK(rest.outer_iterations > inside.outer_iterations);
+  CHECK(rest.outer_iterations < 110);
+  CHECK(rest.iterations.back().displacement < inside.iterations.back().displacement);
+  CHECK(rest.quality.q_avg > inside.quality.q_avg);
+  CHECK(last.outer_iterations == 11);
+}
+
 TEST_CASE("the paper's preset: weights that diverge begin anew")
 {
   Remeshing_options options = Remeshing_options::paper_preset();
