@@ -19,6 +19,7 @@ QUALITY = ("--preset", "quality")
 FLOOR = (*PAPER, "--weight-operator", "floor")
 SHORT = ("--iterations", "30")  # N_m where the paper prints no numbers: 100 take minutes
 NO_WEIGHTS = (*PAPER, "--weight-method", "none")
+NO_OPTIMIZATION = (*NO_WEIGHTS, "--relaxation-iterations", "0", "--iterations", "0")
 NO_NVISPC = (*PAPER, "--normal-angle", "180")
 DELAUNAY = ("--extraction", "restricted-delaunay")
 
@@ -26,6 +27,8 @@ WHY = {
     FLOOR: "α rounded down, as the paper prints it: cells park outside γ, so the run goes on to N_m "
            "and Lloyd's method makes the triangles better meanwhile",
     NO_WEIGHTS: "Lloyd's method alone for N_m iterations, from a better start (sample elimination)",
+    NO_OPTIMIZATION: "samples by elimination (Poisson disks) and no optimization; the paper's MPS "
+                     "is another program",
     QUALITY: "L-BFGS, Newton's method for the weights, improved triangles nearer to the surface",
 }
 
@@ -146,8 +149,9 @@ class Reproduction:
         missing = [m for m in names if not self.models.get(m)]
         table = Table("table_1", "Table 1 and Figure 12: uniform and adaptive remeshing", (
             "The paper's rows and ours on the same model. d_H: the paper's fits an RMS distance, "
-            "which ours is (two-sided, in % of the diagonal). RTF of the paper is another program; "
-            "ours is this one without weights." +
+            "which ours is (two-sided, in % of the diagonal). MPS and RTF of the paper are other "
+            "programs; ours are this one without optimization and without weights. RVC and D-RVC "
+            "are quoted only." +
             (f" Not to be had here: {', '.join(missing)}." if missing else "")))
         n = self.size["n"]
         models = [m for m in names if self.models.get(m)]
@@ -156,6 +160,7 @@ class Reproduction:
                 for method, values in paper.table_1(model, density):
                     table.add_paper(model, density, 3000, method, values)
                 if density == "uniform":
+                    self.run(table, model, density, n, "MPS (no optimization)", NO_OPTIMIZATION)
                     self.run(table, model, density, n, "RTF (no weights)", NO_WEIGHTS)
                 self.both_presets(table, model, density, n, picture=True, floor=True)
         return table

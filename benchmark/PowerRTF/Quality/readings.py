@@ -273,9 +273,9 @@ def main():
     if options.only:
         words += ["--only", *options.only]
     text = ["# Readings of the paper's algorithms\n", made_by(__file__, words) + "\n",
-            f"n = {SAMPLES}; means over {len(options.seeds)} random seeds. `paper` rows: the printed "
-            "numbers (T: on a GeForce RTX 2080 Ti); ? where they are not legible. Each reading "
-            "differs from the base in what it names: "
+            f"n = {SAMPLES}; means over {len(options.seeds)} random seeds. `paper` rows: the "
+            "printed numbers (T: on a GeForce RTX 2080 Ti); ? where they are not legible. Each "
+            "reading differs from the base in what it names: "
             f"`{' '.join(f'{key} {value}' for key, value in BASE.items())}`. "
             "misses by: how far the worst of Q<sub>min</sub>, Q<sub>avg</sub> and θ<sub>min</sub> "
             "stays below the printed one, in units of 3 % and 2°: up to 1.0 is within. all inside "
