@@ -81,8 +81,10 @@ COMBINED = [
     ("Θ = 100°, until inside γ, lattice", {**WIDE, **INSIDE, **LATTICE}, (UNIFORM, ADAPTIVE)),
     ("Θ = 180°, until inside γ, lattice", {**INSIDE, **LATTICE, "normal-angle": 180},
      (UNIFORM, ADAPTIVE)),
-    ("Θ = 100°, until inside γ, lattice, 50 relaxation steps",
-     {**WIDE, **INSIDE, **LATTICE, "relaxation-iterations": 50}, (UNIFORM, ADAPTIVE)),
+    ("until inside γ, lattice", {**INSIDE, **LATTICE}, (UNIFORM, ADAPTIVE)),
+    *((f"Θ = 100°, until inside γ, lattice, {steps} relaxation steps",
+       {**WIDE, **INSIDE, **LATTICE, "relaxation-iterations": steps}, (UNIFORM, ADAPTIVE))
+      for steps in (30, 50, 100)),
     ("Θ = 100°, until inside γ, 50 relaxation steps",
      {**WIDE, **INSIDE, "relaxation-iterations": 50}, (UNIFORM, ADAPTIVE)),
     ("Θ = 100°, until inside γ, 100 relaxation steps",
