@@ -69,7 +69,8 @@ struct Distance_statistics {
   double rms = 0, mean = 0;
   double max = 0;                 ///< over all vertices and many other points of both
   double farthest[3] = {0, 0, 0}; ///< the point of one of them where it is, in its coordinates
-  /// An upper bound for all points of both, at most 1 % above the largest distance; 0: not wanted.
+  /// An upper bound for all points of both, at most 1 % above the largest distance but where that
+  /// would take too long; 0: not wanted.
   double bound = 0;
 };
 

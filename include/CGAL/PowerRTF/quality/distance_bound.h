@@ -193,7 +193,7 @@ private:
 };
 
 /// An upper bound of the distances of all points of the surface of `from` from that of `to`, at
-/// most 1 % above the largest, but for rounding, where no facet takes too much work for that.
+/// most 1 % above the largest, but for rounding and where a facet would take too much work.
 /// `known`: the distance of some point.
 inline double distance_bound(const Facet_tree& from, const Facet_tree& to, double known,
                              Concurrency concurrency)
