@@ -97,7 +97,7 @@ private:
     const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
     constexpr double most = 1e9; // more than memory holds
     return static_cast<std::size_t>(
-        std::clamp(std::floor(m_sums[c].back() / spacing + 0.5), least, most));
+        (std::min)(most, (std::max)(least, std::floor(m_sums[c].back() / spacing + 0.5))));
   }
 
   /// The place on curve `c` with the given share of its weighted length before it.
