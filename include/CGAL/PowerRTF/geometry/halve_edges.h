@@ -13,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -88,20 +87,25 @@ inline std::vector<std::pair<Edge, int>> crowded_halfedges(const Surface& surfac
   return result;
 }
 
-/// What is left of `halfedges` when each edge has one only; `crowded`: `crowded_halfedges()`.
+/// The first of `crowded`, which are `crowded_halfedges()`, that is not before those of an edge.
+inline auto first_at(const std::vector<std::pair<Edge, int>>& crowded, const Edge& edge)
+{
+  return std::lower_bound(crowded.begin(), crowded.end(), std::make_pair(edge, -1));
+}
+
+/// One of `halfedges` for each edge.
 inline std::vector<int> one_by_edge(const Surface& surface,
                                     const std::vector<std::pair<Edge, int>>& crowded,
                                     std::vector<int> halfedges)
 {
   if (crowded.empty()) return halfedges;
-  std::set<Edge> seen;
-  const auto is_seen = [&](int h) {
-    return surface.adjacency.opposite[h] == Facet_adjacency::none &&
-           !seen.insert(sorted_edge(halfedge_source(surface.triangles, h),
-                                    halfedge_target(surface.triangles, h)))
-                .second;
-  };
-  halfedges.erase(std::remove_if(halfedges.begin(), halfedges.end(), is_seen), halfedges.end());
+  for (int& h : halfedges) {
+    const Edge edge =
+        sorted_edge(halfedge_source(surface.triangles, h), halfedge_target(surface.triangles, h));
+    const auto first = first_at(crowded, edge);
+    if (first != crowded.end() && first->first == edge) h = first->second;
+  }
+  sort_uniquely(halfedges);
   return halfedges;
 }
 
@@ -137,7 +141,7 @@ inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& given,
     middles[h] = middle;
     if (o != Facet_adjacency::none) middles[o] = middle;
     const Edge edge = sorted_edge(a, b);
-    for (auto other = std::lower_bound(crowded.begin(), crowded.end(), std::make_pair(edge, -1));
+    for (auto other = internal::first_at(crowded, edge);
          other != crowded.end() && other->first == edge; ++other)
       middles[other->second] = middle;
     surface.points[middle] = (surface.points[a] + surface.points[b]) * 0.5;
