@@ -31,7 +31,8 @@ public:
     if (!labels || labels->values.empty()) return;
     const double least = *std::min_element(labels->values.begin(), labels->values.end());
     if (least < 1) m_shift = 1 - std::llround(least);
-    for (std::size_t f = 0; f < labels->values.size(); ++f) m_names.emplace(of(f), name_of(f));
+    for (std::size_t f = 0; f < labels->values.size(); ++f)
+      if (std::string& name = m_names[of(f)]; name.empty()) name = name_of(f);
   }
 
   /// That of triangle `f`, at least 1.

@@ -222,6 +222,10 @@ TEST_CASE("MSH: the first labels of faces are physical groups, all properties ar
   for (const char* const name : {"red", "share", "side", "patch"})
     CHECK(has("$ElementData\n1\n\"" + std::string(name) + "\"\n"));
 
+  properties.faces = {{"patch", Number_type::int32, {0, 1, 0}}}; // 0 would be none
+  CHECK(has("$PhysicalNames\n2\n2 1 \"patch 0\"\n2 2 \"patch 1\"\n$EndPhysicalNames"));
+  CHECK(has("\n2 2 2 2 2" + corners(1) + "\n3 2 2 1 1" + corners(2) + "\n"));
+
   properties.faces = {{"material", Number_type::int32, {1, 0, 1}, {"oak \"old\"", "glass"}}};
   CHECK(has("2 1 \"oak 'old'\"\n2 2 \"glass\"\n"));
   CHECK(has("\n1 2 2 2 2" + corners(0) + "\n"));
