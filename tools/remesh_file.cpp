@@ -21,6 +21,7 @@
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <algorithm>
+#include <future>
 #include <limits>
 #include <list>
 #include <optional>

@@ -118,7 +118,7 @@ std::vector<Cuda_device> cuda_devices()
 
 std::future<void> start_cuda_device(int device)
 {
-  return std::async(std::launch::async, [device] {
+  return std::async([device] { // without a thread to be had: not ahead
     try {
       device::Device_context::of(device);
     } catch (const Cuda_error&) { // told to who uses it

@@ -39,7 +39,8 @@ std::vector<Cuda_device> cuda_devices();
 
 /// \ingroup PkgPowerRTFTraits
 /// Begins to start a GPU, which takes a process some .2 seconds the first time, in a thread that
-/// the result waits for. Who uses the GPU meanwhile waits, too, and is told of its failures.
+/// the result waits for, if the system gives one. Who uses the GPU meanwhile waits, too, and is
+/// told of its failures.
 std::future<void> start_cuda_device(int device = 0);
 
 /// \ingroup PkgPowerRTFTraits
