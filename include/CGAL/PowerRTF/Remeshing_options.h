@@ -30,7 +30,7 @@ enum class Position_method { lbfgs, lloyd };
 /// None (RTF), the paper's rule, or Newton's method.
 enum class Weight_method { none, multiplicative, newton };
 /// When the paper's rule ends the run: once it has brought all capacities inside the interval, or
-/// when they still are after the samples have moved, which so are at rest.
+/// once they are inside even after the samples have moved, which then are at rest.
 enum class Weights_end { inside, rest };
 /// Rounding of \f$\alpha\f$ in the paper's rule; `floor`: as printed.
 enum class Weight_operator { ceiling, floor };
