@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -59,6 +60,9 @@ TEST_CASE("phasors are those of the library, counted numbers are uniform")
     CHECK(distance_of(phasor_at(turns), exact) < 5e-5);
     CHECK(std::abs(std::remainder(turns_of(exact) - turns, 1.f)) < 1e-6);
   }
+  for (const float turns : {4e6f, 5e10f, -5e10f, std::numeric_limits<float>::infinity(),
+                            std::numeric_limits<float>::quiet_NaN()})
+    CHECK(distance_of(phasor_at(turns), Phasor{1, 0}) == 0);
   std::vector<int> counts(64, 0);
   for (int i = 0; i < 64000; ++i) ++counts[int(64 * counted_random(7, i, i % 3))];
   double chi_2 = 0;

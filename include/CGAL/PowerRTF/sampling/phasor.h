@@ -46,10 +46,13 @@ CGAL_POWER_RTF_HD inline float nearest_integer(float x)
   return (x + ones) - ones;
 }
 
-/// The phasor of a full turn times `turns`, up to 3e-5. (Taylor's series within a quarter: much
-/// faster than the library's functions, and the same on every machine.)
+/// The phasor of a full turn times `turns`, up to 3e-5; 1 for 2^21 turns and more, whose fractions
+/// a float does not have. (Taylor's series within a quarter: much faster than the library's
+/// functions, and the same on every machine.)
 CGAL_POWER_RTF_HD inline Phasor phasor_at(float turns)
 {
+  constexpr float most = 1 << 21;
+  turns = turns > -most && turns < most ? turns : 0;
   const float half_turns = nearest_integer(2 * turns);
   const float a = 6.28318531f * (turns - 0.5f * half_turns), a_2 = a * a;
   constexpr float by_6 = 1 / 6.f, by_20 = 1 / 20.f, by_42 = 1 / 42.f, by_72 = 1 / 72.f;
