@@ -369,7 +369,7 @@ TEST_CASE("neither the first radius nor the order of the sites changes a cell")
     const std::vector<Cell> expected = cells_of(sites, cos_angle);
     std::vector<int> order(sites.size());
     std::iota(order.begin(), order.end(), 0);
-    for (double radius : {1e-4, 0.01, 0.1, 1., 5.}) {
+    for (double radius : {0., 1e-4, 0.01, 0.1, 1., 5.}) {
       CAPTURE(radius);
       const std::vector<Cell> cells = cells_of(sites, cos_angle, radius, order);
       for (int i = 0; i < sites.size(); ++i) {

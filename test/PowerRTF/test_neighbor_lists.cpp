@@ -49,8 +49,8 @@ void check(Tree& tree, const Cloud& cloud, double h)
   const Cell_comparison d = compare(other, cloud);
   CHECK(c.cells == cloud.size());
   CHECK(c.worst_edge <= 1);
-  CHECK(c.certified_wrong == d.certified_wrong); // six that coincide leave no guard radius
-  CHECK(c.certified_wrong < 2);
+  CHECK(c.certified_wrong == 0);
+  CHECK(d.certified_wrong == 0);
 }
 
 } // namespace

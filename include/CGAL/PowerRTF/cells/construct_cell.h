@@ -250,13 +250,15 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
         radius = smallest = smaller;
         continue;
       }
-      // The 6th neighbor is no nearer than the nearest one.
-      const bool is_small = r2 <= f * f * clipper.squared_nearest();
-      if (!is_small && r2 > guard_radius() * guard_radius()) break;
+      // The 6th neighbor is no nearer than the nearest one. Where seven sites coincide no cell has
+      // room, not even one without extent.
+      const FT nearest2 = clipper.squared_nearest();
+      const bool is_small = nearest2 > 0 && r2 <= f * f * nearest2;
+      if (!is_small && !(guard_radius() > 0 && r2 <= guard_radius() * guard_radius())) break;
       bool certain = false;
       if constexpr (Filtered)
         certain = clipper.is_certain() &&
-                  (is_small ? r2 <= f * f * clipper.squared_nearest() * (1 - FT(1e-9))
+                  (is_small ? r2 <= f * f * nearest2 * (1 - FT(1e-9))
                             : r2 <= guard_radius() * guard_radius() * (1 - FT(1e-9)));
       return deliver(Cell_status::ok, clipper, certain);
     }
@@ -264,7 +266,8 @@ CGAL_POWER_RTF_HD inline void construct_cell(const Sites_view<FT>& view, int i, 
       if (polygon.size == 0) return deliver(Cell_status::empty, clipper, false);
       break;
     }
-    radius = 2 * radius < guard_radius() ? 2 * radius : guard_radius();
+    // (Doubled, a radius of 0, which a cell without extent has left, would stay so.)
+    radius = radius > 0 && 2 * radius < guard_radius() ? 2 * radius : guard_radius();
   }
 
   construct_guarded_cell<Filtered>(view, i, guard_radius(), candidates, deliver);
