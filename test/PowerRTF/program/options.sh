@@ -133,7 +133,7 @@ for word in --samples --density --density-power --gradation --sampling --oversam
   --normal-angle --position-method --iterations --lbfgs-memory --projection --projection-neighbors \
   --centroid-density-power --weight-method --capacity-tolerance --max-weight-iterations \
   --weight-step --weight-operator --extraction --preset --traits --seed --threads --report --cells \
-  --samples-out --fields --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 60' \
+  --samples-out --fields --check --check-every --certified-combinatorics --no-mesh --ascii --quiet 'paper: 100' \
   '{above 0, at most 180}' '{from 1 to 32}' '[gamma]' '[Theta]' '[N_m^w]' 'Exit codes'; do
   expect "--help shows $word" grep -qF -- "$word" stdout
 done
@@ -181,7 +181,7 @@ accept '"preset": "quality"'
 accept '"preset": "fast"' --preset fast
 accept '"weight-method": "none"' --preset fast
 accept '"preset": "paper"' --preset paper
-accept '"normal-angle": 60.0' --preset paper
+accept '"normal-angle": 100.0' --preset paper
 accept '"normal-angle": 75.0' --preset paper --normal-angle 75
 accept '"normal-angle": 75.0' --normal-angle 75 --preset paper
 accept '"weight-method": "multiplicative"' --preset paper
