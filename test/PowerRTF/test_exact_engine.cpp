@@ -128,7 +128,7 @@ TEST_CASE("creases, borders and several components")
 TEST_CASE("the comparison sees what is wrong")
 {
   double cos_angle;
-  const auto some = some_cells(cos_angle); // (clang's lambdas capture no structured bindings)
+  const auto some = some_cells(cos_angle);
   const auto& samples = some.first;
   const auto& cells = some.second;
   const auto check = [&](const std::vector<Cell_polygon>& c) {

@@ -123,14 +123,16 @@ TEST_CASE("the judge reads what is written, to the last bit")
 TEST_CASE("thin shapes without self-intersections get none")
 {
   const judged_run::Scratch_folder folder;
-  for (const auto& [name, samples] :
+  for (const auto& wanted :
        {std::pair<std::string, std::size_t>{"tetrahedron_drawn_out_askew", 300},
         {"icosahedron_drawn_out_1024", 300},
         {"needle_1_to_1e4", 1000}}) {
+    const std::string& name = wanted.first;
+    const std::size_t samples = wanted.second;
     CAPTURE(name);
     const auto all = shapes::hard_shapes();
-    const auto shape = std::find_if(
-        all.begin(), all.end(), [&, &wanted = name](const auto& s) { return s.first == wanted; });
+    const auto shape =
+        std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.first == name; });
     REQUIRE(shape != all.end());
     const judged_run::Run run = judged_run::run(folder, name, shape->second, {samples});
     CHECK(judged_run::failure(run) == "");

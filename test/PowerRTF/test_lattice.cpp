@@ -147,7 +147,9 @@ TEST_CASE("a flat piece gets one lattice, whatever it begins from")
     nodes.resize(count, 0);
     for (int i = 0; i < count; ++i) {
       const auto [f, w] = strata.place(i, count, 0);
-      const auto corner = [&](int k) { return surface.points[surface.triangles[f][k]]; };
+      const auto corner = [&, facet = f](int k) {
+        return surface.points[surface.triangles[facet][k]];
+      };
       nodes.points[i] = to_real<float>(w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2));
       nodes.normals[i] = {0, 0, 1};
       nodes.components[i] = 0;
