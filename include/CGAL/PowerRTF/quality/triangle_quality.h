@@ -8,6 +8,7 @@
 #define CGAL_POWER_RTF_QUALITY_TRIANGLE_QUALITY_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/vertex_corners.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 
