@@ -1,6 +1,6 @@
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stub says what the package has: the same names, parameters and defaults."""
+"""The stubs say what the package has: the same names, parameters and defaults."""
 import ast
 import inspect
 from pathlib import Path
@@ -8,37 +8,46 @@ from pathlib import Path
 import pytest
 
 import powerrtf
+import powerrtf.dataset
 
-STUB = ast.parse((Path(powerrtf.__file__).parent / "__init__.pyi").read_text())
-CLASSES = {n.name: n for n in STUB.body if isinstance(n, ast.ClassDef)}
-FUNCTIONS = {n.name: n for n in STUB.body if isinstance(n, ast.FunctionDef)}
+MODULES = (powerrtf, powerrtf.dataset)
+
+
+def stubs(module, kind):
+    tree = ast.parse(Path(module.__file__).with_suffix(".pyi").read_text())
+    return {n.name: n for n in tree.body if isinstance(n, kind)}
+
+
+def public(kind):
+    return [pytest.param(getattr(module, name), stub, id=name)
+            for module in MODULES for name, stub in stubs(module, kind).items()]
 
 
 def check_signature(stub, function):
-    arguments = stub.args.args + stub.args.kwonlyargs
+    arguments = stub.args.posonlyargs + stub.args.args + stub.args.kwonlyargs
     parameters = [p for p in inspect.signature(function).parameters.values()
-                  if p.kind != p.VAR_KEYWORD]
+                  if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
     assert [a.arg for a in arguments] == [p.name for p in parameters]
     defaults = [d for d in stub.args.defaults + stub.args.kw_defaults if d]
     assert [ast.literal_eval(d) for d in defaults] == \
         [p.default for p in parameters if p.default is not p.empty]
 
 
-def test_stub_has_the_public_names():
-    assert sorted([*CLASSES, *FUNCTIONS]) == sorted(powerrtf.__all__)
+@pytest.mark.parametrize("module", MODULES)
+def test_stub_has_the_public_names(module):
+    assert sorted(stubs(module, (ast.ClassDef, ast.FunctionDef))) == sorted(module.__all__)
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_stub_has_the_signature_of_the_function(name):
-    check_signature(FUNCTIONS[name], getattr(powerrtf, name))
+@pytest.mark.parametrize("function, stub", public(ast.FunctionDef))
+def test_stub_has_the_signature_of_the_function(function, stub):
+    check_signature(stub, function)
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_stub_has_the_methods_of_the_class(name):
-    found = getattr(powerrtf, name)
-    stubs = {n.name: n for n in CLASSES[name].body if isinstance(n, ast.FunctionDef)}
+@pytest.mark.parametrize("found, stub", public(ast.ClassDef))
+def test_stub_has_the_methods_of_the_class(found, stub):
+    methods = {n.name: n for n in stub.body if isinstance(n, ast.FunctionDef)}
     own = {m for m in vars(found) if not m.startswith("_") and hasattr(found, m)}
-    assert own == {m for m in stubs if not m.startswith("_")}
-    for method, stub in stubs.items():
-        if not isinstance(getattr(found, method), property):
-            check_signature(stub, getattr(found, method))
+    assert own == {m for m in methods if not m.startswith("_")}
+    for name, method in methods.items():
+        if not isinstance(getattr(found, name), property):
+            check_signature(method, getattr(found, name))
