@@ -14,8 +14,10 @@ import pytest
 from shapes import sphere
 
 pyarrow = pytest.importorskip("pyarrow")
+import pyarrow.parquet  # noqa: E402
 from powerrtf import OutputError  # noqa: E402
 from powerrtf.dataset import RayExecutor, plot_summary, remesh_dataset, write_manifest  # noqa: E402
+from powerrtf.dataset._executors import for_each  # noqa: E402
 
 N = 60
 # Python reads this file at its start. The meshes' processes, and no others, limit their memory: after
@@ -249,6 +251,18 @@ def test_an_output_that_cannot_be_written_ends_the_run(small, tmp_path):
     run = subprocess.run(command(small, tmp_path / "out", "--format", "xyz"), capture_output=True, text=True)
     assert run.returncode == 1 and "cannot be written: its name does not end in" in run.stderr
     assert rows_so_far(tmp_path / "out") == []
+
+
+def test_an_error_cancels_the_calls_that_have_not_begun():
+    begun = []
+
+    def call(i):
+        begun.append(i)
+        time.sleep(0.01)
+        return 1 // (3 - i)
+    with ThreadPoolExecutor(1) as pool, pytest.raises(ZeroDivisionError):
+        for_each(pool, call, {i: (i,) for i in range(1000)}, lambda name, result: None)
+    assert 3 < len(begun) < 500
 
 
 def test_the_package_does_without_pyarrow_and_says_what_needs_it(small):

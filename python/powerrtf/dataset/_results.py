@@ -25,7 +25,7 @@ def _schema():
 def _to_table(rows):
     """What a row lacks is null."""
     schema = _schema()
-    return arrow().table({name: [row.get(name) for row in rows] for name in schema.names}, schema)
+    return arrow().table({name: [row.get(name) for row in rows] for name in schema.names}, schema=schema)
 
 
 def _given(entry):
