@@ -4,3 +4,5 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))  # shapes
+
+collect_ignore = ["faults"]  # of processes that the tests start

@@ -20,20 +20,7 @@ from powerrtf.dataset import RayExecutor, plot_summary, remesh_dataset, write_ma
 from powerrtf.dataset._executors import for_each  # noqa: E402
 
 N = 60
-# Python reads this file at its start. The meshes' processes, and no others, limit their memory: after
-# that, some of them crash, hang or take more.
-FAULTS = '''
-import os, resource, signal, sys, time
-set_limit = resource.setrlimit
-def set_limit_and_fail(which, limits):
-    set_limit(which, limits)
-    if which == resource.RLIMIT_AS:
-        name = os.path.basename(sys.argv[3])
-        if name == "crash.off": os.kill(os.getpid(), signal.SIGSEGV)
-        if name == "hang.off": time.sleep(1000)
-        if name == "hog.off": bytearray(limits[0])
-resource.setrlimit = set_limit_and_fail
-'''
+FAULTS = Path(__file__).with_name("faults")
 
 
 def write_ellipsoid(file, height):
@@ -61,11 +48,9 @@ def rows_so_far(out):
 
 
 @pytest.fixture(scope="module", autouse=True)
-def faults(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("faults")
-    (folder / "sitecustomize.py").write_text(FAULTS)
+def faults():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(folder), prepend=os.pathsep)
+        patch.setenv("PYTHONPATH", str(FAULTS), prepend=os.pathsep)
         yield
 
 
