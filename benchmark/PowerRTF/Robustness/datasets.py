@@ -163,7 +163,8 @@ def main():
                      "meshes a second"], table)
     shown = ["--meshes", str(options.meshes), "--samples", str(options.samples),
              "--executors", *options.executors]
-    (results / "datasets.md").write_text(f"{text}\n{statuses}. {made_by(__file__, shown)}\n", encoding="utf-8")
+    (results / "datasets.md").write_text(f"{text}\n{statuses}. {made_by(__file__, shown)}\n",
+                                         encoding="utf-8")
     print(text, statuses, *wrong, sep="\n")
     return 1 if wrong else 0
 
