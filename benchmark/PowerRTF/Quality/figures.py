@@ -200,8 +200,6 @@ class Reproduction:
         for n in self.size["figure_11"]:
             for gamma in self.size["tolerances"]:
                 options = (*PAPER, "--capacity-tolerance", str(gamma))
-                if gamma in paper.FIGURE_11_ITERATIONS and not self.quick:
-                    options += ("--iterations", str(paper.FIGURE_11_ITERATIONS[gamma]))
                 self.run(table, model, "curvature", n, f"γ = {100 * gamma:.0f} %", options,
                          n == self.size["figure_11"][0] and gamma in (0.02, 0.10), differs,
                          gamma=gamma)

@@ -49,7 +49,6 @@ TABLE_2 = [
 # Section 5.2 on Figures 10 and 11 (Fertility): the settings, and what it says of the plots
 FIGURE_11_TOLERANCES = (0.02, 0.04, 0.06, 0.08, 0.10)
 FIGURE_11_SAMPLES = (3000, 6000, 9000)
-FIGURE_11_ITERATIONS = {0.02: 200}  # N_m; 100 otherwise
 FIGURE_11_CLAIM = ("The paper plots these without printing numbers, and says: a small γ gives "
                    "better triangles (Q_min, θ_min) at the price of more iterations and time; so "
                    "does a larger n, with a few slender triangles.")
