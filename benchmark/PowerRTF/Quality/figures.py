@@ -17,7 +17,7 @@ SIZES = {"full": {"n": 3000, "elk": 6000, "large": 30000, "large_adaptive": 1000
 PAPER = ("--preset", "paper")
 QUALITY = ("--preset", "quality")
 FLOOR = (*PAPER, "--weight-operator", "floor")
-SHORT = ("--iterations", "30")  # N_m where the paper prints no numbers: 100 take minutes
+SHORT = ("--iterations", "30")  # N_m where the paper prints no numbers: 200 take minutes
 NO_WEIGHTS = (*PAPER, "--weight-method", "none", "--relaxation-iterations", "0")
 NO_OPTIMIZATION = (*NO_WEIGHTS, "--iterations", "0")
 NO_NVISPC = (*PAPER, "--normal-angle", "180")
@@ -39,10 +39,10 @@ def why(options, r, samples):
         return WHY[QUALITY]
     parts = [WHY[options]] if options in WHY else []
     if options[:2] == PAPER and options not in WHY:
-        parts.append("Θ = 100° for 60°, 100 iterations without weights for ten, and α rounded up (see "
-                     "readings.md)" + ("" if r["inside"] == 1 else
-                                       "; not all cells come inside γ, so all N_m iterations are "
-                                       "made"))
+        angle = "" if "--normal-angle" in options else "Θ = 100° for 60°, "
+        parts.append(f"{angle}100 iterations without weights for ten, α rounded up (see readings.md)")
+        if r["inside"] < 1:
+            parts.append("not all cells come inside γ, so all N_m iterations are made")
         if DELAUNAY[1] in options:
             parts.append("extracted the paper's way; dual edges reach the other sheet of a thin "
                          "part")
