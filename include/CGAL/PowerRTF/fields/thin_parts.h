@@ -121,13 +121,14 @@ private:
   const std::vector<double>& m_thickness; // by facet
 };
 
-/// The edges, by a halfedge of each, that are more than twice as long as the lengths at a facet,
-/// and this is where the spacing is too large, or where its corners differ by more than 30 %.
+/// The edges, by a halfedge of each, that are longer than 0.7 times the lengths at a facet, where
+/// the spacing is too large, or where its corners differ by more than 20 %. The density is linear
+/// on facets: lengths grow too steeply near the far end of a facet that is too large.
 inline std::vector<int> edges_to_halve(const Surface& surface, const Thin_spacing& spacing,
                                        double floor, const std::vector<double>& lengths,
                                        Concurrency concurrency)
 {
-  constexpr double similar = 1.3, longest_edge = 2;
+  constexpr double similar = 1.2, longest_edge = 0.7;
   const std::vector<int>& opposite = surface.adjacency.opposite;
   const auto is_long_for = [&](double l, int f) {
     const auto [a, b, c] = surface.triangles[f];
