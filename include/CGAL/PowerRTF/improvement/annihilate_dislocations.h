@@ -111,7 +111,8 @@ private:
       if (excess(mesh.source(h)) != 1) continue;
       for (const bool to_left : {true, false}) {
         std::vector<Edge> flips = find_meeting(mesh.opposite(h), length, to_left);
-        if (!flips.empty()) meetings.push_back(std::move(flips));
+        if (!flips.empty() && std::find(meetings.begin(), meetings.end(), flips) == meetings.end())
+          meetings.push_back(std::move(flips));
       }
     }
     return meetings;
@@ -187,6 +188,7 @@ private:
   {
     const std::vector<Vertex> near = vertices_near(flips);
     const auto faces = m.working().faces_at(near);
+    if (!lie_well(faces)) return false; // nor will they
     std::vector<Surface_projector::Place> places;
     for (const Vertex v : near) places.push_back(m.place(v));
     const double before = energy(faces);
@@ -201,11 +203,25 @@ private:
       const std::vector<Vertex> around = vertices_near({e}, 1);
       for (int round = 0; round < Parameters::rounds_per_flip; ++round) m_smoother.sweep(around);
     }
-    for (int round = 0; round < Parameters::rounds; ++round) m_smoother.sweep(near);
-    if (energy(faces) < clearly_less * before && lie_well(faces)) return true;
+    if (relax_below(clearly_less * before, near, faces) && lie_well(faces)) return true;
     undo(flips);
     restore(near, places);
     return false;
+  }
+
+  // Moves vertices. False as soon as it is clear that the faces' energy will not fall below
+  // `limit`.
+  template <class Faces>
+  bool relax_below(double limit, const std::vector<Vertex>& vertices, const Faces& faces)
+  {
+    double now = energy(faces);
+    for (int round = 0; round < Parameters::rounds; ++round) {
+      m_smoother.sweep(vertices);
+      const double gain = now - energy(faces);
+      now -= gain;
+      if (now - limit > Parameters::gains_to_come * gain) return false;
+    }
+    return now < limit;
   }
 
   void restore(const std::vector<Vertex>& vertices,
