@@ -64,7 +64,7 @@ struct Improvement_parameters {
   struct Dislocations {
     static constexpr int max_glide = 6;         ///< edges
     static constexpr int irregular_degree = 10; ///< of vertices that take no part
-    static constexpr int rings = 3;             ///< around the flips, of vertices that move
+    static constexpr int rings = 4;             ///< around the flips, of vertices that move
     static constexpr int rounds_per_flip = 2, rounds = 5; ///< of their moves
     /// All that the rounds to come gain, at most, in the gain of the last one.
     static constexpr double gains_to_come = 2;
