@@ -83,7 +83,7 @@ private:
   };
 
   static constexpr int max_rounds = 6;
-  static constexpr double first_reach = 2, growth = 1.6; // of a piece, in units of the spacing
+  static constexpr double first_reach = 1.5, growth = 1.6; // of a piece, in units of the spacing
   static constexpr double max_cover = 4; // of the surface, by pieces before they are joined
   static constexpr double pi = 3.14159265358979323846;
   static constexpr double worst_agreement = 0.1, fold = -0.7; // cosines; see `Edge_flipper`
