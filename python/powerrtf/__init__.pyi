@@ -37,7 +37,7 @@ class Cells:
 class Mesh:
     vertices: Any
     faces: Any
-    labels: NDArray[np.int32] | None
+    labels: Any
     patches: NDArray[np.int32] | None
     report: Report
     def __iter__(self) -> Iterator[Any]: ...

@@ -53,8 +53,8 @@ class Mesh:
     """The result of a run: triangles. Unpacks as ``vertices, faces = mesh``.
 
     Attributes: ``vertices`` (n, 3) and ``faces`` (m, 3), counter-clockwise seen from outside, arrays of
-    the input's kind; ``labels`` of the faces, where the input has some, and ``patches``, where they are
-    wanted, or None; and ``report``, the :class:`Report`. Can be pickled.
+    the input's kind; ``labels`` of the faces, of the kind and type of those given, and ``patches``, where
+    they are wanted, or None; and ``report``, the :class:`Report`. Can be pickled.
 
     >>> import powerrtf
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
@@ -66,15 +66,15 @@ class Mesh:
     (100, 166, 1)
     """
 
-    def __init__(self, vertices, faces, labels, patches, report, sites, given):
+    def __init__(self, vertices, faces, patches, report, sites, sources, given):
         self.vertices = vertices
         self.faces = faces
-        self.labels = labels
+        self.labels = None
         self.patches = patches
         self.report = report
         self._sites = sites
         self._given = given
-        self._found_sources = None
+        self._found_sources = sources and Sources(sources, given)
 
     def __iter__(self):
         return iter((self.vertices, self.faces))
@@ -103,7 +103,8 @@ class Mesh:
     @property
     def _sources(self):
         if self._found_sources is None:
-            self._found_sources = Sources(self._given, self._arrays(), self._sites)
+            found = _core.sources(*self._given[:3], *self._arrays(), self._sites)
+            self._found_sources = Sources(found, self._given)
         return self._found_sources
 
     @property

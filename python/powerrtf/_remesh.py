@@ -79,11 +79,14 @@ def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels,
     given = (vertices, corners, sizes, fields, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
-        points, triangles, report, sites, *numbers = _core.remesh(*given, traits, threads, show)
+        points, triangles, report, sites, numbers, sources = _core.remesh(*given, traits, threads, show)
     finally:
         close()
-    labels, patches = (n if asked else None for n, asked in zip(numbers, (labels is not None, patches)))
-    return Mesh(points, triangles, labels, patches, Report(json.loads(report)), sites, given)
+    mesh = Mesh(points, triangles, numbers if patches else None, Report(json.loads(report)), sites, sources,
+                given)
+    if labels is not None:
+        mesh.labels = mesh.transfer(labels, of="faces")
+    return mesh
 
 
 def _warn(mesh):

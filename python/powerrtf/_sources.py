@@ -4,7 +4,6 @@
 
 import numpy as np
 
-from . import _core
 from ._core import InvalidInputError
 from ._input import like, to_host
 
@@ -14,10 +13,9 @@ class Sources:
     barycentric coordinates in that; the input's face that each face's center lies on; and how many
     vertices and faces the input has."""
 
-    def __init__(self, given, mesh, sites):
+    def __init__(self, found, given):
+        self.face, self.vertices, self.weights, self.of_faces = found
         points, corners, sizes, *_ = given
-        self.face, self.vertices, self.weights, self.of_faces = _core.sources(
-            points, corners, sizes, *mesh, sites)
         self.counts = {"vertices": len(points), "faces": len(corners if sizes is None else sizes)}
 
     def transfer(self, values, of):

@@ -85,8 +85,8 @@ Input input_of(const Real_array& points, const Index_array& faces,
 
 struct Result {
   Extracted_mesh mesh;
-  std::vector<int> labels;  ///< of its triangles, where the input has some
-  std::vector<int> patches; ///< of its triangles, where they are wanted
+  std::optional<Sources> sources; ///< of it, where the input has labels
+  std::vector<int> patches;       ///< of its triangles, where they are wanted
   Placed_sites sites;
 };
 
@@ -103,12 +103,10 @@ Result remesh_with(tools::Run& run, const Input& input, Surface surface, Python_
     result.sites = sites_of(remesher);
   }
   run.report = remesher.report();
-  if (!input.fields.labels.empty() && !run.report.cancelled) {
-    const Sources sources =
+  if (!input.fields.labels.empty() && !run.report.cancelled)
+    result.sources =
         find_sources(input.soup, remesher.surface().normalization, run.report.faces_as_input(),
                      result.mesh.points, result.mesh.triangles, tools::Concurrency());
-    result.labels = values_at(input.fields.labels, sources.faces);
-  }
   if (input.wants_patches) result.patches = remesher.patches(result.mesh);
   for (Vec3d& p : result.mesh.points) p = remesher.surface().normalization.to_outside(p);
   return result;
@@ -196,8 +194,9 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   nb::object vertices = is_single ? to_array<float>(std::move(result.mesh.points))
                                   : to_array<double>(std::move(result.mesh.points));
   return nb::make_tuple(vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
-                        to_python(std::move(result.sites)), to_array<int>(std::move(result.labels)),
-                        to_array<int>(std::move(result.patches)));
+                        to_python(std::move(result.sites)),
+                        to_array<int>(std::move(result.patches)),
+                        result.sources ? nb::object(to_python(*result.sources)) : nb::none());
 }
 
 /// The page of a run, of what went in and what came out.

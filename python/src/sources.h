@@ -17,10 +17,25 @@ namespace powerrtf {
 /// The face that each vertex of a result lies on, the corners of a triangle of that face and the
 /// weights of these; and the face that the center of each face lies on. Faces and vertices have the
 /// numbers of the input's.
+inline nb::tuple to_python(const CGAL::PowerRTF::Sources& sources)
+{
+  std::vector<int> of_vertices, of_faces;
+  std::vector<CGAL::PowerRTF::Triangle> corners;
+  std::vector<Vec3d> weights;
+  for (const CGAL::PowerRTF::Source& s : sources.vertices) {
+    of_vertices.push_back(s.face);
+    corners.push_back(s.vertices);
+    weights.push_back({s.weights[0], s.weights[1], s.weights[2]});
+  }
+  for (const CGAL::PowerRTF::Source& s : sources.faces) of_faces.push_back(s.face);
+  return nb::make_tuple(to_array<int>(std::move(of_vertices)), to_array<int>(std::move(corners)),
+                        to_array<double>(std::move(weights)), to_array<int>(std::move(of_faces)));
+}
+
+/// The sources of a result.
 ///
 /// \param sites of the run: they tell the way into the unit box, and whether the surface faces as
-/// the
-///   input does
+///   the input does
 template <class Concurrency>
 nb::tuple sources(const Real_array& points, const Index_array& faces,
                   const std::optional<Index_array>& sizes, const Real_array& vertices,
@@ -29,25 +44,15 @@ nb::tuple sources(const Real_array& points, const Index_array& faces,
   using namespace CGAL::PowerRTF;
   const Normalization normalization = normalization_from_python(sites);
   const bool faces_as_input = nb::cast<bool>(sites["faces_as_input"]);
-  std::vector<int> of_vertices, of_faces;
-  std::vector<Triangle> corners;
-  std::vector<Vec3d> weights;
+  Sources found;
   {
     const nb::gil_scoped_release release;
     std::vector<Vec3d> inside = points_of_array(vertices);
     for (Vec3d& p : inside) p = normalization.to_inside(p);
-    const Sources found =
-        find_sources(soup_of_arrays(points, faces, sizes), normalization, faces_as_input, inside,
-                     triangles_of_array(triangles), Concurrency());
-    for (const Source& s : found.vertices) {
-      of_vertices.push_back(s.face);
-      corners.push_back(s.vertices);
-      weights.push_back({s.weights[0], s.weights[1], s.weights[2]});
-    }
-    for (const Source& s : found.faces) of_faces.push_back(s.face);
+    found = find_sources(soup_of_arrays(points, faces, sizes), normalization, faces_as_input,
+                         inside, triangles_of_array(triangles), Concurrency());
   }
-  return nb::make_tuple(to_array<int>(std::move(of_vertices)), to_array<int>(std::move(corners)),
-                        to_array<double>(std::move(weights)), to_array<int>(std::move(of_faces)));
+  return to_python(found);
 }
 
 } // namespace powerrtf

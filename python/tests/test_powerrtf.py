@@ -86,6 +86,14 @@ def test_labels_come_out_with_their_areas():
         powerrtf.remesh(points, faces, 100, labels=[1, 2])
 
 
+def test_labels_leave_the_sources_for_a_transfer(monkeypatch):
+    labels = (POINTS[FACES].mean(axis=1)[:, 2] > 0).astype(np.int16)
+    mesh = powerrtf.remesh(POINTS, FACES, 300, labels=labels)
+    monkeypatch.delattr(powerrtf._core, "sources")
+    assert mesh.labels.dtype == np.int16 and np.array_equal(mesh.transfer(labels, of="faces"), mesh.labels)
+    assert np.abs(mesh.transfer(POINTS) - mesh.vertices).max() < 0.05
+
+
 def test_patches_lie_between_creases():
     cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
