@@ -167,7 +167,8 @@ def test_a_mesh_that_hangs_costs_its_time_only(manifest, tmp_path):
     write_manifest(tmp_path / "two.parquet", [folder / "hang.off", folder / "00.off"])
     table = remesh_dataset(tmp_path / "two.parquet", tmp_path, N, time_limit=1)
     assert table["status"].to_pylist() == ["timed out", "met"]
-    assert table["message"][0].as_py() == "after 4 s" and 4 <= table["seconds"][0].as_py() < 6
+    assert table["message"][0].as_py() == "after 4 s"
+    assert 4 <= table["seconds"][0].as_py() < 16  # the limit of a second try, not of a third
 
 
 @pytest.fixture
