@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # make_figures.sh [PROGRAM [MODELS [FOLDER]]]
-# The pictures of the README (camel) and the manual, from the program's own output: cells and mesh of
+# The pictures of the manual and of the page on Python (camel), from the program's own output: cells and mesh of
 # some of CGAL's models, the lattice that samples begin as, and the cells of a thin disc with and
 # without NVISPC.
 # PROGRAM: power_rtf_remesh; MODELS: the folder of CGAL's meshes; FOLDER: for the pictures. The
