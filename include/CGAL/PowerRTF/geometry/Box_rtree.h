@@ -7,9 +7,8 @@
 
 #include <CGAL/PowerRTF/geometry/vector.h>
 
-#include <boost/geometry/algorithms/covered_by.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
+// the whole of it: which header has the tree's strategy depends on the version
+#include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
 #include <utility>
