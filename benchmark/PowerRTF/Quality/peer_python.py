@@ -4,8 +4,10 @@
 
 peer_python.py PACKAGE INPUT OUTPUT.ply uniform|curvature SIZE CREASE_ANGLE
 
-SIZE: pyacvd, pyinstantmeshes: the number of vertices; else the length of the edges in units of the
-diagonal of the bounding box (mmgpy with `curvature`: the largest distance to the surface). Edges are
+SIZE: powerrtf, pyacvd, pyinstantmeshes, pynanoinstantmeshes: the number of vertices; else the length
+of the edges in units of the diagonal of the bounding box (mmgpy with `curvature`: the largest distance
+to the surface), or, written as an integer, the number of vertices that it is to give: of n vertices
+spread evenly over the area of the surface the edges have the length sqrt(2 area / sqrt(3) / n). Edges are
 kept where the normals turn by more than CREASE_ANGLE degrees (180: none) by the packages that can.
 Prints JSON: CPU seconds and MiB of memory without the packages' import.
 """
@@ -89,12 +91,35 @@ def with_gpytoolbox(density, size, crease_angle):
         feature_dihedral_threshold=crease_angle))
 
 
+def with_powerrtf(density, size, crease_angle):
+    import powerrtf
+
+    return with_arrays(lambda points, triangles, diagonal: powerrtf.remesh(
+        points, triangles, round(size), density=density, feature_angle=crease_angle, threads=1))
+
+
 def with_pyinstantmeshes(density, size, crease_angle):
     import pyinstantmeshes
 
     return with_arrays(lambda points, triangles, diagonal: pyinstantmeshes.remesh(
         points.astype("float32"), triangles, target_vertex_count=round(size), rosy=6, posy=3,
         crease_angle=crease_angle if crease_angle < 180 else -1, deterministic=True))
+
+
+def with_pynanoinstantmeshes(density, size, crease_angle):
+    import pynanoinstantmeshes
+
+    return with_arrays(lambda points, triangles, diagonal: pynanoinstantmeshes.remesh(
+        points.astype("float32"), triangles.astype("uint32"), round(size), rosy=6, posy=3,
+        creaseAngle=crease_angle if crease_angle < 180 else -1, deterministic=True))
+
+
+def with_compas_cgal(density, size, crease_angle):
+    from compas_cgal.meshing import trimesh_remesh
+
+    return with_arrays(lambda points, triangles, diagonal: trimesh_remesh(
+        (points, triangles), size * diagonal,
+        protect_sharp_edges_angle_deg=crease_angle if crease_angle < 180 else 0))
 
 
 def with_mmgpy(density, size, crease_angle):
@@ -128,12 +153,17 @@ def with_meshlib(density, size, crease_angle):
 
 
 PACKAGES = {"pymeshlab": with_pymeshlab, "pyacvd": with_pyacvd, "gpytoolbox": with_gpytoolbox,
-            "pyinstantmeshes": with_pyinstantmeshes, "mmgpy": with_mmgpy,
-            "meshlib": with_meshlib}
+            "powerrtf": with_powerrtf, "pyinstantmeshes": with_pyinstantmeshes,
+            "pynanoinstantmeshes": with_pynanoinstantmeshes, "compas_cgal": with_compas_cgal,
+            "mmgpy": with_mmgpy, "meshlib": with_meshlib}
+ASKED_FOR_A_NUMBER = ("powerrtf", "pyacvd", "pyinstantmeshes", "pynanoinstantmeshes")
 
 
 def main():
     package, source, target, density, size, crease_angle = sys.argv[1:]
+    if size.isdigit() and package not in ASKED_FOR_A_NUMBER:
+        mesh = read(source)
+        size = math.sqrt(2 / math.sqrt(3) * mesh.area / int(size)) / mesh.length
     run = PACKAGES[package](density, float(size), float(crease_angle))
     before, start = memory(), time.process_time()
     run(source, target)

@@ -108,17 +108,10 @@ def find(binaries, python, missing):
                           densities, start))
         if "curvature" not in densities:
             notice(f"{name}: uniform only, an adaptive sizing needs CGAL 6 (here: {version})")
-    for package, name, densities, start, why in PYTHON_PEERS:
-        if python is None or package in missing:
-            notice(f"Peer skipped: {package}: it cannot be installed here")
-            continue
-        peers.append(Peer(name, python_package(python, package)["version"],
-                          lambda model, target, density, size, crease_angle, package=package:
-                          [python, HERE / "peer_python.py", package, model, target, density,
-                           repr(size), crease_angle],
-                          densities, start, ".ply", inner=True))
-        if why:
-            notice(f"{name}: uniform only, {why}")
+    for *description, why in PYTHON_PEERS:
+        peers += python_peer(python, missing, *description)
+        if why and description[0] not in missing:
+            notice(f"{description[1]}: uniform only, {why}")
     skipped_bindings(python, missing)
     if vorpalite := shutil.which("vorpalite"):
         # The number of samples is asked for, so there is nothing to search. Its default profile
@@ -132,6 +125,18 @@ def find(binaries, python, missing):
     else:
         notice("Peer skipped: Geogram: there is no vorpalite in PATH")
     return peers
+
+
+def python_peer(python, missing, package, name, densities, start):
+    """The peer that is a Python package, as a list; empty, with a notice, where it is missing."""
+    if python is None or package in missing:
+        notice(f"Peer skipped: {package}: it cannot be installed here")
+        return []
+    return [Peer(name, python_package(python, package)["version"],
+                 lambda model, target, density, size, crease_angle:
+                 [python, HERE / "peer_python.py", package, model, target, density, repr(size),
+                  crease_angle],
+                 densities, start, ".ply", inner=True)]
 
 
 def skipped_bindings(python, missing):
