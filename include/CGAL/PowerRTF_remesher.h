@@ -258,6 +258,7 @@ private:
     {
       const Stage stage("extraction", m_report.seconds.extraction);
       mesh = triangles(surface, samples, features, seams);
+      set_input_points(mesh);
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
@@ -265,6 +266,20 @@ private:
                              typename Traits::Concurrency_tag(), m_options.dislocations);
     }
     return mesh;
+  }
+
+  /// Names the samples at kept vertices, which are among the last ones of all.
+  void set_input_points(PowerRTF::Extracted_mesh& mesh) const
+  {
+    const std::vector<int>& kept = m_surface.kept_vertices;
+    if (kept.empty()) return;
+    const std::vector<PowerRTF::Edge_place>& places = m_patches.features().places;
+    mesh.input_points.assign(m_options.number_of_samples, -1);
+    const std::size_t first = m_options.number_of_samples - places.size();
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (places[k].from == places[k].to &&
+          std::binary_search(kept.begin(), kept.end(), places[k].from))
+        mesh.input_points[first + k] = m_surface.input_vertices[places[k].from];
   }
 
   PowerRTF::Extracted_mesh triangles(const PowerRTF::Surface& surface,

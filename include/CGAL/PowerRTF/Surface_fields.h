@@ -23,6 +23,7 @@ struct Surface_fields {
   /// For each polygon what it belongs to; between different labels there are creases, too. Empty:
   /// all are the same.
   std::vector<int> labels;
+  std::vector<Edge> kept_edges; ///< pairs of points: edges of the border that the result shall have
 };
 
 } // namespace CGAL::PowerRTF

@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_PREPARE_SURFACE_IMPL_H
 #define CGAL_POWER_RTF_PREPARE_SURFACE_IMPL_H
 
+#include <CGAL/PowerRTF/features/kept_edges.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/fields/resolution.h>
@@ -42,10 +43,21 @@ inline void check_fields(const Remeshing_options& options, const Surface_fields&
 inline void check_cure(const Remeshing_options& options, const Surface_fields& fields)
 {
   if (fields.creases || fields.densities || fields.sizes || !fields.lines.empty() ||
-      !fields.labels.empty())
+      !fields.labels.empty() || !fields.kept_edges.empty())
     throw Invalid_input_error("what is given for vertices and facets is for those of the input; "
                               "intersections = " +
                               to_text(options.intersections) + " makes others");
+}
+
+/// The edges between the vertices that those of `edges` have become where vertices are merged.
+inline std::vector<Edge> merged_edges(std::vector<Edge> edges, const Polygon_soup& soup,
+                                      Concurrency concurrency)
+{
+  if (!soup.merges_vertices || edges.empty()) return edges;
+  const std::vector<int> vertex =
+      merged_vertices(soup, used_points(soup, concurrency), concurrency);
+  for (Edge& e : edges) e = sorted_edge(vertex[e[0]], vertex[e[1]]);
+  return edges;
 }
 
 /// The creases beside those that are found or given: lines, and the boundaries of labels.
@@ -55,13 +67,8 @@ inline std::vector<Edge> more_creases(const Surface& surface, const Polygon_soup
                                       const Surface_fields& fields, bool is_oriented,
                                       Concurrency concurrency)
 {
-  std::vector<Edge> lines = fields.lines;
-  if (soup.merges_vertices && !lines.empty()) {
-    const std::vector<int> vertex =
-        merged_vertices(soup, used_points(soup, concurrency), concurrency);
-    for (const Edge& e : fields.lines) lines.push_back({vertex[e[0]], vertex[e[1]]});
-  }
-  std::vector<Edge> creases;
+  std::vector<Edge> lines = merged_edges(fields.lines, soup, concurrency), creases;
+  lines.insert(lines.end(), fields.lines.begin(), fields.lines.end());
   if (!lines.empty()) creases = marked_edges(surface, std::move(lines), concurrency);
   if (fields.labels.empty()) return creases;
   if (fields.labels.size() + 1 != soup.first.size())
@@ -86,9 +93,10 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   internal::check_fields(options, fields);
   internal::Progress_part part(0.1);
   if (options.merge_distance > 0) {
-    if (fields.creases || !fields.lines.empty() || !fields.labels.empty())
+    if (fields.creases || !fields.lines.empty() || !fields.labels.empty() ||
+        !fields.kept_edges.empty())
       throw Invalid_input_error(
-          "creases and labels of the user's own are those of edges and facets "
+          "creases, labels and regions of the user's own are those of edges and facets "
           "of the input, which merge_distance may join or cut");
     internal::merge_near(soup, options.merge_distance, report.repairs, concurrency);
   }
@@ -98,6 +106,13 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   }
   Surface surface = internal::clean_surface(soup, options.repair, options.non_manifold,
                                             report.repairs, concurrency);
+  if (!fields.kept_edges.empty()) {
+    if (!report.faces_as_input())
+      throw Invalid_input_error("the facets of the region do not all face the same way, so that "
+                                "the new ones could not go on as those around it");
+    keep_edges(surface, fields.kept_edges,
+               internal::merged_edges(fields.kept_edges, soup, concurrency));
+  }
   const std::vector<Edge> more_creases =
       internal::more_creases(surface, soup, fields, report.faces_as_input(), concurrency);
   soup = {}; // its memory
@@ -122,7 +137,7 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   report.max_distance = max_distance(surface, options, concurrency);
   report.samples_asked = number_of_samples(surface, options, concurrency);
   const bool is_refined = options.thin == Thin::refine,
-             has_lengths = has_wanted_lengths(options, fields);
+             has_lengths = has_wanted_lengths(options, fields) || !surface.kept_edges.empty();
   if (has_lengths || is_refined)
     report.input_topology =
         internal::manifold_topology(surface, concurrency); // before facets are split

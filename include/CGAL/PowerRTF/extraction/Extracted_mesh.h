@@ -24,6 +24,11 @@ struct Extracted_mesh {
   /// Of an `Opened_surface`, by point: its place (see `Seam_places`), whose points will be one
   /// vertex. Empty: all are alone.
   std::vector<int> places;
+  /// By point, the others have none: that of the input that it is, where it has to stay; or -1.
+  std::vector<int> input_points;
+
+  /// Whether point `v` has to stay.
+  bool is_kept(int v) const { return v < int(input_points.size()) && input_points[v] >= 0; }
 
   /// Puts the triangles into an order that depends on nothing but which triangles there are.
   void sort_triangles(internal::Concurrency concurrency = Sequential_tag())

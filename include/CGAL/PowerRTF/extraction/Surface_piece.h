@@ -118,6 +118,10 @@ private:
           std::binary_search(m_whole.creases.begin(), m_whole.creases.end(), whole_edge(h)))
         surface.creases.push_back(edge(h));
     std::sort(surface.creases.begin(), surface.creases.end());
+    for (int h = 0; h < halfedges; ++h)
+      if (std::binary_search(m_whole.kept_edges.begin(), m_whole.kept_edges.end(), whole_edge(h)))
+        surface.kept_edges.push_back(edge(h));
+    std::sort(surface.kept_edges.begin(), surface.kept_edges.end());
     surface.normalization = m_whole.normalization;
   }
 

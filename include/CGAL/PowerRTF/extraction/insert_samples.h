@@ -209,8 +209,14 @@ private:
         const int opposite = int(std::min_element(place.begin(), place.end()) - place.begin());
         int from = (opposite + 1) % 3, to = (opposite + 2) % 3;
         if (t[from] > t[to]) std::swap(from, to);
-        m_on_edges.push_back({t[from], t[to], new_vertex(s), place[to]});
-        continue;
+        if (!std::binary_search(m_surface.kept_edges.begin(), m_surface.kept_edges.end(),
+                                Edge{t[from], t[to]})) {
+          m_on_edges.push_back({t[from], t[to], new_vertex(s), place[to]});
+          continue;
+        }
+        // The edge stays as it is: next to it, inside the facet.
+        place[place[from] > place[to] ? from : to] -= 2 * snap - place[opposite];
+        place[opposite] = 2 * snap;
       }
       m_inside.push_back({f, new_vertex(s), place});
     }

@@ -92,7 +92,7 @@ private:
   std::size_t segments(std::size_t c, double spacing) const
   {
     const Feature_curve& curve = m_curves[c];
-    if (curve.vertices.size() == 1) return 1;
+    if (curve.vertices.size() == 1 || curve.is_kept) return 1;
     const bool is_closed = curve.vertices.front() == curve.vertices.back();
     const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
     constexpr double most = 1e9; // more than memory holds

@@ -22,6 +22,7 @@ struct Feature_curve {
   std::vector<int> vertices;
   bool has_corners = true; ///< no: closed, and none of its vertices is a corner
   int parallels = 1;       ///< curves between the same two corners, itself included
+  bool is_kept = false;    ///< a kept edge: the result has it as it is, without samples inside
 };
 
 namespace internal {
@@ -49,6 +50,7 @@ public:
     for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
       m_is_corner[v] = m_graph.degree(v) != 0 && m_graph.degree(v) != 2;
     for (const int v : surface.contacts) m_is_corner[v] = 1;
+    for (const int v : surface.kept_vertices) m_is_corner[v] = 1;
     if (!surface.seams.empty()) mark_ends_of_sheets();
     if (scale > 0) mark_turns();
   }
@@ -67,6 +69,8 @@ public:
         if (m_is_corner[v]) break;
         e = m_graph.other_edge(e, v);
       }
+      curve.is_kept = std::binary_search(m_surface.kept_edges.begin(), m_surface.kept_edges.end(),
+                                         sorted_edge(curve.vertices[0], curve.vertices[1]));
       curves.push_back(std::move(curve));
     };
     for (int v = 0; v < static_cast<int>(m_surface.points.size()); ++v)
@@ -185,8 +189,8 @@ private:
 } // namespace internal
 
 /// The curves of creases and borders. Corners are the vertices where not exactly two feature edges
-/// meet, and those where a curve turns by more than 50 degrees over `scale` to both sides (0:
-/// none).
+/// meet, those that are kept, and those where a curve turns by more than 50 degrees over `scale` to
+/// both sides (0: none).
 inline std::vector<Feature_curve> feature_curves(const Surface& surface, double scale)
 {
   if (surface.creases.empty() && surface.adjacency.border_edges == 0 && surface.contacts.empty())

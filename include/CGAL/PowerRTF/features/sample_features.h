@@ -250,8 +250,10 @@ inline void set_creases(Surface& surface, const Remeshing_options& options,
   sort_uniquely(surface.creases);
   const double h = std::sqrt(surface.area / static_cast<double>(options.number_of_samples));
   join_narrow_patches(surface, 0.5 * h);
-  const std::size_t needed = min_feature_samples(surface), n = options.number_of_samples;
-  if (2 * needed > n && !(needed <= n && is_polyhedral(surface))) surface.creases = surface.seams;
+  const std::size_t kept = surface.kept_vertices.size(), // whatever the creases are
+      needed = min_feature_samples(surface), n = options.number_of_samples;
+  if (2 * needed > n + kept && !(needed <= n && is_polyhedral(surface)))
+    surface.creases = surface.seams;
 }
 
 } // namespace CGAL::PowerRTF

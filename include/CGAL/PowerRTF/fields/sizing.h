@@ -9,14 +9,17 @@
 
 #include <CGAL/PowerRTF/Surface_fields.h>
 #include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/fields/kept_lengths.h>
 #include <CGAL/PowerRTF/fields/resolution.h>
 #include <CGAL/PowerRTF/geometry/halve_edges.h>
+#include <CGAL/PowerRTF/geometry/split_at_centers.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,29 +78,42 @@ inline std::vector<double> bounded_lengths(const Surface& surface, double C,
 
 /// Splits facets where they are too large for the lengths that are wanted on them: with edges
 /// longer than twice the shortest of these, while at the corners they differ from it by more than
-/// 30 %. (The input of a part with flat sides may have no vertex where it is to be refined.)
-/// Between the ends of an edge it is the length C rho^(-1/2) that is linear.
+/// 30 %, or do so without regard to kept edges. (The input of a part with flat sides may have no
+/// vertex where it is to be refined.) Kept edges stay whole. Between the ends of an edge it is the
+/// length C rho^(-1/2) that is linear.
 inline void split_for_lengths(Surface& surface, double C, const Length_bounds& bounds,
-                              Concurrency concurrency)
+                              double gradation, Concurrency concurrency)
 {
   constexpr double similar = 1.3, longest_edge = 2;
   constexpr std::size_t most = 4000000; // facets
   const std::vector<int>& opposite = surface.adjacency.opposite;
+  Whole_edges whole(surface);
   while (surface.triangles.size() < most / 4) {
     const std::vector<double> lengths = bounded_lengths(surface, C, bounds, concurrency);
+    std::vector<double> graded = lengths;
+    if (!surface.kept_edges.empty()) {
+      const Surface_edges edges = surface_edges(surface, concurrency);
+      Kept_lengths(surface, edges, gradation, concurrency).apply(graded);
+    }
     std::vector<double> limit(surface.triangles.size()); // of the edges of a facet
     for_each_index(concurrency, static_cast<int>(limit.size()), [&](int f) {
       const auto [a, b, c] = surface.triangles[f];
       const Vec3d center = (surface.points[a] + surface.points[b] + surface.points[c]) * (1. / 3);
       double reach = 0;
       for (const int v : {a, b, c}) reach = (std::max)(reach, length(surface.points[v] - center));
-      const auto [low, high] = std::minmax({lengths[a], lengths[b], lengths[c]});
+      const auto [low, high] =
+          std::minmax({lengths[a], lengths[b], lengths[c], graded[a], graded[b], graded[c]});
       const double shortest = (std::min)(low, bounds.longest(center, reach));
       limit[f] = high > similar * shortest ? longest_edge * shortest : any_length;
     });
+    if (const std::vector<int> stuck = whole.high_facets(limit); !stuck.empty()) {
+      split_at_centers(surface, stuck, concurrency);
+      continue;
+    }
+    whole.add_low_facets(limit);
     const auto is_long = [&](int h) {
       const int o = opposite[h];
-      if (o != Facet_adjacency::none && o < h) return false;
+      if ((o != Facet_adjacency::none && o < h) || whole.contains(h)) return false;
       const double l = length(surface.points[halfedge_target(surface.triangles, h)] -
                               surface.points[halfedge_source(surface.triangles, h)]);
       return l > limit[h / 3] || (o != Facet_adjacency::none && l > limit[o / 3]);
@@ -119,21 +135,30 @@ class Length_scaling {
 public:
   Length_scaling(const Surface& surface, const Length_bounds& bounds, double gradation,
                  Concurrency concurrency)
-      : m_surface(surface), m_bounds(bounds), m_gradation(gradation), m_concurrency(concurrency),
-        m_edges(surface_edges(surface, concurrency))
+      : m_surface(surface), m_bounds(bounds), m_concurrency(concurrency),
+        m_edges(surface_edges(surface, concurrency)),
+        m_kept(surface, m_edges, gradation, concurrency)
   {}
+  Length_scaling(const Length_scaling&) = delete;
 
-  /// C rho^(-1/2) within the bounds, its growth limited.
+  /// C rho^(-1/2) within the bounds and near to the lengths of kept edges, its growth limited.
   std::vector<double> lengths(double C) const
   {
     std::vector<double> result = bounded_lengths(m_surface, C, m_bounds, m_concurrency);
-    if (m_gradation > 0) limit_growth(m_edges, m_gradation, result, m_concurrency);
+    m_kept.apply(result);
     return result;
   }
 
   double vertices(double C) const
   {
     return vertices_by_lengths(m_surface, lengths(C), m_concurrency);
+  }
+
+  /// Whether there is a C of which there are `n` vertices. \param C any
+  bool has_room(double n, double C) const
+  {
+    constexpr double far = 1e9;
+    return vertices(C / far) >= n && vertices(C * far) <= n;
   }
 
   /// The C of which there are `n` vertices. The search begins with `C`.
@@ -163,9 +188,9 @@ public:
 private:
   const Surface& m_surface;
   const Length_bounds& m_bounds;
-  double m_gradation;
   Concurrency m_concurrency;
   Surface_edges m_edges;
+  Kept_lengths m_kept;
 };
 
 } // namespace internal
@@ -191,8 +216,9 @@ inline void set_density_by_sizes(Surface& surface, const std::vector<double>& si
 }
 
 /// Brings the spacing by `surface.vertex_density` within the bounds and regions that `options` and
-/// `fields` ask for, its growth limited by `options.gradation`, and splits facets that are too
-/// large for that. Where a number of samples is asked for, the spacing elsewhere gives way to it.
+/// `fields` ask for, and to the lengths of kept edges at these, its growth limited by
+/// `options.gradation`, and splits facets that are too large for that. Where a number of samples is
+/// asked for, the spacing elsewhere gives way to it, and the growth from kept edges on.
 ///
 /// \pre `surface.vertex_density` is set, by `set_density_by_sizes()` if there are sizes
 /// \param n that number, or that without the bounds and regions
@@ -203,17 +229,27 @@ inline std::size_t set_wanted_lengths(Surface& surface, const Remeshing_options&
                                       const Surface_fields& fields, std::size_t n,
                                       internal::Concurrency concurrency = Sequential_tag())
 {
+  constexpr double steepest = 3; // there is hardly a limit then
   validate(options);
   const internal::Length_bounds bounds(surface.normalization, options, fields.refinements);
   double C = options.size_factor > 0 ? options.size_factor
                                      : spacing_by_edge_length(surface, options, n, concurrency);
-  if (fields.sizes || !fields.refinements.empty())
-    internal::split_for_lengths(surface, C, bounds, concurrency);
-  const internal::Length_scaling scaling(surface, bounds, options.gradation, concurrency);
+  const bool has_kept = !surface.kept_edges.empty();
+  double gradation = options.gradation;
+  if (fields.sizes || !fields.refinements.empty() || has_kept)
+    internal::split_for_lengths(surface, C, bounds, gradation, concurrency);
+  std::optional<internal::Length_scaling> scaling(std::in_place, surface, bounds, gradation,
+                                                  concurrency);
   const bool is_length_asked_for =
       options.size_factor > 0 || options.edge_length > 0 || options.relative_edge_length > 0;
-  if (!is_length_asked_for) C = scaling.for_vertices(static_cast<double>(n), C);
-  std::vector<double> lengths = scaling.lengths(C);
+  if (!is_length_asked_for) {
+    const double asked = static_cast<double>(n);
+    const auto has_room = [&] { return !has_kept || scaling->has_room(asked, C); };
+    while (!has_room() && gradation > 0 && gradation < steepest)
+      scaling.emplace(surface, bounds, gradation *= 2, concurrency);
+    if (has_room()) C = scaling->for_vertices(asked, C); // else only ratios matter
+  }
+  std::vector<double> lengths = scaling->lengths(C);
   if (is_length_asked_for)
     n = internal::possible_number(vertices_by_lengths(surface, lengths, concurrency),
                                   "the edge length that is wanted");

@@ -96,6 +96,10 @@ struct Surface {
   std::vector<Edge> seams;            ///< the creases at which the orientations do not
                                       ///< agree or more than two facets meet
   std::vector<int> contacts;          ///< vertices where sheets touch, off seams; sorted
+  /// Edges of the border that the result has as they are, or the pieces that they have been halved
+  /// into; sorted. And their ends, the vertices that the result has, sorted.
+  std::vector<Edge> kept_edges;
+  std::vector<int> kept_vertices;
   /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
   std::vector<int> facet_patches;
   double area = 0; ///< sum of the facets' areas

@@ -22,6 +22,24 @@ struct Cut_surface {
   std::vector<int> originals; ///< for each vertex of `surface`, the one that it is a copy of
 };
 
+namespace internal {
+
+/// Names the kept edges of `surface` by the vertices of `cut`, which has the same facets.
+inline void keep_cut_edges(const Surface& surface, Surface& cut)
+{
+  if (surface.kept_edges.empty()) return;
+  const auto edge = [](const Surface& s, int h) {
+    return sorted_edge(halfedge_source(s.triangles, h), halfedge_target(s.triangles, h));
+  };
+  cut.kept_edges.clear();
+  for (int h = 0; h < static_cast<int>(3 * surface.triangles.size()); ++h)
+    if (std::binary_search(surface.kept_edges.begin(), surface.kept_edges.end(), edge(surface, h)))
+      cut.kept_edges.push_back(edge(cut, h));
+  sort_uniquely(cut.kept_edges);
+}
+
+} // namespace internal
+
 /// Cuts `surface` along its creases (which are edges between two facets). The first copy of a
 /// vertex keeps its number.
 inline Cut_surface cut_along_creases(const Surface& surface)
@@ -40,6 +58,7 @@ inline Cut_surface cut_along_creases(const Surface& surface)
   cut.surface = surface;
   cut.surface.creases.clear();
   cut.surface.contacts.clear();
+  cut.surface.kept_vertices.clear();
   for (std::size_t v = 0; v < surface.points.size(); ++v)
     cut.originals.push_back(static_cast<int>(v));
   std::vector<char> taken(surface.points.size(), 0);
@@ -56,6 +75,7 @@ inline Cut_surface cut_along_creases(const Surface& surface)
     cut.surface.vertex_density.push_back(surface.vertex_density[v]);
     cut.surface.input_vertices.push_back(surface.input_vertices[v]);
   });
+  internal::keep_cut_edges(surface, cut.surface);
   cut.surface.adjacency = facet_adjacency(cut.surface.triangles, cut.surface.points.size());
   compute_geometry(cut.surface);
   cut.surface.facet_patches = facet_components(cut.surface.adjacency).first;

@@ -119,8 +119,8 @@ struct Halved_edges {
 
 /// Halves edges of `surface`, given by one halfedge of each, or by several where more than two
 /// facets meet. Its first vertices are the old ones; new ones have the mean density of their edge's
-/// ends, and the place in the input of one of them. The halves of creases are creases. Normals and
-/// areas are computed anew.
+/// ends, and the place in the input of one of them. The halves of creases are creases, those of
+/// kept edges kept. Normals and areas are computed anew.
 inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& given,
                                 internal::Concurrency concurrency = Sequential_tag())
 {
@@ -173,12 +173,13 @@ inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& given,
   });
   surface.triangles.swap(triangles);
   surface.facet_patches.swap(patches);
-  if (!surface.creases.empty()) {
+  if (!surface.creases.empty() || !surface.kept_edges.empty()) {
     std::vector<std::pair<Edge, int>> sorted_middles;
     for (int k = 0; k < count; ++k) sorted_middles.emplace_back(result.ends[k], old + k);
     std::sort(sorted_middles.begin(), sorted_middles.end());
     internal::halve_listed(surface.creases, sorted_middles);
     internal::halve_listed(surface.seams, sorted_middles);
+    internal::halve_listed(surface.kept_edges, sorted_middles);
   }
   surface.adjacency = facet_adjacency(surface.triangles, surface.points.size(), concurrency);
   compute_geometry(surface, concurrency);

@@ -54,8 +54,8 @@ public:
         m(mesh.points, mesh.triangles, concurrency), m_facets(mesh.points.size()),
         m_heights(mesh.points.size(), 0), m_locked(mesh.points.size(), false),
         m_movable(mesh.points.size()), m_pinned(mesh.points.size(), false),
-        m_on_feature(mesh.points.size(), false), m_changes(mesh.points.size(), 1),
-        m_is_feature(m.mesh.number_of_edges(), false)
+        m_on_feature(mesh.points.size(), false), m_kept(mesh.points.size(), false),
+        m_changes(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
   {
     const std::size_t n = mesh.points.size();
     m.normals.resize(n);
@@ -71,6 +71,7 @@ public:
         m_facets[v] = place.facet;
         m.normals[v] = place.normal;
         m_movable[v] = is_interior(Vertex(v));
+        m_kept[v] = mesh.is_kept(v);
       }
     });
   }
@@ -152,6 +153,8 @@ public:
   }
 
   bool is_on_feature(Vertex v) const { return m_on_feature[v]; }
+  /// Whether `v` does not even slide along its feature.
+  bool is_kept(Vertex v) const { return m_kept[v]; }
   bool is_feature(Edge e) const { return m_is_feature[e]; }
   bool is_locked(Vertex v) const { return m_locked[v]; }
 
@@ -386,7 +389,7 @@ private:
   Working_mesh m;
   std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
   std::vector<double> m_heights; // by vertex: over the surface
-  std::vector<char> m_locked, m_movable, m_pinned, m_on_feature;
+  std::vector<char> m_locked, m_movable, m_pinned, m_on_feature, m_kept;
   std::vector<unsigned> m_changes; // by vertex: of it or its edges
   std::vector<char> m_is_feature;  // by edge
   Independent_vertices m_independent;

@@ -114,11 +114,11 @@ private:
     return s.first + d * std::min(1., std::max(0., t));
   }
 
-  /// The neighbors of `v` on its curve; false if it is none, or a corner; or on a seam, where its
-  /// copies in other sheets would stay behind.
+  /// The neighbors of `v` on its curve; false if it is none, or a corner; or kept; or on a seam,
+  /// where its copies in other sheets would stay behind.
   bool neighbors(Vertex v, Vertex& a, Vertex& b) const
   {
-    if (m.working().is_on_seam(v)) return false;
+    if (m.is_kept(v) || m.working().is_on_seam(v)) return false;
     int found = 0;
     for (const Halfedge h : halfedges_around_target(v, m.working().mesh))
       if (m.is_feature(m.working().mesh.edge(h))) {
