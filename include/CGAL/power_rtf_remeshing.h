@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/export_with_sources.h>
+#include <CGAL/PowerRTF/transfer/replace_faces.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -65,6 +66,28 @@ struct Run_types {
       typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParameters,
                                                    Remeshing_default_visitor>::reference;
 };
+
+/// A run, but for what is made of its result: `use(remesher, mesh, report)` gets that, unless the
+/// visitor stops the run. \param prepare `prepare(options, report)` returns the surface
+template <class Traits, class Prepare, class Visitor, class Use>
+Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor& visitor,
+                     const Use& use)
+{
+  Remeshing_report report;
+  const auto run = [&] {
+    const Stopwatch total(report.seconds.total);
+    if (is_distance_asked_for(options))
+      options.number_of_samples = samples_within_distance<Traits>(options, prepare, visitor);
+    Surface surface = prepare(options, report);
+    PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
+    Extracted_mesh mesh;
+    if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
+    report = remesher.report();
+    if (!report.cancelled) use(remesher, mesh, report);
+  };
+  if (!run_unless_cancelled(visitor, run)) report.cancelled = true;
+  return report;
+}
 
 } // namespace PowerRTF::internal
 
@@ -282,35 +305,93 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, InputMesh, NamedParametersIn>;
   using Output_map = typename GetVertexPointMap<OutputMesh, NamedParametersOut>::type;
   using Output_point = typename boost::property_traits<Output_map>::value_type;
-  PowerRTF::Remeshing_options options =
+  const PowerRTF::Remeshing_options options =
       PowerRTF::internal::options_of<Output_point>(resolution, np_in);
   PowerRTF::Remeshing_default_visitor default_visitor;
   typename Types::Visitor visitor = parameters::choose_parameter(
       parameters::get_parameter_reference(np_in, internal_np::visitor), default_visitor);
-
-  PowerRTF::Remeshing_report report;
-  const auto run = [&] {
-    const PowerRTF::internal::Stopwatch total(report.seconds.total);
-    using Traits = typename Types::Traits;
-    const auto prepare = [&](const PowerRTF::Remeshing_options& o, PowerRTF::Remeshing_report& r) {
-      const PowerRTF::internal::Stage stage("surface");
-      return PowerRTF::prepare_surface(input, o, np_in, r, ConcurrencyTag());
-    };
-    if (PowerRTF::is_distance_asked_for(options))
-      options.number_of_samples =
-          PowerRTF::samples_within_distance<Traits>(options, prepare, visitor);
-    PowerRTF::Surface surface = prepare(options, report);
-    PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
-    PowerRTF::Extracted_mesh mesh;
-    if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
-    report = remesher.report();
-    if (report.cancelled) return;
-    PowerRTF::internal::export_with_sources(
-        input, np_in, mesh, remesher.surface().normalization,
-        [&] { return remesher.patches(mesh); }, output, np_out, report, ConcurrencyTag());
+  const auto prepare = [&](const PowerRTF::Remeshing_options& o, PowerRTF::Remeshing_report& r) {
+    const PowerRTF::internal::Stage stage("surface");
+    return PowerRTF::prepare_surface(input, o, np_in, r, ConcurrencyTag());
   };
-  if (!PowerRTF::internal::run_unless_cancelled(visitor, run)) report.cancelled = true;
-  return report;
+  return PowerRTF::internal::run<typename Types::Traits>(
+      options, prepare, visitor,
+      [&](const auto& remesher, const PowerRTF::Extracted_mesh& mesh,
+          PowerRTF::Remeshing_report& report) {
+        PowerRTF::internal::export_with_sources(
+            input, np_in, mesh, remesher.surface().normalization,
+            [&] { return remesher.patches(mesh); }, output, np_out, report, ConcurrencyTag());
+      });
+}
+
+/*!
+ * \ingroup PkgPowerRTFRef
+ *
+ * \brief remeshes a part of a mesh in place; the rest stays as it is.
+ *
+ * The edges between the part and the rest stay, too, and the new faces are joined to them. From
+ * there the lengths of the new edges grow or shrink to those elsewhere, by no more than
+ * `PowerRTF::Remeshing_options::gradation`, or as slowly as the number of vertices allows. What is
+ * border of the mesh in the part is remeshed with it.
+ *
+ * \tparam ConcurrencyTag as of the function above
+ * \tparam FaceRange a range of `boost::graph_traits<PolygonMesh>::%face_descriptor`, whose
+ *                   iterator type is a model of `ForwardIterator`
+ * \tparam PolygonMesh a model of `MutableFaceGraph`
+ * \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+ *
+ * \param faces those to be remeshed, in any order. All of `mesh` are allowed, too.
+ * \param mesh the whole mesh. The other faces, their vertices and edges remain the same elements
+ *             with the same points and values of property maps.
+ * \param resolution the number of vertices that the part shall have, those on its border
+ *                   included; or what gives it
+ * \param np those of the first sequence of the function above, with the same defaults. The map
+ *           `face_patch_map` has to be writable, too: the new faces get the labels of the old ones
+ *           that they lie on. `vertex_point_map` gets the points of the new vertices.
+ *
+ * \returns what was done and what the new faces are worth: `report.topology` and all other figures
+ *          are those of the part alone; `kept_faces` and `kept_vertices` tell of the rest. Among
+ *          the self-intersections are those of new faces with old ones. When the visitor stopped
+ *          the run, `cancelled` is `true` and `mesh` is as it was.
+ *
+ * \throws PowerRTF::Invalid_input_error `faces` is empty; and as the function above, of the part.
+ *         The samples are too few for the vertices on its border. `mesh` is as it was.
+ */
+template <class ConcurrencyTag = Parallel_if_available_tag, class FaceRange, class PolygonMesh,
+          class NamedParameters = parameters::Default_named_parameters>
+PowerRTF::Remeshing_report
+power_rtf_remeshing(const FaceRange& faces, PolygonMesh& mesh,
+                    const PowerRTF::Resolution& resolution,
+                    const NamedParameters& np = parameters::default_values())
+{
+  static_assert(!PowerRTF::internal::has_output_parameter<NamedParameters>(),
+                "there is no vertex_source_map and no face_source_map here: they would have the "
+                "descriptors of elements that are no more");
+  using Types = PowerRTF::internal::Run_types<ConcurrencyTag, PolygonMesh, NamedParameters>;
+  using Point_map = typename GetVertexPointMap<PolygonMesh, NamedParameters>::type;
+  using Point = typename boost::property_traits<Point_map>::value_type;
+  const PowerRTF::Remeshing_options options = PowerRTF::internal::options_of<Point>(resolution, np);
+  PowerRTF::Remeshing_default_visitor default_visitor;
+  typename Types::Visitor visitor = parameters::choose_parameter(
+      parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
+
+  const PowerRTF::Polygon_soup whole = PowerRTF::internal::soup_of_mesh(mesh, np);
+  const PowerRTF::internal::Soup_region region(whole,
+                                               PowerRTF::internal::marks_of_faces(mesh, faces),
+                                               PowerRTF::internal::surface_fields(mesh, np));
+  const auto prepare = [&](const PowerRTF::Remeshing_options& o, PowerRTF::Remeshing_report& r) {
+    const PowerRTF::internal::Stage stage("surface");
+    return PowerRTF::prepare_surface(PowerRTF::Polygon_soup(region.soup), region.fields, o, r,
+                                     ConcurrencyTag());
+  };
+  return PowerRTF::internal::run<typename Types::Traits>(
+      options, prepare, visitor,
+      [&](const auto& remesher, const PowerRTF::Extracted_mesh& part,
+          PowerRTF::Remeshing_report& report) {
+        PowerRTF::internal::replace_region(mesh, np, whole, region, part,
+                                           remesher.surface().normalization, report,
+                                           ConcurrencyTag());
+      });
 }
 
 } // namespace CGAL
