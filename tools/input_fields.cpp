@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 namespace tools {
 namespace {
@@ -52,16 +53,22 @@ std::string names_of(const std::vector<Mesh_property>& properties)
   return names.empty() ? "they have none" : "they have " + names;
 }
 
-std::vector<int> face_labels(const Polygon_mesh& mesh, const std::string& name)
+const Mesh_property& face_property(const Polygon_mesh& mesh, const std::string& name)
 {
   const std::vector<Mesh_property>& properties = mesh.properties.faces;
   const Mesh_property* const found = find_property(properties, name);
   if (!found)
     throw Invalid_input_error("its facets have no property " + printable(name) + "; " +
                               names_of(properties));
+  return *found;
+}
+
+std::vector<int> face_labels(const Polygon_mesh& mesh, const std::string& name)
+{
+  const std::vector<double>& values = face_property(mesh, name).values;
   std::vector<int> labels;
-  labels.reserve(found->values.size());
-  for (const double x : found->values) {
+  labels.reserve(values.size());
+  for (const double x : values) {
     if (x != std::floor(x) || std::abs(x) > std::numeric_limits<int>::max())
       throw Invalid_input_error("its property " + printable(name) + ": the value of facet " +
                                 std::to_string(labels.size()) +
@@ -69,6 +76,21 @@ std::vector<int> face_labels(const Polygon_mesh& mesh, const std::string& name)
     labels.push_back(static_cast<int>(x));
   }
   return labels;
+}
+
+/// The number that stands for the value `text` of a property; none if there is no such value.
+std::optional<double> value_of(const Mesh_property& property, const std::string& text)
+{
+  if (!property.names.empty()) {
+    const auto name = std::find(property.names.begin(), property.names.end(), text);
+    if (name == property.names.end()) return std::nullopt;
+    return static_cast<double>(name - property.names.begin());
+  }
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return property.type == Number_type::float32 ? static_cast<float>(number) : number;
 }
 
 /// The lines, which run along edges of facets.
@@ -127,13 +149,26 @@ Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mes
   return fields;
 }
 
+std::vector<char> region_of(const Program_options& options, const Polygon_mesh& mesh)
+{
+  const Mesh_property& property = face_property(mesh, options.region_name);
+  const std::optional<double> wanted = value_of(property, options.region_value);
+  std::vector<char> is_inside;
+  is_inside.reserve(property.values.size());
+  for (const double x : property.values) is_inside.push_back(wanted && x == *wanted);
+  if (std::find(is_inside.begin(), is_inside.end(), 1) == is_inside.end())
+    throw Invalid_input_error("its property " + printable(options.region_name) +
+                              " is at no facet " + printable(options.region_value));
+  return is_inside;
+}
+
 void choose_names(const Program_options& options, Polygon_mesh& mesh)
 {
   if (options.keeps_lines) mesh.attributes.erase("lines");
 
   std::vector<Mesh_property>& faces = mesh.properties.faces;
   const auto is_unwanted = [&](const Mesh_property& p) {
-    return !p.names.empty() && p.name != options.labels;
+    return !p.names.empty() && p.name != options.labels && p.name != options.region_name;
   };
   faces.erase(std::remove_if(faces.begin(), faces.end(), is_unwanted), faces.end());
   for (const Mesh_property& p : faces) {

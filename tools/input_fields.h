@@ -25,8 +25,12 @@ std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& n
 ///   runs along no edge of a facet
 CGAL::PowerRTF::Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh);
 
-/// Leaves of the materials and groups of an OBJ file those that are the labels asked for, and of
-/// what is not carried over names what these options do carry over no longer.
+/// By facet of `mesh`: whether the options want it to be remeshed.
+/// \throws Invalid_input_error the facets have no such property, or none has that value
+std::vector<char> region_of(const Program_options& options, const Polygon_mesh& mesh);
+
+/// Leaves of the materials and groups of an OBJ file those that the options name, and of what is
+/// not carried over names what these options do carry over no longer.
 void choose_names(const Program_options& options, Polygon_mesh& mesh);
 
 /// From `sphere:x,y,z,r,h` or `box:x0,y0,z0,x1,y1,z1,h`.

@@ -190,6 +190,10 @@ private:
             "refine", po::value<std::vector<std::string>>()->composing()->value_name("REGION"),
             "sphere:x,y,z,r,h or box:x0,y0,z0,x1,y1,z1,h: edges are no longer than about h inside; "
             "may be given several times")(
+            "region", text("NAME=VALUE"),
+            "remesh only the input's faces of which that property has that value (PLY), or whose "
+            "material or group has that name (OBJ), N vertices in all; the others stay as they "
+            "are, with the border between")(
             "labels", text("NAME"),
             "a property of the input's faces, of whole numbers (PLY), or material or group (OBJ): "
             "creases are kept between different ones, and the output's faces have them (PLY, VTP, "
@@ -290,6 +294,14 @@ void set_fields(const po::variables_map& values, Program_options& o)
     if (!values.count(option)) continue;
     *name = values[option].as<std::string>();
     if (name->empty()) throw Usage_error("--" + std::string(option) + ": the name is empty");
+  }
+  if (values.count("region")) {
+    const std::string& text = values["region"].as<std::string>();
+    const std::size_t equal = text.find('=');
+    if (equal == 0 || equal == std::string::npos) reject("region", text, "NAME=VALUE");
+    o.region_name = text.substr(0, equal);
+    o.region_value = text.substr(equal + 1);
+    if (o.writes_patches) throw Usage_error("--patches: what --region leaves as it is has none");
   }
   if (!o.size_field.empty() && !o.density_field.empty())
     throw Usage_error("--size-field and --density-field exclude each other");

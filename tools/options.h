@@ -29,8 +29,10 @@ struct Program_options {
   std::string size_field, density_field; ///< names of properties or files; empty: none
   std::vector<std::string> refine;       ///< regions, see `parse_refinement()`
   std::string labels;                    ///< name of a property of the faces; empty: none
-  bool keeps_lines = false;              ///< of the input's file
-  bool writes_patches = false;           ///< as a property of the output's faces
+  /// Only faces with that value of that property are remeshed. No name: all are.
+  std::string region_name, region_value;
+  bool keeps_lines = false;    ///< of the input's file
+  bool writes_patches = false; ///< as a property of the output's faces
   std::string traits;  ///< "cpu", "exact", "cuda", or "auto": the faster of "cpu" and "cuda"
   bool check = false;  ///< compare the cells with the exact ones at the end
   int check_every = 0; ///< and every so many iterations; 0: only at the end

@@ -15,9 +15,11 @@
 
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/output_grid.h>
+#include <CGAL/PowerRTF/input/Soup_region.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
+#include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <algorithm>
@@ -31,6 +33,8 @@ namespace tools {
 namespace {
 
 using namespace CGAL::PowerRTF;
+using internal::Joined_mesh;
+using internal::Soup_region;
 using internal::Stage;
 using internal::Stopwatch;
 
@@ -98,6 +102,11 @@ void check_precision(Surface& surface, const Program_options& options)
 struct Input {
   Polygon_mesh mesh; ///< with the properties that the output will have
   Surface_fields fields;
+  std::optional<Soup_region> region; ///< none: all is remeshed
+
+  /// What is remeshed, and what is said about places there.
+  Polygon_soup& remeshed_soup() { return region ? region->soup : mesh.soup; }
+  const Surface_fields& remeshed_fields() const { return region ? region->fields : fields; }
 };
 
 /// `run` receives the seconds and what is lost.
@@ -109,7 +118,11 @@ Input load(Run& run)
     const Stage stage("load", run.report.seconds.load);
     const internal::Progress_part part(1);
     mesh = read_mesh(run.options.input);
-    input.fields = about_input(run.options, [&] { return fields_of(run.options, mesh); });
+    about_input(run.options, [&] {
+      input.fields = fields_of(run.options, mesh);
+      if (!run.options.region_name.empty())
+        input.region.emplace(mesh.soup, region_of(run.options, mesh), input.fields);
+    });
   }
   const Format output = format_of(run.options.output);
   choose_names(run.options, mesh);
@@ -216,19 +229,41 @@ bool has_sources(const Polygon_mesh& input, const Program_options& options)
 }
 
 /// Where the vertices of `mesh`, in the unit box, come from.
-Sources find_sources(const Polygon_mesh& input, const Normalization& normalization,
-                     const Extracted_mesh& mesh, Run& run)
+Sources find_sources(Input& input, const Normalization& normalization, const Extracted_mesh& mesh,
+                     Run& run)
 {
-  if (!has_sources(input, run.options)) return {};
+  if (!has_sources(input.mesh, run.options)) return {};
   const Stage stage("transfer", run.report.seconds.transfer);
-  return find_sources(input.soup, normalization, run.report.faces_as_input(), mesh.points,
-                      mesh.triangles, Concurrency());
+  return find_sources(input.remeshed_soup(), normalization, run.report.faces_as_input(),
+                      mesh.points, mesh.triangles, Concurrency());
 }
 
-/// Writes all files but the report.
+/// What a region has become, `mesh`, with what stays of the input around it. The report gets what
+/// that is worth. \throws Output_error the output cannot hold what stays as it is
+Joined_mesh join(const Input& input, const Normalization& normalization, const Extracted_mesh& mesh,
+                 Run& run)
+{
+  const Stage stage("transfer", run.report.seconds.transfer);
+  Joined_mesh joined(input.mesh.soup, *input.region, mesh, normalization);
+  joined.judge(input.mesh.soup, *input.region, run.report, Concurrency());
+  if (!writes_floats(run.options)) return joined;
+  for (const int v : joined.input_points) {
+    const Vec3d& p = input.mesh.soup.points[v];
+    for (const double x : {p.x, p.y, p.z})
+      if (double(float(x)) != x)
+        throw Output_error(run.options.output +
+                           ": cannot be written: its coordinates, numbers of single precision, "
+                           "cannot hold vertex " +
+                           std::to_string(v) + " as it is; text (--ascii) holds more digits");
+  }
+  return joined;
+}
+
+/// Writes all files but the report. \param joined the mesh as it is written; null: it is `mesh`
 template <class Remesher>
-void write_results(Remesher& remesher, Extracted_mesh& mesh, const Sources& sources,
-                   const Mesh_properties& properties, const Run& run, Outputs& outputs)
+void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* joined,
+                   const Sources& sources, const Mesh_properties& properties, const Run& run,
+                   Outputs& outputs)
 {
   const Program_options& options = run.options;
   const Normalization& normalization = remesher.surface().normalization;
@@ -240,14 +275,15 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Sources& sour
   Mesh_properties values = transferred(properties, sources);
   if (options.writes_patches) set_patches(remesher.patches(mesh), values);
   for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
+  const std::vector<Vec3d>& points = joined ? joined->points : mesh.points;
+  const std::vector<Triangle>& triangles = joined ? joined->triangles : mesh.triangles;
   if (options.write_mesh)
     outputs.add(options.output, [&](std::ostream& out) {
-      write_mesh(out, format_of(options.output), options.encoding, mesh.points, mesh.triangles,
-                 values);
+      write_mesh(out, format_of(options.output), options.encoding, points, triangles, values);
     });
   outputs.add(options.provenance_file, [&](std::ostream& out) {
-    write_sources(out, format_of(options.provenance_file), options.encoding, mesh.points,
-                  mesh.triangles, sources);
+    write_sources(out, format_of(options.provenance_file), options.encoding, points, triangles,
+                  sources);
   });
   outputs.add(options.cells_file, [&](std::ostream& out) {
     write_cells(out, format_of(options.cells_file), options.encoding, remesher.cells(),
@@ -265,7 +301,7 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Sources& sour
 /// Goes from the surface to the files, which are not yet in their places; the report is not
 /// written.
 template <class Traits>
-void make_results(Run& run, const Polygon_mesh& input, Surface surface, Outputs& outputs)
+void make_results(Run& run, Input& input, Surface surface, Outputs& outputs)
 {
   using Remesher = CGAL::PowerRTF_remesher<Traits>;
   const Program_options& options = run.options;
@@ -274,10 +310,17 @@ void make_results(Run& run, const Polygon_mesh& input, Surface surface, Outputs&
       options, [&] { return Remesher(std::move(surface), options.remeshing, run.report); });
   Extracted_mesh mesh = make_mesh(remesher, run);
   run.report = remesher.report();
-  const Sources sources = find_sources(input, remesher.surface().normalization, mesh, run);
+  const Normalization& normalization = remesher.surface().normalization;
+  Sources sources = find_sources(input, normalization, mesh, run);
+  std::optional<Joined_mesh> joined;
+  if (input.region && options.write_mesh) {
+    joined = join(input, normalization, mesh, run);
+    if (has_sources(input.mesh, options)) sources = joined->sources(*input.region, sources);
+  }
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
   const Stage stage("write", run.report.seconds.write);
-  write_results(remesher, mesh, sources, input.properties, run, outputs);
+  write_results(remesher, mesh, joined ? &*joined : nullptr, sources, input.mesh.properties, run,
+                outputs);
 }
 
 /// Sets the number of samples to what a sphere would need for the distance asked for.
@@ -289,12 +332,12 @@ void guess_samples(const Surface& surface, Run& run)
 
 /// The surface with the number of samples that keep the distance asked for.
 template <class Traits>
-Surface surface_within_distance(const Input& input, Run& run, Progress& progress)
+Surface surface_within_distance(Input& input, Run& run, Progress& progress)
 {
   const auto prepare_for = [&](const Remeshing_options& options, Remeshing_report& report) {
     Run trial = run;
     trial.options.remeshing = options;
-    Surface surface = prepare(Polygon_soup(input.mesh.soup), input.fields, trial);
+    Surface surface = prepare(Polygon_soup(input.remeshed_soup()), input.remeshed_fields(), trial);
     report = trial.report;
     return surface;
   };
@@ -314,10 +357,11 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
   Progress progress(options.quiet);
   const internal::Cancellation cancellation(progress);
   Input input = load(run);
-  Polygon_soup& soup = input.mesh.soup;
+  Polygon_soup& soup = input.remeshed_soup();
   const bool is_search = is_distance_asked_for(options.remeshing);
   const bool keeps_input = is_search || has_sources(input.mesh, options);
-  Surface surface = prepare(keeps_input ? Polygon_soup(soup) : std::move(soup), input.fields, run);
+  Surface surface =
+      prepare(keeps_input ? Polygon_soup(soup) : std::move(soup), input.remeshed_fields(), run);
   if (is_search) guess_samples(surface, run);
   const Run prepared = run;
   const auto remesh = [&](auto traits, const std::string& why, bool has_gpu_failed) {
@@ -332,7 +376,7 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
     if (is_search) surface = surface_within_distance<Traits>(input, run, progress);
     outputs.emplace();
     const bool may_fail = options.traits == "auto" && Traits::name() == std::string("cuda");
-    make_results<Traits>(run, input.mesh, may_fail ? surface : std::move(surface), *outputs);
+    make_results<Traits>(run, input, may_fail ? surface : std::move(surface), *outputs);
   };
   with_traits(options.traits, prepared.options.remeshing, remesh);
 }

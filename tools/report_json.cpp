@@ -138,6 +138,10 @@ void add_mesh(Json& json, const Run& run)
     json["input_sheets"] = r.input_topology.sheets;
     json["input_junctions"] = r.input_topology.junctions;
   }
+  if (r.kept_faces > 0) {
+    json["kept_vertices"] = r.kept_vertices;
+    json["kept_faces"] = r.kept_faces;
+  }
   json["self_intersections"] = r.self_intersections;
   json["feature_samples"] = r.feature_samples;
   json["off_lattice_samples"] = r.off_lattice_samples;
@@ -185,6 +189,7 @@ Json fields(const Program_options& o)
        {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field},
         std::pair{"labels", &o.labels}})
     if (!value->empty()) json[name] = *value;
+  if (!o.region_name.empty()) json["region"] = o.region_name + "=" + o.region_value;
   if (!o.refine.empty()) json["refine"] = o.refine;
   if (o.keeps_lines) json["lines"] = true;
   return json;
