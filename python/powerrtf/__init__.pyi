@@ -67,6 +67,7 @@ def remesh(
     refine: Iterable[str] = (),
     constrained_edges: Any = None,
     labels: Any = None,
+    region: Any = None,
     patches: bool = False,
     traits: str = "auto",
     threads: int = 0,

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._core import InvalidInputError
-from ._input import face_arrays, index_array, like, real_array, unpack_mesh
+from ._input import face_arrays, index_array, like, real_array, to_host, unpack_mesh
 from ._mesh import Mesh, MissedGuaranteeWarning, Report
 from ._page import RESOLUTIONS
 
@@ -46,7 +46,20 @@ def _labels(labels, count):
     return labels
 
 
-def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels, patches, traits,
+def _region(region, count):
+    """The numbers of the faces that a mask or an array of numbers names."""
+    array = to_host(region, "region")
+    if array.dtype == bool:
+        if array.shape != (count,):
+            raise InvalidInputError(f"region has the shape {array.shape}, but there are {count} faces")
+        return np.flatnonzero(array)
+    array = index_array(array, "region")
+    if len(array) and not 0 <= array.min() <= array.max() < count:
+        raise InvalidInputError(f"region has an entry that is no face's number: there are {count}")
+    return array
+
+
+def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels, region, patches, traits,
          threads, progress, options):
     if sizing is not None and n is None and not any(map(options.get, RESOLUTIONS)):
         options = {**options, "size_factor": 1.0}
@@ -63,7 +76,7 @@ def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels,
         raise TypeError(f"remesh() got an unexpected keyword argument {name!r}")
     if n is not None:
         options["number_of_samples"] = n
-    fields = {"density": None, "sizing": None, "constrained_edges": None, "labels": None,
+    fields = {"density": None, "sizing": None, "constrained_edges": None, "labels": None, "region": None,
               "refine": list(refine), "patches": bool(patches)}
     if isinstance(density, str):
         options["density"] = density
@@ -74,8 +87,13 @@ def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels,
     if constrained_edges is not None:
         fields["constrained_edges"] = index_array(constrained_edges, "constrained_edges", (2,))
     corners, sizes = faces
+    count = len(corners) if sizes is None else len(sizes)
     if labels is not None:
-        fields["labels"] = _labels(labels, len(corners) if sizes is None else len(sizes))
+        fields["labels"] = _labels(labels, count)
+    if region is not None:
+        if patches:
+            raise InvalidInputError("patches is about whole meshes: what region leaves has none")
+        fields["region"] = _region(region, count)
     given = (vertices, corners, sizes, fields, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
@@ -96,14 +114,15 @@ def _warn(mesh):
 
 
 def remesh(vertices, faces=None, n=None, *, density="curvature", sizing=None, refine=(),
-           constrained_edges=None, labels=None, patches=False, traits="auto", threads=0, progress=None, **options):
+           constrained_edges=None, labels=None, region=None, patches=False, traits="auto", threads=0,
+           progress=None, **options):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
     corners, sizes = face_arrays(faces)
     if points.dtype == np.float32:
         options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, sizing, refine, constrained_edges, labels,
+    mesh = _run(points, (corners, sizes), n, density, sizing, refine, constrained_edges, labels, region,
                 patches, traits, threads, progress, options)
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
@@ -125,7 +144,7 @@ def remesh_file(input, output, n=None, *, ascii=False, density="curvature", refi
     points, corners, sizes = _core.read_mesh(input)
     if _core.holds_floats(output, ascii):
         options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, None, refine, None, None, False, traits,
+    mesh = _run(points, (corners, sizes), n, density, None, refine, None, None, None, False, traits,
                 threads, progress, options)
     _core.write_mesh(output, mesh.vertices, mesh.faces, ascii)
     return _warn(mesh)
@@ -155,6 +174,10 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
 :param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
 :param labels: (m,) whole numbers, one for each face: creases are kept between different ones, and
     the result has them as ``labels``
+:param region: the faces to be remeshed, as a mask, (m,) bool, or by number: `n` is then the number of
+    their vertices, those on their border included. The other faces, their vertices and the edges
+    between stay as they are and come first in the result (polygons in triangles); the report is
+    about the new ones
 :param patches: whether the result has ``patches``: for each face the number of its patch between
     creases and borders
 :param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm

@@ -18,8 +18,10 @@
 #include "report_json.h"
 #include "traits.h"
 
+#include <CGAL/PowerRTF/input/Soup_region.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
+#include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <nanobind/stl/optional.h>
@@ -44,13 +46,19 @@ using nb::literals::operator""_a;
 struct Input {
   Polygon_soup soup;
   Surface_fields fields;
+  std::optional<internal::Soup_region> region; ///< none: all is remeshed
   bool wants_patches = false;
+
+  /// What is remeshed, and what is said about places there.
+  Polygon_soup& remeshed_soup() { return region ? region->soup : soup; }
+  const Surface_fields& remeshed_fields() const { return region ? region->fields : fields; }
 };
 
 /// What a dictionary of fields has: arrays or None, and regions as the program has them.
 struct Given_fields {
   std::optional<Real_array> density, sizing;
   std::optional<Index_array> constrained_edges, labels;
+  std::optional<Index_array> region; ///< faces
   std::vector<std::string> refine;
   bool patches; ///< whether the result's are wanted
 
@@ -59,6 +67,7 @@ struct Given_fields {
         sizing(nb::cast<std::optional<Real_array>>(fields["sizing"])),
         constrained_edges(nb::cast<std::optional<Index_array>>(fields["constrained_edges"])),
         labels(nb::cast<std::optional<Index_array>>(fields["labels"])),
+        region(nb::cast<std::optional<Index_array>>(fields["region"])),
         refine(nb::cast<std::vector<std::string>>(fields["refine"])),
         patches(nb::cast<bool>(fields["patches"]))
   {}
@@ -80,20 +89,36 @@ Input input_of(const Real_array& points, const Index_array& faces,
                    [&](std::size_t, auto label) { fields.labels.push_back(int(label)); });
   for (const std::string& region : given.refine)
     fields.refinements.push_back(tools::parse_refinement(region));
+  if (given.region) {
+    std::vector<char> is_inside(input.soup.first.size() - 1, 0);
+    for_each_index(*given.region, [&](std::size_t, auto face) { is_inside[face] = 1; });
+    input.region.emplace(input.soup, is_inside, fields);
+  }
   return input;
 }
 
 struct Result {
   Extracted_mesh mesh;
-  std::optional<Sources> sources; ///< of it, where the input has labels
+  std::optional<Sources> sources; ///< of it, where the input has labels or a region
   std::vector<int> patches;       ///< of its triangles, where they are wanted
   Placed_sites sites;
 };
 
+/// Adds to the result of a region what stays of the input around it.
+void join(const Input& input, const Normalization& normalization, Result& result,
+          Remeshing_report& report)
+{
+  internal::Joined_mesh joined(input.soup, *input.region, result.mesh, normalization);
+  joined.judge(input.soup, *input.region, report, tools::Concurrency());
+  result.sources = joined.sources(*input.region, *result.sources);
+  result.mesh.points = std::move(joined.points);
+  result.mesh.triangles = std::move(joined.triangles);
+}
+
 /// From the surface on, as `CGAL::power_rtf_remeshing()`. The result is empty when the visitor has
 /// stopped it.
 template <class Traits>
-Result remesh_with(tools::Run& run, const Input& input, Surface surface, Python_visitor& visitor)
+Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visitor& visitor)
 {
   run.options.traits = Traits::name();
   CGAL::PowerRTF_remesher<Traits> remesher(std::move(surface), run.options.remeshing, run.report);
@@ -103,12 +128,16 @@ Result remesh_with(tools::Run& run, const Input& input, Surface surface, Python_
     result.sites = sites_of(remesher);
   }
   run.report = remesher.report();
-  if (!input.fields.labels.empty() && !run.report.cancelled)
-    result.sources =
-        find_sources(input.soup, remesher.surface().normalization, run.report.faces_as_input(),
-                     result.mesh.points, result.mesh.triangles, tools::Concurrency());
+  if ((!input.fields.labels.empty() || input.region) && !run.report.cancelled)
+    result.sources = find_sources(input.remeshed_soup(), remesher.surface().normalization,
+                                  run.report.faces_as_input(), result.mesh.points,
+                                  result.mesh.triangles, tools::Concurrency());
   if (input.wants_patches) result.patches = remesher.patches(result.mesh);
-  for (Vec3d& p : result.mesh.points) p = remesher.surface().normalization.to_outside(p);
+  const Normalization& normalization = remesher.surface().normalization;
+  if (input.region && !run.report.cancelled)
+    join(input, normalization, result, run.report);
+  else
+    for (Vec3d& p : result.mesh.points) p = normalization.to_outside(p);
   return result;
 }
 
@@ -134,8 +163,9 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
     const bool keeps_input = is_search || !input.fields.labels.empty();
     const auto prepare = [&](const Remeshing_options& o, Remeshing_report& report) {
       const internal::Stage stage("surface");
-      return prepare_surface(keeps_input ? Polygon_soup(input.soup) : std::move(input.soup),
-                             input.fields, o, report, tools::Concurrency());
+      Polygon_soup& soup = input.remeshed_soup();
+      return prepare_surface(keeps_input ? Polygon_soup(soup) : std::move(soup),
+                             input.remeshed_fields(), o, report, tools::Concurrency());
     };
     Surface surface = prepare(options, run.report);
     options.number_of_samples =

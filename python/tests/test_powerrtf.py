@@ -94,6 +94,32 @@ def test_labels_leave_the_sources_for_a_transfer(monkeypatch):
     assert np.abs(mesh.transfer(POINTS) - mesh.vertices).max() < 0.05
 
 
+@pytest.mark.parametrize("real", [np.float32, np.float64])
+def test_what_is_no_region_stays_bit_for_bit(real):
+    points, faces = sphere(16, real)
+    inside = points[faces].mean(axis=1)[:, 2] > 0.2
+    mesh = powerrtf.remesh(points, faces, 200, region=inside, labels=np.arange(len(faces)) // 50)
+    kept = np.count_nonzero(~inside)
+    assert mesh.missed_guarantees == [] and mesh.vertices.dtype == real
+    assert (mesh.vertices[mesh.faces[:kept]] == points[faces[~inside]]).all()
+    assert (mesh.labels[:kept] == np.arange(len(faces))[~inside] // 50).all()
+    assert len(mesh.labels) == len(mesh.faces) == kept + mesh.report.faces
+    assert (mesh.report.kept_faces, mesh.report.vertices) == (kept, 200)
+    edges = np.sort(np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]]))
+    assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
+    by_number = powerrtf.remesh(points, faces, 200, region=np.flatnonzero(inside),
+                                labels=np.arange(len(faces)) // 50)
+    assert (by_number.vertices == mesh.vertices).all()
+
+
+@pytest.mark.parametrize("region, message", [
+    ([], "no facet is in the region"), ([True, False], "region has the shape"),
+    ([-1], "no face's number"), ([10**6], "no face's number"), ([0.5], "whole numbers")])
+def test_a_region_that_cannot_be_is_refused(region, message):
+    with pytest.raises(ValueError, match=message):
+        powerrtf.remesh(POINTS, FACES, 100, region=region)
+
+
 def test_patches_lie_between_creases():
     cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -7,8 +7,8 @@ import inspect
 from .._page import RESOLUTIONS
 from .._remesh import remesh
 
-_OF_ARRAYS = {"vertices", "faces", "sizing", "refine", "constrained_edges", "labels", "patches", "threads",
-              "progress"}
+_OF_ARRAYS = {"vertices", "faces", "sizing", "refine", "constrained_edges", "labels", "region", "patches",
+              "threads", "progress"}
 _RESOLUTIONS = {"n", *RESOLUTIONS}
 DEFAULTS = {name: parameter.default for name, parameter in inspect.signature(remesh).parameters.items()
             if name not in _OF_ARRAYS}
