@@ -58,6 +58,30 @@ for name in plain refined; do
   render "$work/$name.off" "$target/fandisk_$name.png" --azimuth 35 --elevation 30 --palette 128
 done
 
+# A region, finer than the rest.
+"$program" "$models/bunny00.off" "$work/coarse.off" --samples 2000 --quiet
+awk -v ply="$work/region.ply" -v vtk="$work/before.vtk" '
+  NR == 2 {
+    printf "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\n" \
+      "property double z\nelement face %d\nproperty list uchar int vertex_indices\n" \
+      "property int part\nend_header\n", $1, $2 >ply
+    printf "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS %d double\n", $1 >vtk
+    faces = $2
+  }
+  NR > 2 && NF == 3 { along[n++] = $2 - 0.6 * $1; print >ply; print >vtk }
+  NR > 2 && NF == 4 {
+    if (!count++) printf "POLYGONS %d %d\n", faces, 4 * faces >vtk
+    part[count] = along[$2] + along[$3] + along[$4] > 0.75
+    print $0, part[count] >ply; print >vtk
+  }
+  END {
+    printf "CELL_DATA %d\nSCALARS part int 1\nLOOKUP_TABLE default\n", faces >vtk
+    for (f = 1; f <= faces; ++f) print part[f] >vtk
+  }' "$work/coarse.off"
+"$program" "$work/region.ply" "$work/after.vtp" --edge-length 1.2% --region part=1 --quiet
+render "$work/before.vtk" "$target/region_before.png" --color-by part --range -2 3 --palette 128
+render "$work/after.vtp" "$target/region_after.png" --color-by part --range -2 3 --palette 128
+
 # Bands as labels, of the result only and kept apart.
 awk 'NR == 2 {
     print "ply\nformat ascii 1.0\nelement vertex " $1
