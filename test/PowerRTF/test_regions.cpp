@@ -197,6 +197,19 @@ TEST_CASE("a number of vertices is kept, whatever the border asks for")
   CHECK(report.topology.vertices == 120);
 }
 
+TEST_CASE("a single triangle with many vertices")
+{
+  for (const std::size_t n : {4, 30, 100}) {
+    CAPTURE(n);
+    Mesh mesh = make_mesh(shapes::box(1));
+    const Remeshing_report report = remesh(
+        mesh, [](const Vec3d& p) { return p.z > 0.99 && p.x > p.y; }, n);
+    CHECK(report.kept_faces == 11);
+    CHECK(report.topology.border_edges == 3);
+    CHECK(report.quality.theta_min > 0.5);
+  }
+}
+
 TEST_CASE("vertices of the border are as many as before, and do not move")
 {
   // The middle of the square, in a coarse mesh whose border would slide for better triangles.
