@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
 #include <CGAL/PowerRTF/extraction/mesh_patches.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/features/move_off_kept_edges.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
@@ -182,11 +183,13 @@ private:
   PowerRTF::Extracted_mesh judged_mesh()
   {
     const PowerRTF::Feature_samples& features = m_patches.features();
+    PowerRTF::Samples all = samples();
+    PowerRTF::move_off_kept_edges(m_surface, all.size() - features.size(), all);
     PowerRTF::Extracted_mesh mesh;
     if (!m_surface.is_closed_up()) {
-      mesh = triangulate(m_surface, samples(), features, {});
+      mesh = triangulate(m_surface, all, features, {});
     } else {
-      const PowerRTF::Opened_surface opened(m_surface, samples(), features);
+      const PowerRTF::Opened_surface opened(m_surface, all, features);
       mesh = triangulate(opened.surface(), opened.samples(), opened.features(), opened.seams());
       PowerRTF::Opened_surface::sew_up(mesh);
     }
