@@ -103,6 +103,7 @@ def test_what_is_no_region_stays_bit_for_bit(real):
     assert mesh.missed_guarantees == [] and mesh.vertices.dtype == real
     assert (mesh.vertices[mesh.faces[:kept]] == points[faces[~inside]]).all()
     assert (mesh.labels[:kept] == np.arange(len(faces))[~inside] // 50).all()
+    assert (mesh.transfer(points)[mesh.faces[:kept]] == points[faces[~inside]]).all()
     assert len(mesh.labels) == len(mesh.faces) == kept + mesh.report.faces
     assert (mesh.report.kept_faces, mesh.report.vertices) == (kept, 200)
     edges = np.sort(np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]]))
