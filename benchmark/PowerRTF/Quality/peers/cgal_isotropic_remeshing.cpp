@@ -16,7 +16,8 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/version.h>
-#if CGAL_VERSION_NR >= 1060000000
+#if CGAL_VERSION_NR >= 1060000000 && __has_include(<Eigen/Eigenvalues>)
+#define HAS_ADAPTIVE_SIZING_FIELD
 #include <CGAL/Polygon_mesh_processing/Adaptive_sizing_field.h>
 #include <utility>
 #endif
@@ -50,12 +51,12 @@ int main(int argc, char** argv)
   if (std::string(argv[3]) == "uniform") {
     PMP::isotropic_remeshing(faces(mesh), length, mesh, parameters);
   } else {
-#if CGAL_VERSION_NR >= 1060000000
+#ifdef HAS_ADAPTIVE_SIZING_FIELD
     const std::pair<double, double> range{0.001 * diagonal, 0.1 * diagonal};
     PMP::Adaptive_sizing_field<Mesh> sizing(length, range, faces(mesh), mesh);
     PMP::isotropic_remeshing(faces(mesh), sizing, mesh, parameters);
 #else
-    std::cerr << "cgal_isotropic_remeshing: an adaptive sizing needs CGAL 6\n";
+    std::cerr << "cgal_isotropic_remeshing: an adaptive sizing needs CGAL 6 and Eigen\n";
     return 3;
 #endif
   }
