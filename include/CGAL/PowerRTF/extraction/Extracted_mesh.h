@@ -19,13 +19,13 @@ struct Extracted_mesh {
   /// The samples in their order; then the vertices of the surface that the topology does not allow
   /// to remove (normally none).
   std::vector<Vec3d> points;
-  std::vector<Triangle> triangles; ///< counter-clockwise seen from outside
-  std::vector<Edge> feature_edges; ///< the pieces of creases and borders; sorted
+  std::vector<Triangle> triangles;   ///< counter-clockwise seen from outside
+  std::vector<Edge> feature_edges{}; ///< the pieces of creases and borders; sorted
   /// Of an `Opened_surface`, by point: its place (see `Seam_places`), whose points will be one
   /// vertex. Empty: all are alone.
-  std::vector<int> places;
+  std::vector<int> places{};
   /// By point, the others have none: that of the input that it is, where it has to stay; or -1.
-  std::vector<int> input_points;
+  std::vector<int> input_points{};
 
   /// Whether point `v` has to stay.
   bool is_kept(int v) const { return v < int(input_points.size()) && input_points[v] >= 0; }
