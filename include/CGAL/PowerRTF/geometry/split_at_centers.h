@@ -17,10 +17,11 @@ inline void split_at_centers(Surface& surface, const std::vector<int>& facets,
                              internal::Concurrency concurrency = Sequential_tag())
 {
   for (const int f : facets) {
-    const auto [a, b, c] = surface.triangles[f];
+    const Triangle t = surface.triangles[f];
+    const auto [a, b, c] = t;
     const int center = static_cast<int>(surface.points.size());
-    const auto mean = [&](const auto& values) {
-      return (values[a] + values[b] + values[c]) * (1. / 3);
+    const auto mean = [&t](const auto& values) {
+      return (values[t[0]] + values[t[1]] + values[t[2]]) * (1. / 3);
     };
     surface.points.push_back(mean(surface.points));
     surface.vertex_density.push_back(mean(surface.vertex_density));
