@@ -52,6 +52,8 @@ struct Input {
   /// What is remeshed, and what is said about places there.
   Polygon_soup& remeshed_soup() { return region ? region->soup : soup; }
   const Surface_fields& remeshed_fields() const { return region ? region->fields : fields; }
+  /// Whether the sources of the result are needed: for its labels, or of what stays.
+  bool wants_sources() const { return !fields.labels.empty() || region; }
 };
 
 /// What a dictionary of fields has: arrays or None, and regions as the program has them.
@@ -99,7 +101,7 @@ Input input_of(const Real_array& points, const Index_array& faces,
 
 struct Result {
   Extracted_mesh mesh;
-  std::optional<Sources> sources; ///< of it, where the input has labels or a region
+  std::optional<Sources> sources; ///< of it, where the input wants them
   std::vector<int> patches;       ///< of its triangles, where they are wanted
   Placed_sites sites;
 };
@@ -128,7 +130,7 @@ Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visito
     result.sites = sites_of(remesher);
   }
   run.report = remesher.report();
-  if ((!input.fields.labels.empty() || input.region) && !run.report.cancelled)
+  if (input.wants_sources() && !run.report.cancelled)
     result.sources = find_sources(input.remeshed_soup(), remesher.surface().normalization,
                                   run.report.faces_as_input(), result.mesh.points,
                                   result.mesh.triangles, tools::Concurrency());
@@ -160,7 +162,7 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
     const internal::Stopwatch total(run.report.seconds.total);
     Remeshing_options& options = run.options.remeshing;
     const bool is_search = is_distance_asked_for(options);
-    const bool keeps_input = is_search || !input.fields.labels.empty();
+    const bool keeps_input = is_search || input.wants_sources();
     const auto prepare = [&](const Remeshing_options& o, Remeshing_report& report) {
       const internal::Stage stage("surface");
       Polygon_soup& soup = input.remeshed_soup();
