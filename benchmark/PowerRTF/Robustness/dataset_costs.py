@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What does a mesh of a data set cost? CPU seconds, disk and memory of powerrtf.dataset, on one core.
+"""What does a mesh of a data set cost? CPU seconds, disk and memory of powerrtf.dataset, on one core;
+and how many meshes a second do more cores make?
 
-dataset_costs.py   of 16 of CGAL's models of 20 to 200 kB, or those in POWER_RTF_DATA
+dataset_costs.py           of 16 of CGAL's models of 20 to 200 kB, or those in POWER_RTF_DATA
+dataset_costs.py workers   the last table alone
 
 Needs a Python that has powerrtf[dataset]; 77 without models.
 """
 
+import concurrent.futures
 import os
 import pathlib
 import resource
@@ -21,6 +24,7 @@ from common import DATA, made_by, markdown  # noqa: E402
 from robustness import meshes  # noqa: E402
 
 ROWS = 100_000
+WORKERS = ("workers", "meshes of 1000 vertices a second", "efficiency")
 
 
 def cpu_seconds(command, times):
@@ -83,6 +87,23 @@ def rows_cost(folder):
             ["to hash a GB, s", f"{timed(key_of, str(data), [], 'ply') * 1e9 / 2**28:.2f}"]]
 
 
+def throughput(models, folder):
+    """Rows of a table: workers, meshes a second, and that over what so many single ones would make."""
+    from powerrtf.dataset import remesh_dataset, write_manifest
+    cores, workers, alone = len(os.sched_getaffinity(0)), 1, None
+    while workers <= cores:
+        files = [model for model in models for _ in range(4 * workers)]
+        manifest = folder / f"manifest-{workers}.parquet"
+        write_manifest(manifest, files, seed=[i % (4 * workers) for i in range(len(files))])
+        with concurrent.futures.ThreadPoolExecutor(workers) as executor:
+            begin = time.perf_counter()
+            remesh_dataset(manifest, folder / str(workers), 1000, executor=executor)
+            rate = len(files) / (time.perf_counter() - begin)
+        alone = alone or rate
+        yield [workers, f"{rate:.1f}", f"{rate / (workers * alone):.2f}"]
+        workers *= 2
+
+
 def main():
     models = [file for file in meshes([os.environ.get("POWER_RTF_DATA", str(DATA))], 200_000)
               if file.suffix == ".off" and file.stat().st_size > 20_000][:16]
@@ -91,11 +112,15 @@ def main():
         return 77
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
+        if sys.argv[1:] == ["workers"]:
+            print(markdown(WORKERS, throughput(models, folder)))
+            return 0
         start = cpu_seconds([sys.executable, "-c", "import powerrtf.dataset"], 10)
         print(markdown(["vertices", "CPU seconds", "kB of PLY", "MB of memory"],
                        meshes_cost(models, folder)))
         print(markdown(["the process that leads", ""], [["to start Python, s", f"{start:.2f}"],
                                                         *rows_cost(folder)]))
+        print(markdown(WORKERS, throughput(models, folder)))
     print(made_by(__file__, []))
     return 0
 
