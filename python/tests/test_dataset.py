@@ -141,11 +141,17 @@ def test_jobs_that_share_the_meshes_give_the_same(manifest, whole, tmp_path):
     assert parts(tmp_path) == before
 
 
+def heed_interrupts():
+    """A shell's job in the background would ignore them."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_what_is_finished_survives_a_kill_and_is_not_done_again(manifest, whole, tmp_path):
     for ending in (signal.SIGKILL, signal.SIGINT, signal.SIGTERM):
         before = len(rows_so_far(tmp_path))
         run = subprocess.Popen(command(manifest, tmp_path, "--workers", "2"), start_new_session=True,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                               preexec_fn=heed_interrupts, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
         while len(rows_so_far(tmp_path)) == before:  # far from the end, even of the last run
             assert run.poll() is None
             time.sleep(0.01)
