@@ -244,10 +244,12 @@ inline std::size_t set_wanted_lengths(Surface& surface, const Remeshing_options&
       options.size_factor > 0 || options.edge_length > 0 || options.relative_edge_length > 0;
   if (!is_length_asked_for) {
     const double asked = static_cast<double>(n);
-    const auto has_room = [&] { return !has_kept || scaling->has_room(asked, C); };
-    while (!has_room() && gradation > 0 && gradation < steepest)
+    bool has_room = !has_kept || scaling->has_room(asked, C);
+    while (!has_room && gradation > 0 && gradation < steepest) {
       scaling.emplace(surface, bounds, gradation *= 2, concurrency);
-    if (has_room()) C = scaling->for_vertices(asked, C); // else only ratios matter
+      has_room = scaling->has_room(asked, C);
+    }
+    if (has_room) C = scaling->for_vertices(asked, C); // else only ratios matter
   }
   std::vector<double> lengths = scaling->lengths(C);
   if (is_length_asked_for)
