@@ -112,14 +112,12 @@ def main():
         return 77
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        if sys.argv[1:] == ["workers"]:
-            print(markdown(WORKERS, throughput(models, folder)))
-            return 0
-        start = cpu_seconds([sys.executable, "-c", "import powerrtf.dataset"], 10)
-        print(markdown(["vertices", "CPU seconds", "kB of PLY", "MB of memory"],
-                       meshes_cost(models, folder)))
-        print(markdown(["the process that leads", ""], [["to start Python, s", f"{start:.2f}"],
-                                                        *rows_cost(folder)]))
+        if sys.argv[1:] != ["workers"]:
+            start = cpu_seconds([sys.executable, "-c", "import powerrtf.dataset"], 10)
+            print(markdown(["vertices", "CPU seconds", "kB of PLY", "MB of memory"],
+                           meshes_cost(models, folder)))
+            print(markdown(["the process that leads", ""], [["to start Python, s", f"{start:.2f}"],
+                                                            *rows_cost(folder)]))
         print(markdown(WORKERS, throughput(models, folder)))
     print(made_by(__file__, []))
     return 0
