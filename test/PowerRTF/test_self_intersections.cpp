@@ -10,7 +10,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <iterator>
 #include <random>
@@ -34,6 +36,12 @@ Soup random_triangles(int n, unsigned seed)
     s.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
   }
   return s;
+}
+
+bool do_overlap(const Box3<double>& a, const Box3<double>& b)
+{
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y &&
+         a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
 }
 
 std::size_t cgal_self_intersections(const Soup& s)
@@ -136,6 +144,55 @@ TEST_CASE("self-intersections: the pairs of some faces, in any number of threads
       CHECK(finder.find_where(faces, is_wanted) == some);
     }
   }
+}
+
+TEST_CASE("self-intersections: pairs of boxes, wherever and however large they are")
+{
+  const auto check = [](int n, double scale, double offset, int wanted) {
+    CAPTURE(n);
+    CAPTURE(scale);
+    CAPTURE(wanted);
+    const Soup s = random_triangles(n, n);
+    internal::Unset_vector<Box3<double>> boxes(n);
+    for (int i = 0; i < n; ++i) {
+      const auto at = [&](int k) { return scale * (s.points[3 * i + k] + Vec3d{offset, 0, 0}); };
+      boxes[i] = {at(0), at(0)};
+      boxes[i].add(at(1));
+      boxes[i].add(at(2));
+    }
+    const auto is_wanted = [&](int i) { return i % wanted == 0; };
+    std::vector<std::pair<int, int>> expected;
+    for (int i = 0; i < n; ++i)
+      for (int j = i + 1; j < n; ++j)
+        if ((is_wanted(i) || is_wanted(j)) && do_overlap(boxes[i], boxes[j]))
+          expected.emplace_back(i, j);
+    auto found =
+        internal::Box_tree(boxes, CGAL::Sequential_tag()).pairs(is_wanted, [&](int i, int j) {
+          return do_overlap(boxes[i], boxes[j]);
+        });
+    for (auto& [i, j] : found)
+      if (i > j) std::swap(i, j);
+    std::sort(found.begin(), found.end());
+    CHECK(found == expected);
+  };
+  for (const int n : {0, 1, 2, 7, 8, 9, 64, 65, 600})
+    for (const double scale : {1., 1e-300, 1e300})
+      for (const int wanted : {1, 3, 1000}) check(n, scale, 1, wanted);
+  check(600, 1, 1e12, 1);
+  check(600, 0, 0, 1); // all at one point
+}
+
+TEST_CASE("self-intersections: boxes far from the origin are told apart")
+{
+  internal::Unset_vector<Box3<double>> boxes(1000);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p{4e6 + i, 5e6, 0};
+    boxes[i] = {p, p + Vec3d{0.5, 1, 1}};
+  }
+  std::atomic<int> tested{0};
+  internal::Box_tree(boxes, CGAL::Parallel_if_available_tag())
+      .pairs([](int) { return true; }, [&](int, int) { return ++tested, false; });
+  CHECK(tested == 0);
 }
 
 TEST_CASE("self-intersections: CGAL's own count")

@@ -49,7 +49,7 @@ public:
   {
     const Vec3d c = m_p[0] + m_p[1] + m_p[2], d = m_q[0] + m_q[1] + m_q[2];
     if (m_i < 0) return parts(d - c) || is_along(m_p) || is_along(m_q);
-    return parts(normalized(d) - normalized(c)) || is_between_edges();
+    return parts(d - c) || parts(normalized(d) - normalized(c)) || is_between_edges();
   }
 
 private:
