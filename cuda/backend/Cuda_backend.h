@@ -230,6 +230,9 @@ public:
     check(cudaGetLastError(), "starting a kernel");
   }
 
+  /// Whether so many bytes are free now.
+  bool has_room(std::size_t bytes) const { return bytes <= m_context.free_bytes(); }
+
   /// From the beginning; see listed_arrays.h.
   template <class F>
   static void for_each_array(F&& f)

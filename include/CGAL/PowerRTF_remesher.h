@@ -195,7 +195,7 @@ private:
     }
     const Stage stage("quality", m_report.seconds.quality);
     PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
-                     typename Traits::Concurrency_tag());
+                     typename Traits::Concurrency_tag(), m_engine.distance_finder());
     return mesh;
   }
 

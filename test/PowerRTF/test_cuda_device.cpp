@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
 
@@ -204,6 +205,34 @@ TEST_CASE("neighbors of more cells than are brought to the host at a time are mu
     }
   CHECK(pairs > 5 * neighbors.size());
   CHECK(mutual > 0.99 * pairs); // tangent planes differ a little
+}
+
+TEST_CASE("distances are those that the CPU finds")
+{
+  const Case c = cases()[0];
+  const Start start(c);
+  Cuda_engine<float> engine(start.patches->surface(), c.options);
+  engine.set_samples(start.samples, start.patches->features());
+  const Find_distances find = engine.distance_finder();
+  const shapes::Soup fine = shapes::torus(200, 100, 0.6, 0.2),
+                     single = {{{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}}, {{0, 1, 2}}};
+  for (const shapes::Soup& s : {c.soup, fine, single}) {
+    const Facet_tree tree(s.points, s.triangles);
+    for (const int n : {1, 7, 5000, 300000}) { // by lanes, and a thread for each
+      CAPTURE(n);
+      std::mt19937 random(n);
+      const auto unit = [&random] { return random() / 4294967296.; };
+      std::vector<Vec3d> points;
+      for (int i = 0; i < n; ++i) points.push_back({unit(), unit(), unit()});
+      std::vector<double> squared(n, -1);
+      REQUIRE(find(tree.all_patches(), n, points.data(), squared.data()));
+      double worst = 0;
+      for (int i = 0; i < n; ++i)
+        worst = std::max(worst,
+                         std::fabs(squared[i] - tree.nearest_anywhere(points[i]).squared_distance));
+      CHECK(worst < 1e-15);
+    }
+  }
 }
 
 TEST_CASE("cells at tips do not keep the others from equal capacities")

@@ -4,6 +4,8 @@
 // The distance of two surfaces against closed forms.
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/engines/facet_distances.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 
 #include <doctest/doctest.h>
@@ -130,4 +132,27 @@ TEST_CASE("distance: spheres, and invariance")
   CHECK(parallel.max == before.max);
   CHECK(distance(fine, Soup()).max == 0);
   CHECK(distance(Soup(), fine).max == 0);
+}
+
+TEST_CASE("distance: found by a backend")
+{
+  const Soup fine = shapes::icosphere(4), coarse = shapes::icosphere(2);
+  const Distance_statistics expected = distance(fine, coarse);
+  const auto check = [&](const Find_distances& find) {
+    const Distance_statistics s =
+        surface_distance(fine.points, fine.triangles, Facet_tree(fine.points, fine.triangles),
+                         coarse.points, coarse.triangles, CGAL::Sequential_tag(), false, find);
+    CHECK(s.mean == expected.mean);
+    CHECK(s.rms == expected.rms);
+    CHECK(s.max == expected.max);
+  };
+  int calls = 0;
+  Host_backend<CGAL::Sequential_tag> backend;
+  check([&](const auto& facets, int n, const Vec3d* points, double* squared) {
+    ++calls;
+    return internal::facet_distances(backend, facets, n, points, squared);
+  });
+  CHECK(calls == 2);                              // once each way
+  check([&](auto&&...) { return ++calls == 0; }); // it has no room
+  CHECK(calls == 4);
 }

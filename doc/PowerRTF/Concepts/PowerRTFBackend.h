@@ -94,6 +94,9 @@ public:
   void stop_clock();
   double seconds() const;
 
+  /// Whether so many bytes are free.
+  bool has_room(std::size_t bytes) const;
+
   /// The most memory of a device that was held at a time; 0 for the host.
   std::size_t bytes() const;
   /// What a backend has from the beginning, and what `sort_order()` of n items adds; of a device.

@@ -90,6 +90,10 @@ public:
   /// Frees what only further steps need. They would make it again.
   void release_memory();
 
+  /// What finds distances of points from facets where the engine works; or empty. Where it returns
+  /// `false`, the caller finds them.
+  CGAL::PowerRTF::Find_distances distance_finder();
+
   /// The precision of the cells' numbers: the machine epsilon of `double`, or of `float`.
   double epsilon() const;
 

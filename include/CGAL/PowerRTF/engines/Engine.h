@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
+#include <CGAL/PowerRTF/engines/facet_distances.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
@@ -88,6 +89,14 @@ public:
   std::vector<Cell_polygon> cells() override;
   Neighbor_cycles neighbors() override;
   void release_memory() override;
+  bool find_distances(const Surface_view<double>& facets, int n, const Vec3d* points,
+                      double* squared_distances) override
+  {
+    if constexpr (Backend::is_host) // where it is done by groups
+      return false;
+    else
+      return internal::facet_distances(m_backend, facets, n, points, squared_distances);
+  }
   double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }
   Device_report device_report() override
   {

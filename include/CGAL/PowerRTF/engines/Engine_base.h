@@ -101,6 +101,9 @@ public:
   virtual std::vector<Cell_polygon> cells() = 0;
   virtual Neighbor_cycles neighbors() = 0;
   virtual void release_memory() = 0;
+  /// As `Find_distances`.
+  virtual bool find_distances(const Surface_view<double>& facets, int n, const Vec3d* points,
+                              double* squared_distances) = 0;
   virtual double epsilon() const = 0;
   virtual Device_report device_report() = 0;
 };

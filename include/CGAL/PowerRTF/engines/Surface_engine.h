@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -47,6 +48,9 @@ public:
   std::vector<Cell_polygon> cells() { return m_engine->cells(); }
   Neighbor_cycles neighbors() { return m_engine->neighbors(); }
   void release_memory() { m_engine->release_memory(); }
+  /// Finds distances where the engine works; it has to live as long as the result. Empty: there
+  /// were no samples for it to work on.
+  Find_distances distance_finder();
   double epsilon() const { return m_engine->epsilon(); }
   Device_report device_report() const { return m_engine->device_report(); }
   const Facet_tree& facet_tree();

@@ -151,6 +151,7 @@ public:
         n, [=](std::size_t begin, std::size_t end) { std::fill(to + begin, to + end, value); });
   }
 
+  static constexpr bool has_room(std::size_t) { return true; }
   void synchronize() {}
   void start_clock() {}
   void stop_clock() {}

@@ -39,7 +39,8 @@ inline std::size_t lost_feature_edges(const Extracted_mesh& mesh,
 
 CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches,
                                   const Facet_tree& tree, const Extracted_mesh& mesh,
-                                  Remeshing_report& report, internal::Concurrency concurrency)
+                                  Remeshing_report& report, internal::Concurrency concurrency,
+                                  const Find_distances& find)
 {
   constexpr double round_quality = 0.6, round_angle = 30; // degrees
   internal::Progress_part part(0.1);
@@ -66,7 +67,7 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   report.diagonal = unit * length(box.hi - box.lo);
   part.next(1);
   report.distance = surface_distance(patches.points, patches.triangles, tree, mesh.points,
-                                     mesh.triangles, concurrency, report.max_distance > 0);
+                                     mesh.triangles, concurrency, report.max_distance > 0, find);
   auto& [x, y, z] = report.distance.farthest;
   const Vec3d farthest = surface.normalization.to_outside({x, y, z});
   std::tie(x, y, z) = std::tie(farthest.x, farthest.y, farthest.z);

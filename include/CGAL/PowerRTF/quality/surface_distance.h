@@ -10,6 +10,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Group_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/bounding_box.h>
@@ -86,10 +87,10 @@ struct Squared_distances {
 
 /// Those of `n` points, of which `write(begin, size, points)` writes some, from `to`. The sums are
 /// of no use where `enough` is given, a squared distance up to which the largest one does not
-/// count.
+/// count. `found`: the squared distances, where they are known.
 template <class Write>
 Squared_distances squared_distances(const Facet_tree& to, int n, Concurrency concurrency,
-                                    const Write& write, double enough = -1)
+                                    const Write& write, const double* found, double enough = -1)
 {
   constexpr int chunk = 1024;
   const int group = Group_distances::group_size(n, to.view().facet_tree.items);
@@ -102,7 +103,10 @@ Squared_distances squared_distances(const Facet_tree& to, int n, Concurrency con
     for (int first = begin; first < end; first += group) {
       const int size = std::min(group, end - first);
       write(first, size, points);
-      distances.find(points, size, squared, enough);
+      if (found)
+        std::copy_n(found + first, size, squared);
+      else
+        distances.find(points, size, squared, enough);
       for (int k = 0; k < size; ++k) {
         part.sum += std::sqrt(squared[k]);
         part.sum_of_squares += squared[k];
@@ -124,20 +128,40 @@ Squared_distances squared_distances(const Facet_tree& to, int n, Concurrency con
   return total;
 }
 
+/// The squared distances of `n` samples and then of the vertices by `find`; empty where it finds
+/// none.
+inline Unset_vector<double> found_distances(const Surface_samples& from, const Facet_tree& to,
+                                            int n, Concurrency concurrency,
+                                            const Find_distances& find)
+{
+  if (!find) return {};
+  constexpr int chunk = 1024;
+  Unset_vector<Vec3d> points(n + from.vertices().size());
+  for_each_chunk(concurrency, n, chunk,
+                 [&](int begin, int end) { from.samples(begin, end - begin, n, &points[begin]); });
+  for_each_index(concurrency, int(from.vertices().size()),
+                 [&](int v) { points[n + v] = from.vertices()[v]; });
+  Unset_vector<double> squared(points.size());
+  if (!find(to.all_patches(), int(points.size()), points.data(), squared.data())) return {};
+  return squared;
+}
+
 /// Distances from `from` to `to`: sums over `n` samples; the maximum over them and the vertices.
 inline Squared_distances one_sided_distance(const Surface_samples& from, const Facet_tree& to,
-                                            int n, Concurrency concurrency)
+                                            int n, Concurrency concurrency,
+                                            const Find_distances& find)
 {
-  Squared_distances result =
-      squared_distances(to, n, concurrency, [&](int begin, int size, Vec3d* points) {
-        from.samples(begin, size, n, points);
-      });
+  const Unset_vector<double> found = found_distances(from, to, n, concurrency, find);
+  Squared_distances result = squared_distances(
+      to, n, concurrency,
+      [&](int begin, int size, Vec3d* points) { from.samples(begin, size, n, points); },
+      found.empty() ? nullptr : found.data());
   const Squared_distances of_vertices = squared_distances(
       to, static_cast<int>(from.vertices().size()), concurrency,
       [&](int begin, int size, Vec3d* points) {
         std::copy_n(from.vertices().begin() + begin, size, points);
       },
-      result.max_squared);
+      found.empty() ? nullptr : found.data() + n, result.max_squared);
   if (of_vertices.max_squared > result.max_squared) {
     result.max_squared = of_vertices.max_squared;
     result.farthest = of_vertices.farthest;
@@ -154,13 +178,15 @@ inline Squared_distances one_sided_distance(const Surface_samples& from, const F
 ///
 /// \param input_tree of the input's triangles
 /// \param is_bound_wanted find the upper bound, too
+/// \param find what finds distances instead, where it does
 inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
                                             const std::vector<Triangle>& input_triangles,
                                             const Facet_tree& input_tree,
                                             const std::vector<Vec3d>& output_points,
                                             const std::vector<Triangle>& output_triangles,
                                             internal::Concurrency concurrency = Sequential_tag(),
-                                            bool is_bound_wanted = false)
+                                            bool is_bound_wanted = false,
+                                            const Find_distances& find = {})
 {
   Distance_statistics result;
   if (input_triangles.empty() || output_triangles.empty()) return result;
@@ -172,10 +198,10 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
   const Facet_tree output_tree(output_points, output_triangles, {}, concurrency);
   const auto a = internal::one_sided_distance(
       internal::Surface_samples(input_points, input_triangles, input_tree, concurrency),
-      output_tree, n, concurrency);
+      output_tree, n, concurrency, find);
   const auto b = internal::one_sided_distance(
       internal::Surface_samples(output_points, output_triangles, output_tree, concurrency),
-      input_tree, n, concurrency);
+      input_tree, n, concurrency, find);
   const double percent = 100 / diagonal;
   result.mean = percent * std::max(a.sum, b.sum) / n;
   result.rms = percent * std::sqrt(std::max(a.sum_of_squares, b.sum_of_squares) / n);
