@@ -266,7 +266,8 @@ private:
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
       PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
-                             typename Traits::Concurrency_tag(), m_options.dislocations);
+                             typename Traits::Concurrency_tag(), m_options.dislocations,
+                             m_surface.is_closed_up() ? std::vector<int>() : samples.facets);
     }
     return mesh;
   }

@@ -194,7 +194,7 @@ TEST_CASE(
   const internal::Surface_projector projector(c.surface, tree);
   // By vertex: how many of its neighbors have changed before it, with some flips in between.
   const auto changed_before = [&](internal::Concurrency concurrency) {
-    internal::Star_mesh mesh(c.raw, projector, concurrency);
+    internal::Star_mesh mesh(c.raw, projector, {}, concurrency);
     const auto& m = mesh.working().mesh;
     using Vertex = internal::Star_mesh::Vertex;
     std::vector<std::vector<int>> result;

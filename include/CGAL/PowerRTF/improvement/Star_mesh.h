@@ -46,10 +46,11 @@ public:
   /// Stands for all that has happened to a vertex and its neighbors.
   using State = std::uint64_t;
 
+  /// `near_facets`: for each point of `mesh` a facet that is probably near; or empty.
   /// `concurrency`: of the loops over all of it.
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
-            Concurrency concurrency = Sequential_tag())
+            const std::vector<int>& near_facets = {}, Concurrency concurrency = Sequential_tag())
       : m_concurrency(concurrency), m_projector(&projector),
         m(mesh.points, mesh.triangles, concurrency), m_facets(mesh.points.size()),
         m_heights(mesh.points.size(), 0), m_locked(mesh.points.size(), false),
@@ -67,7 +68,8 @@ public:
     }
     for_each_chunk(concurrency, int(n), 256, [&](int begin, int end) {
       for (int v = begin; v < end; ++v) {
-        const auto place = projector.nearest(mesh.points[v], v > begin ? m_facets[v - 1] : -1);
+        const int near = !near_facets.empty() ? near_facets[v] : v > begin ? m_facets[v - 1] : -1;
+        const auto place = projector.nearest(mesh.points[v], near);
         m_facets[v] = place.facet;
         m.normals[v] = place.normal;
         m_movable[v] = is_interior(Vertex(v));
