@@ -35,10 +35,10 @@ private:
   Text m_text;
 };
 
-/// Rows of numbers as text.
-class Text_rows {
+/// A row of numbers as text.
+class Text_row {
 public:
-  explicit Text_rows(Streamed_text& text) : m_text(text) {}
+  explicit Text_row(Text& text) : m_text(text) {}
 
   template <class Number>
   void add(Number x)
@@ -47,21 +47,17 @@ public:
     m_text << x;
     m_at_begin = false;
   }
-  void end_row()
-  {
-    m_text << "\n";
-    m_at_begin = true;
-  }
+  void end() { m_text << "\n"; }
 
 private:
-  Streamed_text& m_text;
+  Text& m_text;
   bool m_at_begin = true;
 };
 
 /// Numbers in bytes, the least significant first.
-class Binary_rows {
+class Binary_row {
 public:
-  explicit Binary_rows(Streamed_text& text) : m_text(text) {}
+  explicit Binary_row(Text& text) : m_text(text) {}
 
   template <class Number>
   void add(Number x)
@@ -72,7 +68,7 @@ public:
       add_bytes<sizeof(x)>(
           bits_of<std::conditional_t<sizeof(x) == 4, std::uint32_t, std::uint64_t>>(x));
   }
-  void end_row() {}
+  void end() {}
 
 private:
   template <class Bits, class Number>
@@ -91,7 +87,7 @@ private:
     m_text << std::string_view(bytes, count);
   }
 
-  Streamed_text& m_text;
+  Text& m_text;
 };
 
 void ply_properties(Streamed_text& text, const std::vector<Field>& fields)
@@ -103,14 +99,14 @@ void ply_properties(Streamed_text& text, const std::vector<Field>& fields)
          << f.name << "\n";
 }
 
-template <class Rows>
-void ply_fields(Rows& rows, const std::vector<Field>& fields, std::size_t i)
+template <class Row>
+void ply_fields(Row& row, const std::vector<Field>& fields, std::size_t i)
 {
   for (const Field& f : fields) {
     if (f.integers.empty())
-      visit_as(f.type, f.values[i], [&](auto x) { rows.add(x); });
+      visit_as(f.type, f.values[i], [&](auto x) { row.add(x); });
     else
-      rows.add(f.integers[i]);
+      row.add(f.integers[i]);
   }
 }
 
@@ -137,27 +133,29 @@ void ply_header(Streamed_text& text, const Dataset& data, Encoding encoding)
   text << "end_header\n";
 }
 
-template <class Rows>
-void ply_body(Rows rows, const Dataset& data)
+template <class Row>
+void ply_body(std::ostream& out, const Dataset& data)
 {
   const bool small_polygons = has_small_polygons(data);
-  const auto add = [&rows](const Vec3d& p) {
-    for (const double x : {p.x, p.y, p.z}) rows.add(x);
-  };
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
+  write_rows(out, data.points.size(), [&](Text& text, std::size_t i) {
+    Row row(text);
+    const auto add = [&row](const Vec3d& p) {
+      for (const double x : {p.x, p.y, p.z}) row.add(x);
+    };
     add(data.points[i]);
     if (!data.normals.empty()) add(data.normals[i]);
-    ply_fields(rows, data.point_fields, i);
-    rows.end_row();
-  }
-  for (std::size_t i = 0; i < data.polygons.size(); ++i) {
+    ply_fields(row, data.point_fields, i);
+    row.end();
+  });
+  write_rows(out, data.polygons.size(), [&](Text& text, std::size_t i) {
+    Row row(text);
     const Index_lists::List polygon = data.polygons[i];
-    small_polygons ? rows.add(static_cast<std::uint8_t>(polygon.size()))
-                   : rows.add(static_cast<int>(polygon.size()));
-    for (const int v : polygon) rows.add(v);
-    ply_fields(rows, data.cell_fields, i);
-    rows.end_row();
-  }
+    small_polygons ? row.add(static_cast<std::uint8_t>(polygon.size()))
+                   : row.add(static_cast<int>(polygon.size()));
+    for (const int v : polygon) row.add(v);
+    ply_fields(row, data.cell_fields, i);
+    row.end();
+  });
 }
 
 void vtk_array_begin(Streamed_text& text, const char* type, const std::string& name,
@@ -268,9 +266,11 @@ std::vector<Field> fields_of(const std::vector<Mesh_property>& properties)
 
 void write_ply(std::ostream& out, const Dataset& data, Encoding encoding)
 {
-  Streamed_text text(out);
-  ply_header(text, data, encoding);
-  encoding == Encoding::text ? ply_body(Text_rows(text), data) : ply_body(Binary_rows(text), data);
+  {
+    Streamed_text text(out);
+    ply_header(text, data, encoding);
+  }
+  encoding == Encoding::text ? ply_body<Text_row>(out, data) : ply_body<Binary_row>(out, data);
 }
 
 void write_vtp(std::ostream& out, const Dataset& data)
