@@ -135,6 +135,22 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
   CHECK(errors[errors.size() * 99 / 100] < 0.1);
 }
 
+namespace {
+
+/// Of each node of a flat piece, whether no point is nearer than 0.7 of the spacing.
+std::vector<unsigned char> gaps_without(const Chosen_points& points, const Lattice_view& view)
+{
+  std::vector<unsigned char> gaps(view.free);
+  for (int i = 0; i < view.free; ++i)
+    gaps[i] = std::none_of(points.points.begin(), points.points.end(), [&](const Seen_point& p) {
+      return length(to_double(p.point) - to_double(view.points[i])) <=
+             0.7 * double(view.spacing(i));
+    });
+  return gaps;
+}
+
+} // namespace
+
 TEST_CASE("a flat piece gets one lattice, whatever it begins from")
 {
   const Surface surface = shapes::make_surface(shapes::plane_patch(7, 7));
@@ -177,6 +193,21 @@ TEST_CASE("a flat piece gets one lattice, whatever it begins from")
         ++edges;
       });
     CHECK(agree > 0.97 * edges); // but for some dislocations
+    Chosen_points points = field.points();
+    CHECK(field.count_twins(points) < points.nodes.size() / 20);
+    CHECK(gaps_without(points, view) == field.gaps(points));
+    points.nodes.resize(points.nodes.size() / 2);
+    points.points.resize(points.nodes.size());
+    for (const int k : {0, 5, 9}) { // again, seen by others from farther away
+      points.nodes.push_back(points.nodes[k] + 1);
+      points.points.push_back({points.points[k].point, points.points[k].distance + 0.1f});
+    }
+    CHECK(gaps_without(points, view) == field.gaps(points));
+    const std::size_t twins = field.count_twins(points);
+    CHECK(twins >= 3);
+    points.nodes.resize(points.nodes.size() - 3);
+    points.points.resize(points.nodes.size());
+    CHECK(field.count_twins(points) + 3 == twins);
   }
 }
 

@@ -106,7 +106,7 @@ inline Vec3<Real> to_real(const Vec3d& p)
   return {Real(p.x), Real(p.y), Real(p.z)};
 }
 template <class Real>
-inline Vec3d to_double(const Vec3<Real>& p)
+CGAL_POWER_RTF_HD inline Vec3d to_double(const Vec3<Real>& p)
 {
   return {double(p.x), double(p.y), double(p.z)};
 }

@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
+#include <CGAL/PowerRTF/sampling/lattice_gaps.h>
 #include <CGAL/PowerRTF/sampling/orientation_field.h>
 #include <CGAL/PowerRTF/sampling/position_field.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -17,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -135,6 +137,30 @@ public:
     return chosen;
   }
 
+  std::size_t count_twins(const Chosen_points& points) override
+  {
+    const Placing placing(m_backend, view(), points, 0);
+    Buffer<unsigned char> is_twin;
+    Buffer<int> twins;
+    is_twin.allocate(m_backend, points.nodes.size());
+    twins.allocate(m_backend, points.nodes.size());
+    const int size = static_cast<int>(points.nodes.size());
+    m_backend.for_each(size, Mark_twin{placing.view(), is_twin.data()});
+    return m_backend.select(size, is_twin.data(), twins.data());
+  }
+
+  std::vector<unsigned char> gaps(const Chosen_points& points) override
+  {
+    const Lattice_view view = this->view();
+    const Placing placing(m_backend, view, points, view.size - view.free);
+    Buffer<unsigned char> is_gap;
+    is_gap.allocate(m_backend, view.free);
+    m_backend.for_each(view.free, Mark_gap{placing.view(), is_gap.data()});
+    std::vector<unsigned char> gaps(view.free);
+    m_backend.download(gaps.data(), is_gap.data(), gaps.size());
+    return gaps;
+  }
+
   /// Of the finest level.
   Lattice_view view() { return m_levels.front().view(); }
 
@@ -168,6 +194,39 @@ private:
   private:
     const T* m_data = nullptr;
     Buffer<T> m_copy;
+  };
+
+  /// Owns what is behind `Placed_points`.
+  class Placing {
+  public:
+    /// Of the points, and the first `sites` sites.
+    Placing(Backend& backend, const Lattice_view& nodes, const Chosen_points& points, int sites)
+        : m_nodes(nodes)
+    {
+      const int given = static_cast<int>(points.nodes.size()), size = given + sites;
+      m_seen_from.allocate(backend, size);
+      m_seen.allocate(backend, given);
+      m_points.allocate(backend, size);
+      m_distances.allocate(backend, size);
+      backend.upload(m_seen_from.data(), points.nodes.data(), given);
+      backend.upload(m_seen.data(), points.points.data(), given);
+      backend.for_each(size, Place_points{nodes, given, m_seen.data(), m_seen_from.data(),
+                                          m_points.data(), m_distances.data()});
+      m_tree.emplace(backend, m_points.data(), size);
+    }
+
+    Placed_points view() const
+    {
+      return {m_nodes, m_tree->view(), m_seen_from.data(), m_distances.data()};
+    }
+
+  private:
+    Lattice_view m_nodes;
+    Buffer<int> m_seen_from;
+    Buffer<Seen_point> m_seen;
+    Buffer<Vec3d> m_points;
+    Buffer<float> m_distances;
+    std::optional<Point_tree<Backend, double>> m_tree;
   };
 
   struct Level {

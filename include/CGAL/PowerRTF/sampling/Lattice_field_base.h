@@ -69,6 +69,10 @@ public:
   virtual void solve(float factor) = 0;
   /// The lattice's points; some come twice where the fields do not fit. \pre solved
   virtual Chosen_points points() = 0;
+  /// How many of some points have another one nearly at the same place.
+  virtual std::size_t count_twins(const Chosen_points& points) = 0;
+  /// Of each free node, whether none of the points and of the sites on creases and borders is near.
+  virtual std::vector<unsigned char> gaps(const Chosen_points& points) = 0;
 };
 
 /// `levels`: from fine to coarse; free nodes of all levels are in the same order along the surface.

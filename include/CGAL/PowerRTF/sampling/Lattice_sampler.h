@@ -70,9 +70,9 @@ public:
       const auto field = make(m_levels, has_uniform_density(m_surface), m_seed);
       part.next(0.8);
       find_points(*field);
+      part.next(0.85);
+      add_candidates(*field);
     }
-    part.next(0.85);
-    add_gaps(nodes_view(m_scale));
     m_levels.resize(1);
     part.next(1);
     return eliminate();
@@ -87,6 +87,7 @@ public:
     make_nodes();
     Lattice_field<Backend> field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
     find_points(field);
+    add_points();
     return described(field.view());
   }
 
@@ -96,7 +97,6 @@ private:
   static constexpr std::size_t min_lattice = 50; // samples of a component
   static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
   static constexpr double cos_same_side = 0.2;   // of normals
-  static constexpr double twin_distance = 0.6, gap_radius = 0.7; // relative to the spacing
 
   /// The fields, and the points with their number scaled to what is wanted.
   void find_points(Lattice_field_base& field)
@@ -106,11 +106,10 @@ private:
     double scale = 1 - 0.02 * std::pow(3000. / static_cast<double>(m_size), 0.2);
     for (int step = 0;; ++step) {
       part.next(1 - 0.3 / (step + 1)); // mostly one step does
-      m_scale = static_cast<float>(scale);
-      field.solve(m_scale);
+      field.solve(static_cast<float>(scale));
       part.next(1 - 0.2 / (step + 1));
       choose_points(field);
-      const double count = static_cast<double>(distinct_points(nodes_view(m_scale)));
+      const double count = static_cast<double>(m_chosen.nodes.size() - field.count_twins(m_chosen));
       const double wanted = static_cast<double>(m_lattice_size);
       if (step == max_scalings || std::fabs(count - wanted) <= tolerance * wanted || count == 0)
         break;
@@ -194,51 +193,14 @@ private:
   void choose_points(Lattice_field_base& field)
   {
     const Chosen_points chosen = field.points();
-    m_candidates.clear();
-    m_candidates.reserve(chosen.nodes.size());
-    for (std::size_t k = 0; k < chosen.nodes.size(); ++k)
-      if (has_lattice(chosen.nodes[k]))
-        m_candidates.push_back(
-            {to_double(chosen.points[k].point), chosen.nodes[k], chosen.points[k].distance});
-  }
-
-  /// The finest nodes, for all spacings times `scale`.
-  Lattice_view nodes_view(float scale) const
-  {
-    const Lattice_nodes& nodes = m_levels.front();
-    Lattice_view view;
-    view.size = nodes.size();
-    view.free = nodes.free;
-    view.points = nodes.points.data();
-    view.normals = nodes.normals.data();
-    view.components = nodes.components.data();
-    view.node_spacing = nodes.spacing.data();
-    view.scale = scale;
-    return view;
-  }
-
-  /// Where the field does not fit, points come twice.
-  std::size_t distinct_points(const Lattice_view& view)
-  {
-    const int size = static_cast<int>(m_candidates.size());
-    internal::Unset_vector<Vec3d> points(size);
-    m_backend.for_each(size, [&](int c) { points[c] = m_candidates[c].point; });
-    const Point_tree tree(m_backend, points.data(), size);
-    const auto is_twin = [&](int c) {
-      const Sample_candidate& own = m_candidates[c];
-      return tree.view().any_near(
-          own.point, twin_distance * double(view.spacing(own.node)), [&](int o) {
-            const Sample_candidate& other = m_candidates[o];
-            return o != c && sees(view, own.node, other.node) &&
-                   (other.distance < own.distance || (other.distance == own.distance && o < c));
-          });
-    };
-    return size - internal::select(m_backend.concurrency(), size, is_twin).size();
-  }
-
-  static bool sees(const Lattice_view& view, int i, int j)
-  {
-    return view.components[i] == view.components[j] && dot(view.normals[i], view.normals[j]) > 0;
+    m_chosen = {};
+    m_chosen.nodes.reserve(chosen.nodes.size());
+    m_chosen.points.reserve(chosen.nodes.size());
+    for (std::size_t k = 0; k < chosen.nodes.size(); ++k) {
+      if (!has_lattice(chosen.nodes[k])) continue;
+      m_chosen.nodes.push_back(chosen.nodes[k]);
+      m_chosen.points.push_back(chosen.points[k]);
+    }
   }
 
   bool has_lattice(int node) const
@@ -246,20 +208,20 @@ private:
     return m_shares[m_levels.front().components[node]].samples >= min_lattice;
   }
 
-  void add_gaps(const Lattice_view& view)
+  /// The lattice's points, and the nodes in its gaps.
+  void add_candidates(Lattice_field_base& field)
   {
-    const int points = static_cast<int>(m_candidates.size()), sites = view.size - view.free;
-    internal::Unset_vector<Vec3d> near(points + sites);
-    internal::Unset_vector<int> nodes(near.size());
-    m_backend.for_each(points + sites, [&](int k) {
-      nodes[k] = k < points ? m_candidates[k].node : view.free + k - points;
-      near[k] = k < points ? m_candidates[k].point : to_double(view.points[nodes[k]]);
-    });
-    const Point_tree tree(m_backend, near.data(), points + sites);
-    add_nodes([&](int i) {
-      return !has_lattice(i) ||
-             !tree.view().any_near(to_double(view.points[i]), gap_radius * double(view.spacing(i)),
-                                   [&](int c) { return sees(view, i, nodes[c]); });
+    add_points();
+    const std::vector<unsigned char> is_gap = field.gaps(m_chosen);
+    add_nodes([&](int i) { return !has_lattice(i) || is_gap[i]; });
+  }
+
+  void add_points()
+  {
+    m_candidates.resize(m_chosen.nodes.size());
+    m_backend.for_each(static_cast<int>(m_candidates.size()), [&](int k) {
+      const Seen_point& p = m_chosen.points[k];
+      m_candidates[k] = {to_double(p.point), m_chosen.nodes[k], p.distance};
     });
   }
 
@@ -391,9 +353,9 @@ private:
   std::uint64_t m_seed;
   Surface_cube m_cube; // the nodes' coordinates are inside
   std::size_t m_size = 0, m_lattice_size = 0, m_off_lattice = 0; // samples
-  float m_scale = 1;                                             // of the spacings
   std::vector<Lattice_nodes> m_levels;                           // from fine to coarse
   std::vector<int> m_facets; // of the free nodes of the finest level
+  Chosen_points m_chosen;    // of components with a lattice
   std::vector<Sample_candidate> m_candidates;
 };
 
