@@ -136,6 +136,31 @@ TEST_CASE("a projection descends to the nearest place around")
   }
 }
 
+TEST_CASE("a point has its place on the facet that carries it, but not on one that is far")
+{
+  const Surface surface = shapes::make_surface(shapes::torus(40, 20, 2, 1));
+  const Facet_tree tree(surface.points, surface.triangles);
+  const internal::Surface_projector projector(surface, tree);
+  Random_source random(1);
+  const int facets = static_cast<int>(surface.triangles.size());
+  const double reach = 1e-6;
+  for (int k = 0; k < 1000; ++k) {
+    const int carrier = static_cast<int>(random() * facets);
+    const Triangle& t = surface.triangles[carrier];
+    const double r = std::sqrt(random()), u = r * (1 - random()), w = r - u;
+    const Vec3d p =
+        (1 - u - w) * surface.points[t[0]] + u * surface.points[t[1]] + w * surface.points[t[2]];
+    const auto place = projector.on_facet(p, carrier, reach);
+    CHECK(place.facet == carrier);
+    CHECK(length(place.point - p) < 1e-15);
+    const int other = static_cast<int>(random() * facets);
+    const auto found = projector.on_facet(p, other, reach);
+    CHECK(length(found.point - p) <= reach);
+    const Vec3d beside = p + 1e-3 * surface.facet_normals[carrier];
+    CHECK(projector.on_facet(beside, carrier, reach).facet == projector.nearest(beside).facet);
+  }
+}
+
 TEST_CASE("dislocations glide to each other and annihilate")
 {
   // a hexagonal lattice on a plane

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -46,11 +47,11 @@ public:
   /// Stands for all that has happened to a vertex and its neighbors.
   using State = std::uint64_t;
 
-  /// `near_facets`: for each point of `mesh` a facet that is probably near; or empty.
+  /// `carriers`: for each point of `mesh` the facet that it probably lies on; or empty.
   /// `concurrency`: of the loops over all of it.
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
-            const std::vector<int>& near_facets = {}, Concurrency concurrency = Sequential_tag())
+            const std::vector<int>& carriers = {}, Concurrency concurrency = Sequential_tag())
       : m_concurrency(concurrency), m_projector(&projector),
         m(mesh.points, mesh.triangles, concurrency), m_facets(mesh.points.size()),
         m_heights(mesh.points.size(), 0), m_locked(mesh.points.size(), false),
@@ -59,6 +60,8 @@ public:
         m_changes(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
   {
     const std::size_t n = mesh.points.size();
+    constexpr double rounding = 1e-3; // of a point on the surface, in units of the spacing
+    const double reach = rounding * std::sqrt(projector.surface().area / double(n));
     m.normals.resize(n);
     if (!mesh.places.empty()) m.set_places(mesh.places);
     for (const auto& [a, b] : mesh.feature_edges) {
@@ -68,8 +71,9 @@ public:
     }
     for_each_chunk(concurrency, int(n), 256, [&](int begin, int end) {
       for (int v = begin; v < end; ++v) {
-        const int near = !near_facets.empty() ? near_facets[v] : v > begin ? m_facets[v - 1] : -1;
-        const auto place = projector.nearest(mesh.points[v], near);
+        const Vec3d& p = mesh.points[v];
+        const auto place = carriers.empty() ? projector.nearest(p, v > begin ? m_facets[v - 1] : -1)
+                                            : projector.on_facet(p, carriers[v], reach);
         m_facets[v] = place.facet;
         m.normals[v] = place.normal;
         m_movable[v] = is_interior(Vertex(v));

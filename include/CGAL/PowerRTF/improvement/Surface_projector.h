@@ -32,6 +32,14 @@ public:
     return place(m_tree.nearest_anywhere(p, hint));
   }
 
+  /// The place on `facet` if that is no farther from `p` than `reach`, else the nearest one.
+  Place on_facet(const Vec3d& p, int facet, double reach) const
+  {
+    Triangle_part part;
+    const Surface_point<double> near = onto(facet, p, part);
+    return near.squared_distance <= reach * reach ? place(near) : nearest(p, facet);
+  }
+
   /// The nearest place to `p` on the facets of the patch of `start` that agree with `normal`, found
   /// by descent from facet to facet: the nearest around. If facet `start` does not agree, the
   /// nearest on all of them; its facet is -1 if there is none.

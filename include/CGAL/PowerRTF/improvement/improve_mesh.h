@@ -26,14 +26,14 @@ class Facet_tree;
 ///
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
-/// `dislocations`: those that are kept cost roundness, not time. `near_facets`: for each point of
-/// `mesh` a facet that is probably near, which saves time; or empty.
+/// `dislocations`: those that are kept cost roundness, not time. `carriers`: for each point of
+/// `mesh` the facet that it probably lies on, which saves time; or empty.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                   internal::Concurrency concurrency = Sequential_tag(),
                   Dislocations dislocations = Dislocations::annihilate,
-                  const std::vector<int>& near_facets = {});
+                  const std::vector<int>& carriers = {});
 
 /// The same with a tree of its own.
 bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,

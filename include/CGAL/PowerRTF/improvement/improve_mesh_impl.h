@@ -59,11 +59,11 @@ public:
   /// \throw Invalid_input_error if `mesh` is not an oriented 2-manifold
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                 Concurrency concurrency, Dislocations dislocations,
-                const std::vector<int>& near_facets)
-      : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_near_facets(near_facets),
+                const std::vector<int>& carriers)
+      : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_carriers(carriers),
         m_concurrency(concurrency), m_dislocations(dislocations),
         m_locked(mesh.points.size(), false),
-        m_stars(std::in_place, mesh, m_projector, near_facets, concurrency), m_tracker(*m_stars),
+        m_stars(std::in_place, mesh, m_projector, carriers, concurrency), m_tracker(*m_stars),
         m_flat(surface, Flat_patches::level_sine, concurrency),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
@@ -75,7 +75,7 @@ public:
   {
     Progress_part part(0.93); // the first attempt, which mostly does
     for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
-      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_near_facets, m_concurrency);
+      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_carriers, m_concurrency);
       Star_mesh& stars = *m_stars;
       stars.lock(m_locked);
       improve(stars, attempt == 1 ? 1 : 0);
@@ -235,7 +235,7 @@ private:
   const Surface& m_surface;
   Surface_projector m_projector;
   Extracted_mesh& m_mesh; // as it was extracted, until it is improved
-  const std::vector<int>& m_near_facets;
+  const std::vector<int>& m_carriers;
   Concurrency m_concurrency;
   Dislocations m_dislocations;
   std::vector<char> m_locked;
@@ -249,13 +249,12 @@ private:
 
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
                                         Extracted_mesh& mesh, internal::Concurrency concurrency,
-                                        Dislocations dislocations,
-                                        const std::vector<int>& near_facets)
+                                        Dislocations dislocations, const std::vector<int>& carriers)
 {
   if (mesh.triangles.empty()) return true;
   try {
     internal::Progress_part part(0.12);
-    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, near_facets);
+    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, carriers);
     part.next(0.98);
     improver.run();
     mesh.sort_triangles(concurrency);
