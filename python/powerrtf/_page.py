@@ -7,16 +7,13 @@ import json
 import os
 
 from . import _core
-
-RESOLUTIONS = ("edge_length", "relative_edge_length", "max_distance", "relative_max_distance",
-               "vertex_share", "size_factor")
+from ._options import merged
 
 
 def html_page(mesh):
     """The page as bytes."""
     *given, options = mesh._given
-    options = {name: value for name, value in options.items() if name not in RESOLUTIONS}
-    options["number_of_samples"] = len(mesh.vertices)
+    options = merged(options, {"n": len(mesh.vertices)})
     return _core.html_page(*given, options, *mesh._arrays(), json.dumps(mesh.report.to_dict()))
 
 

@@ -311,6 +311,7 @@ NB_MODULE(_core, m)
   nb::exception<Invalid_input_error>(m, "InvalidInputError", PyExc_ValueError);
   nb::exception<tools::Output_error>(m, "OutputError", PyExc_OSError);
   m.def("options", &option_rows);
+  m.def("check_options", [](const nb::dict& values) { validate(options_of(values)); });
   m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
         "traits"_a, "threads"_a, "progress"_a.none());
   m.def("cells", &cells<tools::Concurrency>, "sites"_a);
