@@ -231,14 +231,15 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
                         result.sources ? nb::object(to_python(*result.sources)) : nb::none());
 }
 
-/// The page of a run, of what went in and what came out.
+/// The page of a run, of what went in and what came out. \param sites those of the run
 nb::bytes html_page(const Real_array& points, const Index_array& faces,
                     const std::optional<Index_array>& sizes, const nb::dict& fields,
                     const nb::dict& options, const Real_array& vertices,
-                    const Index_array& triangles, const std::string& report)
+                    const Index_array& triangles, const nb::dict& sites, const std::string& report)
 {
   const Remeshing_options remeshing = options_of(options);
   const Given_fields given(fields);
+  const Placed_sites placed = sites_from_python(sites);
   std::ostringstream page;
   {
     const nb::gil_scoped_release release;
@@ -250,7 +251,11 @@ nb::bytes html_page(const Real_array& points, const Index_array& faces,
     mesh.points = points_of_array(vertices);
     for (Vec3d& p : mesh.points) p = surface.normalization.to_inside(p);
     mesh.triangles = triangles_of_array(triangles);
-    tools::write_html(page, surface, mesh, report);
+    std::vector<Cell_polygon> cells = cells_of_sites<tools::Concurrency>(placed.in);
+    for (Cell_polygon& cell : cells)
+      for (Vec3d& p : cell.vertices)
+        p = surface.normalization.to_inside(placed.normalization.to_outside(p));
+    tools::write_html(page, surface, mesh, cells, report);
   }
   const std::string text = page.str();
   return nb::bytes(text.data(), text.size());
@@ -318,7 +323,7 @@ NB_MODULE(_core, m)
   m.def("sources", &sources<tools::Concurrency>, "points"_a, "faces"_a, "sizes"_a.none(),
         "vertices"_a, "triangles"_a, "sites"_a);
   m.def("html_page", &html_page, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
-        "vertices"_a, "triangles"_a, "report"_a);
+        "vertices"_a, "triangles"_a, "sites"_a, "report"_a);
   m.def("read_mesh", &read_mesh, "file"_a);
   m.def("check_output", &check_output, "file"_a);
   m.def("holds_floats", [](const std::string& file, bool ascii) {
