@@ -196,7 +196,7 @@ class View {
       else return;
       e.preventDefault();
     });
-    new ResizeObserver(() => this.draw()).observe(canvas);
+    new ResizeObserver(() => this.drawNow()).observe(canvas); // before the new size is shown
   }
 }
 
