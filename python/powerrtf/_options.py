@@ -32,8 +32,8 @@ def given_options(options, n, single):
 
 
 def check_traits(traits):
-    if traits not in ("auto", "cpu", "exact", "cuda"):
-        raise _core.InvalidInputError(f"traits is {traits!r}, but must be one of auto|cpu|exact|cuda")
+    if traits not in _core.traits:
+        raise _core.InvalidInputError(f"traits is {traits!r}, but must be one of {'|'.join(_core.traits)}")
 
 
 _DOC = """Options for any number of runs, ``remesh(..., options=)``: those of :func:`remesh` that are plain

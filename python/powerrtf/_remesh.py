@@ -176,11 +176,12 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
     every 50 ms; or True: a bar by tqdm. What it raises stops the run
 :param options: an :class:`Options`, with what the call does not give itself
 :param preset: "quality", "fast" or "paper": whose values the other options have
-:param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm
+:param traits: "auto", "cpu", "exact" or, where it is built in, "cuda": what runs the algorithm
 {options}
 :returns: :class:`Mesh`, which unpacks as ``vertices, faces``. Its arrays are of the input's kind
     and precision
 :raises InvalidInputError: the message says what cannot be used (a :class:`ValueError`)
+:raises RuntimeError: ``traits`` is "cuda", and the GPU cannot be used
 :warns MissedGuaranteeWarning: the result lacks something that is promised
 
 >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]

@@ -204,9 +204,6 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
                  const nb::dict& options, const std::string& traits, int threads,
                  const nb::object& progress)
 {
-#ifndef CGAL_POWER_RTF_WITH_CUDA
-  if (traits == "cuda") throw Invalid_input_error("traits is 'cuda', which is not built in here");
-#endif
   tools::Run run;
   run.options.remeshing = options_of(options);
   run.options.traits = traits;
@@ -315,6 +312,11 @@ NB_MODULE(_core, m)
   m.attr("__version__") = POWER_RTF_VERSION;
   nb::exception<Invalid_input_error>(m, "InvalidInputError", PyExc_ValueError);
   nb::exception<tools::Output_error>(m, "OutputError", PyExc_OSError);
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+  m.attr("traits") = nb::make_tuple("auto", "cpu", "exact", "cuda");
+#else
+  m.attr("traits") = nb::make_tuple("auto", "cpu", "exact");
+#endif
   m.def("options", &option_rows);
   m.def("check_options", [](const nb::dict& values) { validate(options_of(values)); });
   m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,

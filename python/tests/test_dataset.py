@@ -235,6 +235,8 @@ def test_wrong_arguments_are_refused(small, tmp_path):
         write_manifest(small, tmp_path / "empty")
     with pytest.raises(ValueError, match="^seed is 'x', but must be a number from 0"):
         remesh_dataset(small, tmp_path / "out", N, seed="x")
+    with pytest.raises(ValueError, match="^size_factor needs a sizing field"):
+        remesh_dataset(small, tmp_path / "out", size_factor=2)
     write_manifest(small, tmp_path, gradation=[None, -1., None])
     with pytest.raises(ValueError, match="row 1: gradation is -1, but must be a number from 0"):
         remesh_dataset(small, tmp_path / "out", N)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Options of :func:`powerrtf.remesh` as arguments of the program."""
 
+from .._core import InvalidInputError
 from .._options import DEFAULTS, Options
 
 
@@ -25,6 +26,8 @@ def arguments(options):
     ('--samples', '200', '--repair', 'no', '--seed', '3', '--traits', 'cpu')
     """
     options = Options(**{name: _plain(value) for name, value in {"traits": "cpu", **options}.items()})
+    if options.size_factor:
+        raise InvalidInputError("size_factor needs a sizing field, but a dataset has none")
     result = []
     for name, value in sorted(options.to_dict().items()):
         flag = "--samples" if name == "n" else "--" + name.replace("_", "-")
