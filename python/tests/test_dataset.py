@@ -240,7 +240,8 @@ def test_wrong_arguments_are_refused(small, tmp_path):
     write_manifest(small, tmp_path, gradation=[None, -1., None])
     with pytest.raises(ValueError, match="row 1: gradation is -1, but must be a number from 0"):
         remesh_dataset(small, tmp_path / "out", N)
-    run = subprocess.run(command(small, tmp_path / "out", "--repair", "perhaps"), capture_output=True, text=True)
+    run = subprocess.run(command(small, tmp_path / "out", "--repair", "perhaps"), capture_output=True,
+                         text=True)
     assert run.returncode == 2 and "--repair: 'perhaps' is neither yes nor no" in run.stderr
 
 

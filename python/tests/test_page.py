@@ -51,10 +51,10 @@ def test_page_has_both_meshes_and_needs_nothing_else(page):
 
 def test_page_has_the_cells(mesh, page):
     data = data_of(page)
-    sides, corners = (decoded(data["cells"][name], kind) for name, kind in (("sides", "<i4"), ("points", "<f4")))
-    assert np.array_equal(sides, mesh.cells().sides)
+    assert np.array_equal(decoded(data["cells"]["sides"], "<i4"), mesh.cells().sides)
+    corners = data["unit"] * decoded(data["cells"]["points"], "<f4").reshape(-1, 3)
     expected = mesh.cells().points - (POINTS.min(0) + POINTS.max(0)) / 2
-    assert np.abs(data["unit"] * corners.reshape(-1, 3) - expected).max() < 1e-6
+    assert np.abs(corners - expected).max() < 1e-6
 
 
 def test_page_of_the_program(mesh, tmp_path):
