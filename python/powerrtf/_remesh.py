@@ -152,7 +152,8 @@ def remesh_open3d(mesh, n=None, **options):
     return remesh(mesh, None, n, **options).to_open3d()
 
 
-_DOC = """Remeshes a surface with `n` well-distributed vertices.
+_DOC = """Remeshes a surface with `n` well-distributed vertices. A :class:`MissedGuaranteeWarning` tells of
+what the result lacks, if it does.
 
 :param vertices: (k, 3) numbers; or a mesh of trimesh, pyvista, Open3D or meshio, without `faces`
 :param faces: (m, 3) or more columns, or polygons of different sizes: vertices, numbered from 0
@@ -182,7 +183,6 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
     and precision
 :raises InvalidInputError: the message says what cannot be used (a :class:`ValueError`)
 :raises RuntimeError: ``traits`` is "cuda", and the GPU cannot be used
-:warns MissedGuaranteeWarning: the result lacks something that is promised
 
 >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 >>> mesh = remesh(square, [[0, 1, 2, 3]], 100, density="uniform")
