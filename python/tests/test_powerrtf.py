@@ -196,6 +196,12 @@ def test_options_are_checked_when_they_are_made(options, message):
         powerrtf.Options(nonsense=1)
 
 
+@pytest.mark.parametrize("name", [field.name for field in dataclasses.fields(powerrtf.Options)])
+def test_messages_name_the_argument(name):
+    with pytest.raises(powerrtf.InvalidInputError, match=f"^{name} is <object .*, but must be "):
+        powerrtf.Options(**{name: object()})
+
+
 def test_options_are_values_and_cannot_be_changed():
     coarse = powerrtf.Options(n=100, density="uniform")
     with pytest.raises(dataclasses.FrozenInstanceError):
