@@ -59,14 +59,18 @@ struct Nearest {
   }
 };
 
+void add_point(const Vec3d& p, const Vec3d& center, std::vector<float>& coordinates)
+{
+  for (const double x : {p.x - center.x, p.y - center.y, p.z - center.z})
+    coordinates.push_back(float(x));
+}
+
 void write_mesh(std::ostream& out, const std::vector<Vec3d>& points,
                 const std::vector<Triangle>& triangles, const Vec3d& center,
                 const std::vector<float>& distance, const std::vector<float>& density)
 {
   std::vector<float> coordinates;
-  for (const Vec3d& p : points)
-    for (const double x : {p.x - center.x, p.y - center.y, p.z - center.z})
-      coordinates.push_back(float(x));
+  for (const Vec3d& p : points) add_point(p, center, coordinates);
   std::vector<std::int32_t> corners;
   for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
   out << "{\"points\":\"" << base64(coordinates) << "\",\"faces\":\"" << base64(corners)
@@ -74,8 +78,19 @@ void write_mesh(std::ostream& out, const std::vector<Vec3d>& points,
       << "\"}";
 }
 
+void write_cells(std::ostream& out, const std::vector<Cell_polygon>& cells, const Vec3d& center)
+{
+  std::vector<float> coordinates;
+  std::vector<std::int32_t> sides;
+  for (const Cell_polygon& cell : cells) {
+    for (const Vec3d& p : cell.vertices) add_point(p, center, coordinates);
+    sides.push_back(static_cast<std::int32_t>(cell.vertices.size()));
+  }
+  out << "{\"points\":\"" << base64(coordinates) << "\",\"sides\":\"" << base64(sides) << "\"}";
+}
+
 void write_data(std::ostream& out, const Surface& surface, const Extracted_mesh& mesh,
-                const std::string& report)
+                const std::vector<Cell_polygon>& cells, const std::string& report)
 {
   const double unit = 1 / surface.normalization.scale;
   const auto tree = [](const auto& points, const auto& triangles) {
@@ -97,6 +112,8 @@ void write_data(std::ostream& out, const Surface& surface, const Extracted_mesh&
   write_mesh(out, surface.points, surface.triangles, center, to_mesh.distances, density);
   out << ",\"output\":";
   write_mesh(out, mesh.points, mesh.triangles, center, to_surface.distances, mesh_density);
+  out << ",\"cells\":";
+  write_cells(out, cells, center);
   out << ",\"report\":";
   for (const char c : report) c == '<' ? out << "\\u003c" : out << c; // no end of the script
   out << '}';
@@ -105,13 +122,13 @@ void write_data(std::ostream& out, const Surface& surface, const Extracted_mesh&
 } // namespace
 
 void write_html(std::ostream& out, const Surface& surface, const Extracted_mesh& mesh,
-                const std::string& report)
+                const std::vector<Cell_polygon>& cells, const std::string& report)
 {
   const std::string_view page(page_text), mark("@DATA@");
   const std::size_t place = page.find(mark);
   const auto precision = out.precision(17);
   out << page.substr(0, place);
-  write_data(out, surface, mesh, report);
+  write_data(out, surface, mesh, cells, report);
   out << page.substr(place + mark.size());
   out.precision(precision);
 }

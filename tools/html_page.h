@@ -7,22 +7,25 @@
 #ifndef POWER_RTF_TOOLS_HTML_PAGE_H
 #define POWER_RTF_TOOLS_HTML_PAGE_H
 
+#include <CGAL/PowerRTF/cells/Cell_polygon.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace tools {
 
 /// Writes the page: input and output side by side, turned together, colored by quality, distance,
-/// area or density; histograms of angles, quality, lengths and distances; the report; the worst
-/// triangles.
+/// area or density, or the cells by their sides; histograms of angles, quality, lengths and
+/// distances; the report; the worst triangles.
 ///
-/// \param mesh in the coordinates of the unit box, as `surface`
+/// \param mesh, cells in the coordinates of the unit box, as `surface`
 /// \param report what `write_json()` writes
 void write_html(std::ostream& out, const CGAL::PowerRTF::Surface& surface,
-                const CGAL::PowerRTF::Extracted_mesh& mesh, const std::string& report);
+                const CGAL::PowerRTF::Extracted_mesh& mesh,
+                const std::vector<CGAL::PowerRTF::Cell_polygon>& cells, const std::string& report);
 
 } // namespace tools
 

@@ -18,10 +18,13 @@ namespace fs = std::filesystem;
   throw Output_error(file + ": cannot be written: " + reason);
 }
 
-bool is_device_or_pipe(const fs::path& path)
+// Whether `target` is no file that another could replace: a device, a pipe, or what is open but has
+// no name (of which target_of() leaves the link, as /dev/stdout).
+bool is_written_directly(const fs::path& target)
 {
   std::error_code ignored;
-  return fs::is_other(path, ignored);
+  return fs::is_other(target, ignored) ||
+         (fs::is_symlink(target, ignored) && fs::exists(target, ignored));
 }
 
 fs::path temporary_for(const fs::path& target)
@@ -70,10 +73,10 @@ void check_writable(const std::string& file)
   const fs::path target = target_of(file);
   std::error_code ignored;
   if (fs::is_directory(target, ignored)) fail(file, "it is a directory");
-  if (fs::is_symlink(target, ignored)) fail(file, std::strerror(ELOOP));
   if (fs::exists(target, ignored) && ::access(target.c_str(), W_OK) != 0)
     fail(file, std::strerror(errno));
-  if (is_device_or_pipe(target)) return;
+  if (is_written_directly(target)) return;
+  if (fs::is_symlink(target, ignored)) fail(file, std::strerror(ELOOP));
   const fs::path folder = target.parent_path();
   if (!fs::exists(folder, ignored)) fail(file, "there is no directory " + folder.string());
   if (!fs::is_directory(folder, ignored)) fail(file, folder.string() + " is not a directory");
@@ -90,7 +93,7 @@ void check_writable(const std::string& file)
 Output_file::Output_file(const std::string& file) : m_name(file), m_target(target_of(file))
 {
   constexpr std::ios::openmode mode = std::ios::out | std::ios::binary;
-  if (!is_device_or_pipe(m_target)) {
+  if (!is_written_directly(m_target)) {
     m_unnamed = open_unnamed(m_target);
     if (m_unnamed >= 0 && m_buffer.open(path_of(m_unnamed), mode)) return;
     m_temporary = temporary_for(m_target);

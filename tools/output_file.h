@@ -49,8 +49,8 @@ protected:
 
 /// Writes to a temporary file in the target's folder, which replaces the target at `commit()`. It
 /// has no name until then, where the file system allows that: nothing is left of it even when the
-/// process is killed. Without `commit()` the target stays as it was. (A device or a pipe is written
-/// directly.) Symbolic links are followed.
+/// process is killed. Without `commit()` the target stays as it was. (A device, a pipe, and what is
+/// open without a name are written directly.) Symbolic links are followed.
 class Output_file {
 public:
   /// \throws Output_error when the temporary file cannot be made

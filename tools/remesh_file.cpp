@@ -270,7 +270,7 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
   outputs.add(options.html_file, [&](std::ostream& out) {
     std::ostringstream report;
     write_json(report, run);
-    write_html(out, remesher.surface(), mesh, report.str());
+    write_html(out, remesher.surface(), mesh, remesher.cells(), report.str());
   });
   Mesh_properties values = transferred(properties, sources);
   if (options.writes_patches) set_patches(remesher.patches(mesh), values);

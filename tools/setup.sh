@@ -145,7 +145,8 @@ fetch_models() {
 make_python_environment() {
   local log=$root/build/python.log
   local packages=('nanobind>=2.4,<4' 'numpy>=1.23,<3' 'pytest>=7,<10' 'pyarrow>=15')
-  local more=('trimesh>=4,<6' 'meshio>=5,<6' 'pyvista>=0.44,<1' 'tqdm>=4,<5' 'matplotlib>=3,<4')
+  local more=('trimesh>=4,<6' 'meshio>=5,<6' 'pyvista>=0.44,<1' 'tqdm>=4,<5' 'matplotlib>=3,<4'
+              'sphinx>=7,<10' 'myst-parser>=3,<6' 'furo')
   [ "$(cat "$1/complete" 2>/dev/null)" != "${packages[*]} ${more[*]}" ] || return 0
   mkdir -p "$root/build"
   python3 -m venv "$1" >"$log" 2>&1 && "$1/bin/pip" install "${packages[@]}" >>"$log" 2>&1 || return 1

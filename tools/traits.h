@@ -78,14 +78,13 @@ auto with_traits(const std::string& name, const CGAL::PowerRTF::Remeshing_option
     return run(Type<CGAL::PowerRTF_cuda_traits_3<Kernel>>(), std::string(), false);
   } catch (const CGAL::PowerRTF::Cuda_error& e) {
     if (name == "cuda")
-      throw CGAL::PowerRTF::Cuda_error(std::string("--traits cuda cannot be used: ") + e.what());
+      throw CGAL::PowerRTF::Cuda_error(std::string("the CUDA traits cannot be used: ") + e.what());
     gpu_not_used = e.what();
   }
   return run(Type<Cpu_traits>(), gpu_not_used, true);
 #else
   (void)options;
-  return run(Type<Cpu_traits>(), std::string("the CUDA traits are not built into this program"),
-             false);
+  return run(Type<Cpu_traits>(), std::string("the CUDA traits are not built in"), false);
 #endif
 }
 

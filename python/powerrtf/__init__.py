@@ -13,9 +13,9 @@
 from ._cells import Cells
 from ._core import InvalidInputError, OutputError, __version__
 from ._mesh import Mesh, MissedGuaranteeWarning, Report
+from ._options import Options
 from ._page import report_html
 from ._remesh import remesh, remesh_file, remesh_open3d, remesh_trimesh
 
-__all__ = ["Cells", "InvalidInputError", "Mesh", "MissedGuaranteeWarning", "OutputError", "Report",
-           "remesh", "remesh_file", "remesh_open3d", "remesh_trimesh",
-           "report_html"]
+__all__ = ["Cells", "InvalidInputError", "Mesh", "MissedGuaranteeWarning", "Options", "OutputError", "Report",
+           "remesh", "remesh_file", "remesh_open3d", "remesh_trimesh", "report_html"]

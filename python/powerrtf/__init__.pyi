@@ -1,6 +1,7 @@
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
@@ -57,22 +58,79 @@ class Mesh:
     def to_meshio(self) -> Any: ...
     def to_open3d(self) -> Any: ...
 
+@dataclass(frozen=True)
+class Options:
+    preset: str | None = None
+    traits: str | None = None
+    n: int | None = None
+    vertex_share: float | None = None
+    edge_length: float | None = None
+    relative_edge_length: float | None = None
+    size_factor: float | None = None
+    max_distance: float | None = None
+    relative_max_distance: float | None = None
+    min_angle: float | None = None
+    max_angle: float | None = None
+    density: str | None = None
+    seed: int | None = None
+    feature_angle: float | None = None
+    repair: bool | None = None
+    merge_distance: float | None = None
+    non_manifold: str | None = None
+    intersections: str | None = None
+    wrap_radius: float | None = None
+    density_power: float | None = None
+    gradation: float | None = None
+    density_smoothing: float | None = None
+    thin: str | None = None
+    min_edge_length: float | None = None
+    max_edge_length: float | None = None
+    sampling: str | None = None
+    oversampling: float | None = None
+    relaxation_iterations: int | None = None
+    attributes: str | None = None
+    normal_neighbors: int | None = None
+    density_neighbors: int | None = None
+    normal_smoothing: float | None = None
+    neighbors: int | None = None
+    normal_angle: float | None = None
+    guard_factor: float | None = None
+    certified_combinatorics: bool | None = None
+    position_method: str | None = None
+    max_iterations: int | None = None
+    centroid_tolerance: float | None = None
+    lbfgs_memory: int | None = None
+    projection: str | None = None
+    projection_neighbors: int | None = None
+    centroid_density_power: float | None = None
+    weight_method: str | None = None
+    capacity_tolerance: float | None = None
+    max_weight_iterations: int | None = None
+    weight_step: float | None = None
+    weight_operator: str | None = None
+    weights_end: str | None = None
+    extraction: str | None = None
+    improvement: bool | None = None
+    dislocations: str | None = None
+    device: int | None = None
+    def to_dict(self) -> dict[str, Any]: ...
+
 def remesh(
     vertices: Any,
     faces: Any = None,
     n: int | None = None,
     *,
-    density: Any = "curvature",
     sizing: Any = None,
     refine: Iterable[str] = (),
     constrained_edges: Any = None,
     labels: Any = None,
     region: Any = None,
     patches: bool = False,
-    traits: str = "auto",
     threads: int = 0,
     progress: Callable[[float, str], Any] | bool | None = None,
+    options: Options | None = None,
     preset: str = "quality",
+    traits: str = "auto",
     vertex_share: float = 0.0,
     edge_length: float = 0.0,
     relative_edge_length: float = 0.0,
@@ -81,6 +139,7 @@ def remesh(
     relative_max_distance: float = 0.0,
     min_angle: float = 0.0,
     max_angle: float = 180.0,
+    density: Any = "curvature",
     seed: int = 0,
     feature_angle: float = 40.0,
     repair: bool = True,
@@ -129,12 +188,11 @@ def remesh_file(
     n: int | None = None,
     *,
     ascii: bool = False,
-    density: str = "curvature",
     refine: Iterable[str] = (),
-    traits: str = "auto",
     threads: int = 0,
     progress: Callable[[float, str], Any] | bool | None = None,
-    **options: Any,
+    options: Options | None = None,
+    **single: Any,
 ) -> Mesh: ...
 def remesh_trimesh(mesh: Any, n: int | None = None, **options: Any) -> Any: ...
 def remesh_open3d(mesh: Any, n: int | None = None, **options: Any) -> Any: ...

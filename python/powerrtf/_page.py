@@ -7,23 +7,22 @@ import json
 import os
 
 from . import _core
-
-RESOLUTIONS = ("edge_length", "relative_edge_length", "max_distance", "relative_max_distance",
-               "vertex_share", "size_factor")
+from ._options import merged
 
 
 def html_page(mesh):
     """The page as bytes."""
     *given, options = mesh._given
-    options = {name: value for name, value in options.items() if name not in RESOLUTIONS}
-    options["number_of_samples"] = len(mesh.vertices)
-    return _core.html_page(*given, options, *mesh._arrays(), json.dumps(mesh.report.to_dict()))
+    options = merged(options, {"n": len(mesh.vertices)})
+    return _core.html_page(*given, options, *mesh._arrays(), mesh._sites,
+                           json.dumps(mesh.report.to_dict()))
 
 
 def report_html(mesh, file):
     """Writes a page about a result that any browser shows without a network: input and output side by
-    side, turned together, colored by quality, distance, area or density; histograms of angles, quality,
-    lengths and distances; the report; and the worst triangles, to jump to.
+    side, turned together, colored by quality, distance, area or density, or the cells by their sides;
+    histograms of angles, quality, lengths and distances; the report; and the worst triangles, to jump to.
+    ``#cells`` or the like after the page's address chooses the color.
 
     :param mesh: the :class:`Mesh`; the arrays it was made of must not have been changed since
     :param file: the file's name

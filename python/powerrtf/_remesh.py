@@ -13,10 +13,7 @@ from . import _core
 from ._core import InvalidInputError
 from ._input import face_arrays, index_array, like, real_array, to_host, unpack_mesh
 from ._mesh import Mesh, MissedGuaranteeWarning, Report
-from ._page import RESOLUTIONS
-
-_FULL_NAMES = {"n": "number_of_samples", "seed": "random_seed"}
-_TRAITS = ("auto", "cpu", "exact", "cuda")
+from ._options import DEFAULTS, PRESETS, RESOLUTIONS, ROWS, check_traits, given_options
 
 
 def _bar():
@@ -59,29 +56,23 @@ def _region(region, count):
     return array
 
 
-def _run(vertices, faces, n, density, sizing, refine, constrained_edges, labels, region, patches, traits,
-         threads, progress, options):
-    if sizing is not None and n is None and not any(map(options.get, RESOLUTIONS)):
+def _run(vertices, faces, options, *, sizing=None, refine=(), constrained_edges=None, labels=None, region=None,
+         patches=False, threads=0, progress=None, coordinates="double"):
+    resolutions = [name for name in RESOLUTIONS if name in options and (options[name] or name == "n")]
+    if sizing is not None and not resolutions:
         options = {**options, "size_factor": 1.0}
-    resolutions = [name for name in RESOLUTIONS if options.get(name)]
-    if (n is not None) + len(resolutions) != 1:
-        raise InvalidInputError(f"one of n, {', '.join(RESOLUTIONS)} must be given, not "
-                                f"{(n is not None) + len(resolutions)} of them")
-    if traits not in _TRAITS:
-        raise InvalidInputError(f"traits is {traits!r}, but must be one of {'|'.join(_TRAITS)}")
+    elif len(resolutions) != 1:
+        raise InvalidInputError(f"one of {', '.join(RESOLUTIONS)} must be given, not "
+                                f"{len(resolutions)} of them")
+    traits = options.pop("traits", "auto")
+    check_traits(traits)
     if not isinstance(threads, int) or not 0 <= threads <= 4096:
         raise InvalidInputError(f"threads is {threads!r}, but must be a number from 0 to 4096")
-    options = {_FULL_NAMES.get(name, name): value for name, value in options.items()}
-    for name in options.keys() - _OPTION_NAMES - {"preset", "coordinates"}:
-        raise TypeError(f"remesh() got an unexpected keyword argument {name!r}")
-    if n is not None:
-        options["number_of_samples"] = n
+    options["coordinates"] = coordinates
     fields = {"density": None, "sizing": None, "constrained_edges": None, "labels": None, "region": None,
               "refine": list(refine), "patches": bool(patches)}
-    if isinstance(density, str):
-        options["density"] = density
-    else:
-        fields["density"] = _vertex_values(density, "density", len(vertices))
+    if not isinstance(options.get("density", ""), str):
+        fields["density"] = _vertex_values(options.pop("density"), "density", len(vertices))
     if sizing is not None:
         fields["sizing"] = _vertex_values(sizing, "sizing", len(vertices))
     if constrained_edges is not None:
@@ -113,24 +104,22 @@ def _warn(mesh):
     return mesh
 
 
-def remesh(vertices, faces=None, n=None, *, density="curvature", sizing=None, refine=(),
-           constrained_edges=None, labels=None, region=None, patches=False, traits="auto", threads=0,
-           progress=None, **options):
+def remesh(vertices, faces=None, n=None, *, sizing=None, refine=(), constrained_edges=None, labels=None,
+           region=None, patches=False, threads=0, progress=None, options=None, **single):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
     corners, sizes = face_arrays(faces)
-    if points.dtype == np.float32:
-        options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, sizing, refine, constrained_edges, labels, region,
-                patches, traits, threads, progress, options)
+    mesh = _run(points, (corners, sizes), given_options(options, n, single), sizing=sizing, refine=refine,
+                constrained_edges=constrained_edges, labels=labels, region=region, patches=patches,
+                threads=threads, progress=progress, coordinates=_precision(points.dtype == np.float32))
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
     return _warn(mesh)
 
 
-def remesh_file(input, output, n=None, *, ascii=False, density="curvature", refine=(), traits="auto",
-                threads=0, progress=None, **options):
+def remesh_file(input, output, n=None, *, ascii=False, refine=(), threads=0, progress=None, options=None,
+                **single):
     """Remeshes from file to file.
 
     :param input: OFF, OBJ, PLY or STL
@@ -142,12 +131,15 @@ def remesh_file(input, output, n=None, *, ascii=False, density="curvature", refi
     input, output = os.fspath(input), os.fspath(output)
     _core.check_output(output)
     points, corners, sizes = _core.read_mesh(input)
-    if _core.holds_floats(output, ascii):
-        options["coordinates"] = "single"
-    mesh = _run(points, (corners, sizes), n, density, None, refine, None, None, None, False, traits,
-                threads, progress, options)
+    mesh = _run(points, (corners, sizes), given_options(options, n, single), refine=refine, threads=threads,
+                progress=progress, coordinates=_precision(_core.holds_floats(output, ascii)))
     _core.write_mesh(output, mesh.vertices, mesh.faces, ascii)
     return _warn(mesh)
+
+
+def _precision(is_single):
+    """Of the result's coordinates."""
+    return "single" if is_single else "double"
 
 
 def remesh_trimesh(mesh, n=None, **options):
@@ -160,13 +152,13 @@ def remesh_open3d(mesh, n=None, **options):
     return remesh(mesh, None, n, **options).to_open3d()
 
 
-_DOC = """Remeshes a surface with `n` well-distributed vertices.
+_DOC = """Remeshes a surface with `n` well-distributed vertices. A :class:`MissedGuaranteeWarning` tells of
+what the result lacks, if it does.
 
 :param vertices: (k, 3) numbers; or a mesh of trimesh, pyvista, Open3D or meshio, without `faces`
 :param faces: (m, 3) or more columns, or polygons of different sizes: vertices, numbered from 0
 :param n: the number of vertices asked for; or instead ``edge_length``, ``max_distance``, one of them
     relative to the diagonal, or ``vertex_share``
-:param density: "curvature", "uniform", or a positive number for each vertex; only ratios matter
 :param sizing: a positive number for each vertex: the edge length that is wanted there. Without `n` or
     what else gives it, the number of vertices comes from it
 :param refine: regions where edges are to be short: "sphere:x,y,z,r,h" or
@@ -180,16 +172,17 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
     about the new ones
 :param patches: whether the result has ``patches``: for each face the number of its patch between
     creases and borders
-:param traits: "auto", "cpu", "exact" or "cuda": what runs the algorithm
 :param threads: 0: all. The result is the same for any number
 :param progress: is called with the share of the stage that is done and the stage's name, about
     every 50 ms; or True: a bar by tqdm. What it raises stops the run
+:param options: an :class:`Options`, with what the call does not give itself
 :param preset: "quality", "fast" or "paper": whose values the other options have
+:param traits: "auto", "cpu", "exact" or, where it is built in, "cuda": what runs the algorithm
 {options}
 :returns: :class:`Mesh`, which unpacks as ``vertices, faces``. Its arrays are of the input's kind
     and precision
 :raises InvalidInputError: the message says what cannot be used (a :class:`ValueError`)
-:warns MissedGuaranteeWarning: the result lacks something that is promised
+:raises RuntimeError: ``traits`` is "cuda", and the GPU cannot be used
 
 >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 >>> mesh = remesh(square, [[0, 1, 2, 3]], 100, density="uniform")
@@ -200,22 +193,21 @@ _DOC = """Remeshes a surface with `n` well-distributed vertices.
 
 def _describe():
     """Gives `remesh` the signature and the documentation that the library's table has."""
-    short = {full: name for name, full in _FULL_NAMES.items()}
-    rows = [row for row in _core.options() if row[0] not in ("number_of_samples", "density",
-                                                             "coordinates")]
-    lines, added = [], [inspect.Parameter("preset", inspect.Parameter.KEYWORD_ONLY,
-                                          default="quality")]
-    for full_name, default, fast, paper, meaning, allowed in rows:
-        name = short.get(full_name, full_name)
-        others = "".join(f"; {preset}: {value!r}" for preset, value in
-                         (("fast", fast), ("paper", paper)) if value != default)
-        lines.append(f":param {name}: {meaning}; {allowed} ({default!r}{others})")
-        added.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default))
+    lines = []
+    for name, (meaning, values) in ROWS.items():
+        default = values["quality"]
+        others = "".join(f"; {preset}: {values[preset]!r}" for preset in PRESETS[1:]
+                         if values[preset] != default)
+        if name == "density":
+            meaning += "; or a positive number for each vertex, of which only ratios matter"
+        if name != "n":
+            lines.append(f":param {name}: {meaning} ({default!r}{others})")
     signature = inspect.signature(remesh)
     own = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
+    added = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default)
+             for name, default in DEFAULTS.items() if name != "n"]
     remesh.__signature__ = signature.replace(parameters=own + added)
     remesh.__doc__ = _DOC.format(options="\n".join(lines))
-    return {row[0] for row in rows}
 
 
-_OPTION_NAMES = _describe()
+_describe()

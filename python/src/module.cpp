@@ -204,9 +204,6 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
                  const nb::dict& options, const std::string& traits, int threads,
                  const nb::object& progress)
 {
-#ifndef CGAL_POWER_RTF_WITH_CUDA
-  if (traits == "cuda") throw Invalid_input_error("traits is 'cuda', which is not built in here");
-#endif
   tools::Run run;
   run.options.remeshing = options_of(options);
   run.options.traits = traits;
@@ -231,14 +228,15 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
                         result.sources ? nb::object(to_python(*result.sources)) : nb::none());
 }
 
-/// The page of a run, of what went in and what came out.
+/// The page of a run, of what went in and what came out. \param sites those of the run
 nb::bytes html_page(const Real_array& points, const Index_array& faces,
                     const std::optional<Index_array>& sizes, const nb::dict& fields,
                     const nb::dict& options, const Real_array& vertices,
-                    const Index_array& triangles, const std::string& report)
+                    const Index_array& triangles, const nb::dict& sites, const std::string& report)
 {
   const Remeshing_options remeshing = options_of(options);
   const Given_fields given(fields);
+  const Placed_sites placed = sites_from_python(sites);
   std::ostringstream page;
   {
     const nb::gil_scoped_release release;
@@ -250,7 +248,11 @@ nb::bytes html_page(const Real_array& points, const Index_array& faces,
     mesh.points = points_of_array(vertices);
     for (Vec3d& p : mesh.points) p = surface.normalization.to_inside(p);
     mesh.triangles = triangles_of_array(triangles);
-    tools::write_html(page, surface, mesh, report);
+    std::vector<Cell_polygon> cells = cells_of_sites<tools::Concurrency>(placed.in);
+    for (Cell_polygon& cell : cells)
+      for (Vec3d& p : cell.vertices)
+        p = surface.normalization.to_inside(placed.normalization.to_outside(p));
+    tools::write_html(page, surface, mesh, cells, report);
   }
   const std::string text = page.str();
   return nb::bytes(text.data(), text.size());
@@ -310,14 +312,20 @@ NB_MODULE(_core, m)
   m.attr("__version__") = POWER_RTF_VERSION;
   nb::exception<Invalid_input_error>(m, "InvalidInputError", PyExc_ValueError);
   nb::exception<tools::Output_error>(m, "OutputError", PyExc_OSError);
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+  m.attr("traits") = nb::make_tuple("auto", "cpu", "exact", "cuda");
+#else
+  m.attr("traits") = nb::make_tuple("auto", "cpu", "exact");
+#endif
   m.def("options", &option_rows);
+  m.def("check_options", [](const nb::dict& values) { validate(options_of(values)); });
   m.def("remesh", &remesh, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
         "traits"_a, "threads"_a, "progress"_a.none());
   m.def("cells", &cells<tools::Concurrency>, "sites"_a);
   m.def("sources", &sources<tools::Concurrency>, "points"_a, "faces"_a, "sizes"_a.none(),
         "vertices"_a, "triangles"_a, "sites"_a);
   m.def("html_page", &html_page, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
-        "vertices"_a, "triangles"_a, "report"_a);
+        "vertices"_a, "triangles"_a, "sites"_a, "report"_a);
   m.def("read_mesh", &read_mesh, "file"_a);
   m.def("check_output", &check_output, "file"_a);
   m.def("holds_floats", [](const std::string& file, bool ascii) {

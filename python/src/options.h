@@ -26,6 +26,13 @@ constexpr bool is_switch()
          std::is_same<T, Repair>::value;
 }
 
+/// The option's name for users: the member's, or a shorter one.
+inline std::string python_name(const CGAL::PowerRTF::Option& option)
+{
+  const std::string name = option.name;
+  return name == "number_of_samples" ? "n" : name == "random_seed" ? "seed" : name;
+}
+
 template <class T>
 nb::object to_python(const T& value)
 {
@@ -47,8 +54,8 @@ inline nb::list option_rows()
                                    paper = Remeshing_options::paper_preset();
   for_each_option([&](const Option& option, auto member) {
     using T = std::decay_t<decltype(quality.*member)>;
-    rows.append(nb::make_tuple(option.name, to_python(quality.*member), to_python(fast.*member),
-                               to_python(paper.*member), option.meaning,
+    rows.append(nb::make_tuple(python_name(option), to_python(quality.*member),
+                               to_python(fast.*member), to_python(paper.*member), option.meaning,
                                is_switch<T>() ? "True or False" : allowed_values<T>(option.range)));
   });
   return rows;
@@ -70,13 +77,13 @@ T from_python(const CGAL::PowerRTF::Option& option, nb::handle value)
     if (nb::try_cast<Number>(value, number) && (is_switch<T>() || is_allowed(number, option.range)))
       return static_cast<T>(number);
   }
-  throw Invalid_input_error(std::string(option.name) + " is " + nb::repr(value).c_str() +
+  throw Invalid_input_error(python_name(option) + " is " + nb::repr(value).c_str() +
                             ", but must be " +
                             (is_switch<T>() ? "True or False" : allowed_values<T>(option.range)));
 }
 
 /// The options that a dictionary names; the others are those of its entry `preset`.
-/// \throws Invalid_input_error
+/// \throws Invalid_input_error names the option as users do
 inline CGAL::PowerRTF::Remeshing_options options_of(const nb::dict& values)
 {
   using namespace CGAL::PowerRTF;
@@ -85,9 +92,10 @@ inline CGAL::PowerRTF::Remeshing_options options_of(const nb::dict& values)
   if (values.contains("preset"))
     options = Remeshing_options::of(from_python<Preset>(preset, values["preset"]));
   for_each_option([&](const Option& option, auto member) {
-    if (values.contains(option.name))
+    const std::string name = python_name(option);
+    if (values.contains(name.c_str()))
       options.*member =
-          from_python<std::decay_t<decltype(options.*member)>>(option, values[option.name]);
+          from_python<std::decay_t<decltype(options.*member)>>(option, values[name.c_str()]);
   });
   return options;
 }

@@ -15,7 +15,7 @@ from shapes import sphere
 
 pyarrow = pytest.importorskip("pyarrow")
 import pyarrow.parquet  # noqa: E402
-from powerrtf import OutputError  # noqa: E402
+from powerrtf import Options, OutputError  # noqa: E402
 from powerrtf.dataset import RayExecutor, plot_summary, remesh_dataset, write_manifest  # noqa: E402
 from powerrtf.dataset._executors import for_each  # noqa: E402
 
@@ -205,7 +205,7 @@ def test_only_what_has_changed_is_done_again(small, tmp_path):
     assert remesh(time_limit=700.)[2]["time_limit"] == 2800
     again = [[new != old for new, old in zip(*two)] for two in zip(seconds[1:], seconds)]
     assert again == [[True, True, False], [False, False, False], [False, False, True]]
-    assert remesh(seed=1)[0]["seed"] == 1
+    assert remesh(options=Options(n=70, seed=1))[0]["seed"] == 1
 
 
 @pytest.mark.parametrize("columns, message", [
@@ -224,7 +224,7 @@ def test_a_wrong_manifest_is_refused_with_its_name(columns, message, tmp_path):
 
 
 def test_wrong_arguments_are_refused(small, tmp_path):
-    with pytest.raises(TypeError, match="'edge_lenght' is no option"):
+    with pytest.raises(TypeError, match="unexpected keyword argument 'edge_lenght'"):
         remesh_dataset(small, tmp_path / "out", edge_lenght=1)
     with pytest.raises(ValueError, match="rank is 2, but must be from 0 to 1"):
         remesh_dataset(small, tmp_path / "out", N, rank=2, world=2)
@@ -233,8 +233,16 @@ def test_wrong_arguments_are_refused(small, tmp_path):
     (tmp_path / "empty").mkdir()
     with pytest.raises(ValueError, match="empty: there is no mesh"):
         write_manifest(small, tmp_path / "empty")
-    assert remesh_dataset(small, tmp_path / "out", N, seed="x")["message"][0].as_py() == \
-        "--seed: 'x' is not a whole number"
+    with pytest.raises(ValueError, match="^seed is 'x', but must be a number from 0"):
+        remesh_dataset(small, tmp_path / "out", N, seed="x")
+    with pytest.raises(ValueError, match="^size_factor needs a sizing field"):
+        remesh_dataset(small, tmp_path / "out", size_factor=2)
+    write_manifest(small, tmp_path, gradation=[None, -1., None])
+    with pytest.raises(ValueError, match="row 1: gradation is -1, but must be a number from 0"):
+        remesh_dataset(small, tmp_path / "out", N)
+    run = subprocess.run(command(small, tmp_path / "out", "--repair", "perhaps"), capture_output=True,
+                         text=True)
+    assert run.returncode == 2 and "--repair: 'perhaps' is neither yes nor no" in run.stderr
 
 
 def test_an_output_that_cannot_be_written_ends_the_run(small, tmp_path):

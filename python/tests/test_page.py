@@ -17,9 +17,14 @@ BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory):
+def mesh():
+    return powerrtf.remesh(POINTS, FACES, 200, seed=1)
+
+
+@pytest.fixture(scope="module")
+def page(mesh, tmp_path_factory):
     file = tmp_path_factory.mktemp("page") / "page.html"
-    powerrtf.report_html(powerrtf.remesh(POINTS, FACES, 200, seed=1), file)
+    powerrtf.report_html(mesh, file)
     return file
 
 
@@ -44,7 +49,15 @@ def test_page_has_both_meshes_and_needs_nothing_else(page):
     assert page.stat().st_size < 200000
 
 
-def test_page_of_the_program(tmp_path):
+def test_page_has_the_cells(mesh, page):
+    data = data_of(page)
+    assert np.array_equal(decoded(data["cells"]["sides"], "<i4"), mesh.cells().sides)
+    corners = data["unit"] * decoded(data["cells"]["points"], "<f4").reshape(-1, 3)
+    expected = mesh.cells().points - (POINTS.min(0) + POINTS.max(0)) / 2
+    assert np.abs(corners - expected).max() < 1e-6
+
+
+def test_page_of_the_program(mesh, tmp_path):
     program = os.environ.get("POWER_RTF_REMESH")
     if not program:
         pytest.skip("POWER_RTF_REMESH does not name the program")
@@ -52,7 +65,9 @@ def test_page_of_the_program(tmp_path):
     powerrtf._core.write_mesh(str(source), POINTS, FACES.astype(np.int64), False)
     subprocess.run([program, source, tmp_path / "out.off", "-n", "200", "--seed", "1", "--quiet",
                     "--html", tmp_path / "page.html"], check=True)
-    assert decoded(data_of(tmp_path / "page.html")["output"]["faces"], "<i4").shape == (3 * 396,)
+    data = data_of(tmp_path / "page.html")
+    assert decoded(data["output"]["faces"], "<i4").shape == (3 * 396,)
+    assert np.array_equal(decoded(data["cells"]["sides"], "<i4"), mesh.cells().sides)
 
 
 def test_notebook_shows_the_page():
@@ -60,23 +75,33 @@ def test_notebook_shows_the_page():
     assert shown.startswith("<iframe srcdoc=") and 'height="500"' in shown
 
 
-def browse(page, folder, *arguments):
+def browse(address, folder, *arguments):
     # profile and all else in the test's folder; software rendering: there need not be a GPU
     return subprocess.run(
         [BROWSER, "--headless", "--no-sandbox", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader", "--window-size=1000,1200", "--virtual-time-budget=5000",
-         f"--user-data-dir={folder}", *arguments, page.as_uri()],
+         f"--user-data-dir={folder}", *arguments, address],
         check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=120, text=True).stdout
+
+
+def colorful(address, folder):
+    """Which pixels of the view's halves have color; the background is gray, a surface has color."""
+    browse(address, folder / "profile", f"--screenshot={folder / 'page.png'}")
+    image = pytest.importorskip("matplotlib.image").imread(str(folder / "page.png"))
+    return [np.ptp(half[..., :3], axis=2) > .2 for half in (image[120:700, 30:480], image[120:700, 520:970])]
 
 
 @pytest.mark.skipif(not BROWSER, reason="no Chromium here")
 def test_browser_shows_the_page(page, tmp_path):
-    shown = browse(page, tmp_path / "profile", "--dump-dom")
+    shown = browse(page.as_uri(), tmp_path / "profile", "--dump-dom")
     # four charts, and the script that makes them
     assert shown.count("<figure>") == 5 and shown.count("Q 0.") == 15
     assert "Every guarantee is met." in shown and 'id="no-view" hidden' in shown
-    browse(page, tmp_path / "profile", f"--screenshot={tmp_path / 'page.png'}")
-    image = pytest.importorskip("matplotlib.image").imread(str(tmp_path / "page.png"))
-    left, right = image[120:700, 30:480], image[120:700, 520:970]
-    for half in (left, right):  # the background is gray; a surface has color
-        assert (np.ptp(half[..., :3], axis=2) > .2).mean() > .1
+    for half in colorful(page.as_uri(), tmp_path):
+        assert half.mean() > .1
+
+
+@pytest.mark.skipif(not BROWSER, reason="no Chromium here")
+def test_browser_shows_the_cells(page, tmp_path):
+    left, right = colorful(page.as_uri() + "#cells", tmp_path)
+    assert not left.any() and .02 < right.mean() < .2  # the input is gray, and most cells are hexagons

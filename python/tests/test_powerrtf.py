@@ -1,6 +1,9 @@
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
+import dataclasses
+import inspect
 import os
+import pickle
 import resource
 import signal
 import subprocess
@@ -157,8 +160,9 @@ def changed(array, place, value):
     ((POINTS.astype(complex), FACES, 100), "vertices must be numbers, not of type complex"),
     ((POINTS, FACES[:0], 100), "facet|empty"),
     ((POINTS[:0], FACES, 100), "facet 0 refers to vertex"),
-    ((POINTS, FACES, 3), "number_of_samples is 3, but must be"),
-    ((POINTS, FACES, "many"), "number_of_samples is 'many'"),
+    ((POINTS, FACES, 3), "n is 3, but must be"),
+    ((POINTS, FACES, 0), "n is 0, but must be"),
+    ((POINTS, FACES, "many"), "n is 'many'"),
     ((POINTS, FACES), "one of n, edge_length, .* must be given, not 0"),
     ((POINTS,), "faces are missing"),
 ])
@@ -177,6 +181,54 @@ def test_wrong_options_are_refused():
         powerrtf.remesh(POINTS, FACES, 100, nonsense=1)
     with pytest.raises(ValueError, match="density has 3 entries"):
         powerrtf.remesh(POINTS, FACES, 100, density=[1., 2, 3])
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"gradation": -1}, "gradation is -1, but must be a number from 0"),
+    ({"seed": "x"}, "seed is 'x', but must be a number from 0"),
+    ({"traits": "gpu"}, "traits is 'gpu', but must be one of auto"),
+    ({"density": np.ones(3)}, "density is array.*, but must be one of uniform"),
+    ({"edge_length": 1, "vertex_share": 1}, "vertex_share, edge_length, .* only one")])
+def test_options_are_checked_when_they_are_made(options, message):
+    with pytest.raises(powerrtf.InvalidInputError, match=f"^(of )?{message}"):
+        powerrtf.Options(**options)
+    with pytest.raises(TypeError, match="unexpected keyword argument 'nonsense'"):
+        powerrtf.Options(nonsense=1)
+
+
+@pytest.mark.parametrize("name", [field.name for field in dataclasses.fields(powerrtf.Options)])
+def test_messages_name_the_argument(name):
+    with pytest.raises(powerrtf.InvalidInputError, match=f"^{name} is <object .*, but must be "):
+        powerrtf.Options(**{name: object()})
+
+
+def test_options_are_values_and_cannot_be_changed():
+    coarse = powerrtf.Options(n=100, density="uniform")
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        coarse.n = 200
+    fine = dataclasses.replace(coarse, n=200)
+    assert {coarse: 1, fine: 2}[powerrtf.Options(density="uniform", n=100)] == 1
+    assert pickle.loads(pickle.dumps(fine)) == fine == powerrtf.Options(**fine.to_dict())
+    assert repr(fine) == "Options(n=200, density='uniform')"
+
+
+def test_options_are_those_of_the_keywords():
+    keywords = [name for name, p in inspect.signature(powerrtf.remesh).parameters.items()
+                if p.kind == p.KEYWORD_ONLY]
+    fields = [field.name for field in dataclasses.fields(powerrtf.Options)]
+    assert keywords[keywords.index("options") + 1:] == [name for name in fields if name != "n"]
+
+
+def test_a_call_takes_options_and_changes_them(tmp_path):
+    options = powerrtf.Options(n=100, density="uniform", seed=5)
+    assert same(powerrtf.remesh(POINTS, FACES, options=options),
+                powerrtf.remesh(POINTS, FACES, 100, density="uniform", seed=5))
+    assert same(powerrtf.remesh(POINTS, FACES, 200, seed=None, options=options),
+                powerrtf.remesh(POINTS, FACES, 200, density="uniform", seed=5))
+    assert powerrtf.remesh(POINTS, FACES, edge_length=0.3, options=options).report.seed == 5
+    powerrtf._core.write_mesh(str(tmp_path / "in.off"), POINTS, FACES, False)
+    mesh = powerrtf.remesh_file(tmp_path / "in.off", tmp_path / "out.off", options=options)
+    assert (mesh.report.vertices, mesh.report.seed) == (100, 5)
 
 
 def test_report_is_that_of_the_program():

@@ -1,7 +1,8 @@
 # Copyright (c) 2026 The PowerRTF authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stubs say what the package has: the same names, parameters and defaults."""
+"""The stubs say what the package has: the same names, parameters, defaults and fields."""
 import ast
+import dataclasses
 import inspect
 from pathlib import Path
 
@@ -46,8 +47,12 @@ def test_stub_has_the_signature_of_the_function(function, stub):
 @pytest.mark.parametrize("found, stub", public(ast.ClassDef))
 def test_stub_has_the_methods_of_the_class(found, stub):
     methods = {n.name: n for n in stub.body if isinstance(n, ast.FunctionDef)}
-    own = {m for m in vars(found) if not m.startswith("_") and hasattr(found, m)}
-    assert own == {m for m in methods if not m.startswith("_")}
+    fields = [f.name for f in dataclasses.fields(found)] if dataclasses.is_dataclass(found) else []
+    own = {m for base in found.__mro__ if base.__module__.startswith("powerrtf") for m in vars(base)}
+    assert {m for m in own.difference(fields) if not m.startswith("_") and hasattr(found, m)} == \
+        {m for m in methods if not m.startswith("_")}
+    if fields:
+        assert fields == [n.target.id for n in stub.body if isinstance(n, ast.AnnAssign)]
     for name, method in methods.items():
         if not isinstance(getattr(found, name), property):
             check_signature(method, getattr(found, name))

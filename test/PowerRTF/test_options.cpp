@@ -229,9 +229,10 @@ TEST_CASE("what the named parameters say is validated, too")
   Remeshing_options options;
   options.sampling = Sampling::elimination;
   options.oversampling = 30;
-  check_refuses("number_of_samples times oversampling", "at most 1000000000", [&] {
-    CGAL::power_rtf_remeshing(mesh, 40000000, output, params::remeshing_options(options));
-  });
+  CHECK_THROWS_WITH_AS(
+      CGAL::power_rtf_remeshing(mesh, 40000000, output, params::remeshing_options(options)),
+      "samples times oversampling are 1200000000, but must be at most 1000000000",
+      CGAL::PowerRTF::Invalid_input_error);
 }
 
 TEST_CASE("a run at any bound of any option ends, with the vertices asked for")

@@ -36,6 +36,21 @@ function measured(mesh) {
   return m;
 }
 
+/// The cells as triangles around their middles, with how many sides each one's cell has.
+function fanned({points, sides}) {
+  const p = decoded(points, Float32Array), corners = new Float32Array(3 * p.length);
+  const counts = new Int32Array(p.length / 3);
+  let first = 0;
+  for (const n of decoded(sides, Int32Array)) {
+    const polygon = Array.from({length: n}, (_, k) => p.slice(3 * (first + k), 3 * (first + k) + 3));
+    const middle = [0, 1, 2].map(i => polygon.reduce((sum, q) => sum + q[i], 0) / n);
+    for (let k = 0; k < n; ++k)
+      corners.set([...middle, ...polygon[k], ...polygon[(k + 1) % n]], 9 * (first + k));
+    counts.fill(n, first, first += n);
+  }
+  return {corners, counts};
+}
+
 function cornersOf(m, f) {
   return [0, 1, 2].map(k => [0, 1, 2].map(i => m.points[3 * m.faces[3 * f + k] + i]));
 }
@@ -48,14 +63,22 @@ function viridis(t) {
   return STOPS[k].map((a, i) => a + s * (STOPS[k + 1][i] - a));
 }
 
+/// Of cells: blue, less than six sides; red, more.
+const SIDES = [[69, 117, 180], [145, 191, 219], [236, 236, 224], [252, 141, 89], [215, 48, 39]];
+const GRAY = [187, 187, 187];
+function ofSides(n) {
+  return SIDES[Math.min(8, Math.max(4, n)) - 4];
+}
+
 /// The share-th smallest.
 function quantile(values, share) {
   const sorted = Float32Array.from(values).sort();
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }
 
-/// What a choice shows: values of triangles or of vertices, the range, and whether logarithms.
-function shownBy(choice, meshes) {
+/// What a choice of colors that are no cells' shows: values of triangles or of vertices, the range, and
+/// whether logarithms.
+function shownBy(choice) {
   const values = meshes.map(m => m[choice]);
   if (choice === "quality") return {values, ofVertices: false, range: [0, 1], log: false};
   if (choice === "area") {
@@ -68,27 +91,36 @@ function shownBy(choice, meshes) {
   return {values, ofVertices: true, range, log: choice === "density"};
 }
 
-function colorsOf(mesh, values, {ofVertices, range, log}) {
-  const bytes = new Uint8Array(4 * mesh.faces.length);
-  const at = log ? Math.log : x => x, lo = at(range[0]), width = at(range[1]) - lo || 1;
-  for (let c = 0; c < mesh.faces.length; ++c) {
-    const value = values[ofVertices ? mesh.faces[c] : Math.floor(c / 3)];
-    bytes.set(viridis((at(value) - lo) / width), 4 * c);
-  }
+/// Bytes for all corners; `color(c)`: that of a corner.
+function colored({corners}, color) {
+  const bytes = new Uint8Array(4 * corners.length / 3);
+  for (let c = 0; 4 * c < bytes.length; ++c) bytes.set(color(c), 4 * c);
   return bytes;
 }
 
 function paint(choice) {
-  const shown = shownBy(choice, meshes);
-  element("least").textContent = short(shown.range[0]);
-  element("most").textContent = short(shown.range[1]);
-  if (view) meshes.forEach((m, k) => view.setColors(k, colorsOf(m, shown.values[k], shown)));
+  const isOfCells = choice === "cells";
+  let ends = ["≤ 4", "≥ 8"], colors = [() => GRAY, () => GRAY];
+  if (!isOfCells) {
+    const {values, ofVertices, range, log} = shownBy(choice);
+    const at = log ? Math.log : x => x, lo = at(range[0]), width = at(range[1]) - lo || 1;
+    ends = range.map(short);
+    colors = meshes.map(({faces}, k) => c =>
+      viridis((at(values[k][ofVertices ? faces[c] : Math.floor(c / 3)]) - lo) / width));
+  }
+  element("least").textContent = ends[0];
+  element("most").textContent = ends[1];
+  element("right").textContent = isOfCells ? "cells of the samples" : "output";
+  paintLegend(isOfCells ? t => ofSides(4 + Math.floor(4.99 * t)) : viridis);
+  if (!view) return;
+  view.right = isOfCells ? 2 : 1;
+  meshes.forEach((m, k) => view.setColors(k, colored(m, colors[k])));
 }
 
-function paintLegend() {
+function paintLegend(color) {
   const context = element("legend").getContext("2d");
   for (let x = 0; x < 256; ++x) {
-    context.fillStyle = `rgb(${viridis(x / 255).map(Math.round)})`;
+    context.fillStyle = `rgb(${color(x / 255).map(Math.round)})`;
     context.fillRect(x, 0, 1, 1);
   }
 }
@@ -190,19 +222,21 @@ function listWorst() {
   }
 }
 
-const meshes = [data.input, data.output].map(measured);
+const meshes = [data.input, data.output].map(measured), cells = fanned(data.cells);
+const color = element("color"), wanted = location.hash.slice(1);
 let view = null;
 try {
-  view = new View(element("meshes"), meshes);
+  view = new View(element("meshes"), [...meshes, cells]);
+  view.setColors(2, colored(cells, c => ofSides(cells.counts[Math.floor(c / 3)])));
 } catch (error) {
   element("no-view").hidden = false;
 }
-paintLegend();
-paint("quality");
+if ([...color.options].some(option => option.value === wanted)) color.value = wanted;
+paint(color.value);
 drawCharts();
 drawTable();
 listWorst();
-element("color").onchange = e => paint(e.target.value);
+color.onchange = () => paint(color.value);
 element("lines").onchange = e => {
   if (view) { view.lines = e.target.checked ? 1 : 0; view.draw(); }
 };

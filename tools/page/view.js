@@ -18,7 +18,8 @@ void main() {
   gl_Position = vec4(eye.xy * zoom, -eye.z / 4., 1);
 }`;
 
-// An edge is a dark line of a pixel; where triangles are smaller than a few pixels, lines fade.
+// An edge is a dark line of a pixel; where triangles are smaller than a few pixels, lines fade. In fans
+// around the triangles' first corners only the edges opposite to these are drawn.
 const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
 in vec3 eye;
@@ -27,12 +28,13 @@ in vec3 hue;
 uniform float lines;
 uniform float mark;
 uniform float front;
+uniform bool fans;
 out vec4 pixel;
 void main() {
   if (eye.z > front) discard;
   vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
   vec3 width = fwidth(weights), pixels = weights / width;
-  float near = min(pixels.x, min(pixels.y, pixels.z));
+  float near = fans ? pixels.x : min(pixels.x, min(pixels.y, pixels.z));
   float small = smoothstep(.12, .4, max(width.x, max(width.y, width.z)));
   float line = lines * (1. - small) * (1. - smoothstep(.5, 1.5, near));
   vec3 lit = mix(hue, vec3(1, 0, .55), mark) * (.45 + .55 * abs(normal.z));
@@ -40,17 +42,19 @@ void main() {
 }`;
 
 class View {
-  /// `meshes`: two of {corners: Float32Array (9 numbers a triangle)}. Throws without WebGL 2.
+  /// `meshes`: input, output, and fans that may be shown instead of it, of {corners: Float32Array (9
+  /// numbers a triangle)}. Throws without WebGL 2.
   constructor(canvas, meshes) {
     this.canvas = canvas;
     this.gl = canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
     if (!this.gl) throw new Error("no WebGL 2");
     this.program = this.link();
     this.uniforms = {};
-    for (const name of ["turn", "target", "zoom", "lines", "mark", "front"])
+    for (const name of ["turn", "target", "zoom", "lines", "mark", "front", "fans"])
       this.uniforms[name] = this.gl.getUniformLocation(this.program, name);
     this.meshes = meshes.map(mesh => this.upload(mesh.corners));
     this.lines = 1;
+    this.right = 1; // the mesh beside the input
     this.radius = Math.sqrt(meshes[0].corners.reduce( // of all about the box's center
       (most, x, i, p) => i % 3 ? most : Math.max(most, x * x + p[i + 1] ** 2 + p[i + 2] ** 2), 0));
     this.whole();
@@ -105,7 +109,7 @@ class View {
     this.draw();
   }
 
-  /// Triangle `f` of the second mesh in the middle, seen from outside, without what is in front of it.
+  /// Triangle `f` of the output in the middle, seen from outside, without what is in front of it.
   /// [a, b, c]: its corners.
   show(f, [a, b, c]) {
     const minus = (p, q) => p.map((x, i) => x - q[i]);
@@ -140,12 +144,14 @@ class View {
     gl.uniform2f(this.uniforms.zoom, this.zoom * least / width, this.zoom * least / height);
     gl.uniform1f(this.uniforms.lines, this.lines);
     gl.uniform1f(this.uniforms.front, this.front);
-    this.meshes.forEach((mesh, k) => {
-      gl.viewport(k * (canvas.width - width), 0, width, height);
+    [0, this.right].forEach((k, place) => {
+      const mesh = this.meshes[k];
+      gl.viewport(place * (canvas.width - width), 0, width, height);
       gl.bindVertexArray(mesh.array);
+      gl.uniform1i(this.uniforms.fans, k === 2);
       gl.uniform1f(this.uniforms.mark, 0);
       gl.drawArrays(gl.TRIANGLES, 0, mesh.count);
-      if (k === 0 || this.marked < 0) return;
+      if (k !== 1 || this.marked < 0) return;
       gl.uniform1f(this.uniforms.mark, 1);
       gl.drawArrays(gl.TRIANGLES, 3 * this.marked, 3);
     });
@@ -190,7 +196,7 @@ class View {
       else return;
       e.preventDefault();
     });
-    new ResizeObserver(() => this.draw()).observe(canvas);
+    new ResizeObserver(() => this.drawNow()).observe(canvas); // before the new size is shown
   }
 }
 

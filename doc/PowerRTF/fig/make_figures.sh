@@ -3,12 +3,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # make_figures.sh [PROGRAM [MODELS [FOLDER]]]
-# The pictures of the manual and of the page on Python (camel), from the program's own output: cells and mesh of
+# The pictures of the manual and of the pages on Python (camel, page), from the program's own output: cells and mesh of
 # some of CGAL's models, the lattice that samples begin as, and the cells of a thin disc with and
 # without NVISPC.
 # PROGRAM: power_rtf_remesh; MODELS: the folder of CGAL's meshes; FOLDER: for the pictures. The
 # defaults are what ./remesh and ./run_tests have made, and this folder.
-# PYTHON: an interpreter with PyVista (see render.py).
+# PYTHON: an interpreter with PyVista (see render.py). The page needs Chromium, too.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../../.." && pwd)
@@ -96,3 +96,14 @@ awk 'NR == 2 {
 for name in carried kept; do
   render "$work/$name.vtp" "$target/labels_$name.png" --color-by label --range -2 3 --palette 128
 done
+
+# The page of a run, without a GPU.
+(cd "$models" && "$program" bunny00.off "$work/bunny.ply" --samples 3000 --html "$work/page.html" --quiet)
+chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
+  --user-data-dir="$work/profile" --virtual-time-budget=5000 --window-size=1300,1000 \
+  --screenshot="$work/page.png" "file://$work/page.html#cells"
+"${PYTHON:-python3}" - "$work/page.png" "$target/page.png" <<'end'
+import sys
+from PIL import Image
+Image.open(sys.argv[1]).convert("RGB").quantize(256, kmeans=1).save(sys.argv[2], optimize=True)
+end

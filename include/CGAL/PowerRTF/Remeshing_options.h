@@ -168,10 +168,10 @@ struct Remeshing_options {
   }
 
   /// The paper's own algorithms and parameter values (Section 5), but for three that its own
-  /// numbers speak against (benchmark/PowerRTF/Quality/readings.py): Theta is 100 degrees, not 60;
-  /// 100 iterations without weights come first, not ten; N_m is 200, not 100. Its initial drawing,
-  /// `Sampling::random`, is "replaced by other curvature-adapted sampling methods", as it allows: a
-  /// random start needs more constructions.
+  /// numbers speak against (benchmark/PowerRTF/Quality/readings.py): \f$\Theta\f$ is 100 degrees,
+  /// not 60; 100 iterations without weights come first, not ten; \f$N_m\f$ is 200, not 100. Its
+  /// initial drawing, `Sampling::random`, is "replaced by other curvature-adapted sampling
+  /// methods", as it allows: a random start needs more constructions.
   static Remeshing_options paper_preset()
   {
     Remeshing_options o;

@@ -327,7 +327,7 @@ inline const Remeshing_options& validate(const Remeshing_options& options)
   constexpr double max_candidates = 1e9; // they are numbered by int
   const double n = static_cast<double>(options.number_of_samples);
   if (has_candidates && n * options.oversampling > max_candidates)
-    throw Invalid_input_error("number_of_samples times oversampling is " +
+    throw Invalid_input_error("samples times oversampling are " +
                               to_text(n * options.oversampling) + ", but must be at most " +
                               to_text(max_candidates));
   return options;

@@ -5,6 +5,8 @@ from concurrent.futures import Executor, Future
 from os import PathLike
 from typing import Any
 
+from .. import Options
+
 class RayExecutor(Executor):
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]: ...
 
@@ -21,7 +23,8 @@ def remesh_dataset(
     time_limit: float = 600.0,
     memory_limit: float = 4.0,
     progress: bool = False,
-    **options: Any,
+    options: Options | None = None,
+    **single: Any,
 ) -> Any: ...
 def write_manifest(
     manifest: str | PathLike[str],

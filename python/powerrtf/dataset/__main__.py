@@ -15,8 +15,8 @@ import sys
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 
+from .._options import DEFAULTS
 from ._mesh import FAILURES
-from ._options import DEFAULTS
 from ._plots import plot_summary
 from ._run import remesh_dataset
 
@@ -37,10 +37,22 @@ def _parser():
     add("--memory-limit", type=float, metavar="GIB", help="GiB of address space for a mesh (4)")
     add("--plot", metavar="FILE", help="draw the summary (with matplotlib)")
     options = parser.add_argument_group("options of powerrtf.remesh(), as --edge-length 0.1 or --seed 1")
-    options.add_argument("-n", metavar="N", help="the number of vertices")
-    for name in DEFAULTS.keys() - {"n"}:
-        options.add_argument("--" + name.replace("_", "-"), help=argparse.SUPPRESS)
+    options.add_argument("-n", metavar="N", type=int, help="the number of vertices")
+    for name, default in DEFAULTS.items():
+        if name != "n":
+            options.add_argument("--" + name.replace("_", "-"), type=_reader(default), help=argparse.SUPPRESS)
     return parser
+
+
+def _reader(default):
+    """What makes an option's value of its text."""
+    return _switch if isinstance(default, bool) else type(default)
+
+
+def _switch(text):
+    if text not in ("no", "yes"):
+        raise argparse.ArgumentTypeError(f"{text!r} is neither yes nor no")
+    return text == "yes"
 
 
 def main():

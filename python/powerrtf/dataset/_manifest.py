@@ -5,7 +5,8 @@
 import os
 from collections import namedtuple
 
-from ._options import DEFAULTS, arguments, merged
+from .._options import DEFAULTS, merged
+from ._options import arguments
 from ._tables import arrow, read_tables, write_table
 
 _ENDINGS = (".off", ".obj", ".ply", ".stl")
@@ -43,8 +44,8 @@ def _files_in(folder):
     return files
 
 
-def _check_names(options, where=""):
-    for name in options:
+def _check_names(names, where=""):
+    for name in names:
         if name not in DEFAULTS:
             raise TypeError(f"{where}{name!r} is no option of a mesh")
 
@@ -53,10 +54,10 @@ def read_manifest(manifest, common):
     """The entries of a manifest.
 
     :param common: options of all meshes that the manifest says nothing else about
-    :raises ValueError: what is wrong with the manifest
-    :raises TypeError: a column, or one of `common`, is no option
+    :raises ValueError: what is wrong with the manifest, or with `common`
+    :raises TypeError: a column is no option
     """
-    _check_names(common)
+    arguments(common)
     manifest = os.path.abspath(manifest)
     rows = read_tables([manifest])
     if "path" not in rows.column_names:
@@ -68,6 +69,9 @@ def read_manifest(manifest, common):
         if not path:
             raise ValueError(f"{manifest}: row {number} has no path")
         own = {name: value for name, value in row.items() if value is not None}
-        entries.append(Entry(path, os.path.normpath(os.path.join(os.path.dirname(manifest), path)),
-                             arguments(merged(common, own))))
+        try:
+            given = arguments(merged(common, own))
+        except ValueError as error:
+            raise ValueError(f"{manifest}: row {number}: {error}") from error
+        entries.append(Entry(path, os.path.normpath(os.path.join(os.path.dirname(manifest), path)), given))
     return entries

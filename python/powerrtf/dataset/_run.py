@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The function remesh_dataset()."""
 
+from .._options import given_options
 from ._executors import for_each, or_threads
 from ._manifest import read_manifest
 from ._mesh import key_of, remesh_one
@@ -11,7 +12,7 @@ _LAST_LIMITS = 4  # times those of the first pass
 
 
 def remesh_dataset(manifest, out, n=None, *, executor=None, rank=0, world=1, format="ply", time_limit=600.0,
-                   memory_limit=4.0, progress=False, **options):
+                   memory_limit=4.0, progress=False, options=None, **single):
     """Remeshes many files, each in a process of its own, with one thread: what crashes, hangs or eats
     memory costs one mesh. What former calls have finished is not done again, however they ended.
     Failures are tried once more at the end, with four times the limits.
@@ -34,7 +35,7 @@ def remesh_dataset(manifest, out, n=None, *, executor=None, rank=0, world=1, for
     :param time_limit: seconds for a mesh
     :param memory_limit: GiB of address space for a mesh
     :param progress: whether to show a bar (with tqdm)
-    :param options: those of :func:`powerrtf.remesh` that are no arrays; ``traits`` is "cpu"
+    :param options: a :class:`powerrtf.Options`, or these options as arguments; ``traits`` is "cpu"
     :returns: the summary, or this rank's rows of it, a ``pyarrow.Table``
     :raises ValueError: the manifest cannot be used
     :raises TypeError: there is no such option
@@ -42,7 +43,7 @@ def remesh_dataset(manifest, out, n=None, *, executor=None, rank=0, world=1, for
     """
     if not 0 <= rank < world:
         raise ValueError(f"rank is {rank}, but must be from 0 to {world - 1}")
-    entries = read_manifest(manifest, options if n is None else {**options, "n": n})[rank::world]
+    entries = read_manifest(manifest, given_options(options, n, single))[rank::world]
     results = Results(out, format)
     with or_threads(executor) as workers:
         keys = _keys(workers, entries, format)

@@ -421,7 +421,20 @@ chmod 640 target.off
 run 0 -- torus.off target.off "${fast[@]}" --quiet
 expect 'the mode of a replaced file stays' [ "$(stat -c %a target.off)" = 640 ]
 run 0 -- torus.off out.off "${fast[@]}" --quiet --report /dev/stdout
-expect 'a report may go to a pipe or a device' grep -q '"vertices": 200' stdout
+expect 'a report may go to a file that is open' grep -q '"vertices": 200' stdout
+# reported FILE: what is written there where standard output is a pipe
+reported() { "$program" torus.off out.off "${fast[@]}" --quiet --report "$1" | cat; }
+expect 'a report may go to a pipe' [ "$(reported /dev/stdout | grep -c '"vertices": 200')" = 1 ]
+mkfifo pipe
+cat pipe >read &
+expect 'a report may go to a named pipe' reported pipe
+wait
+expect 'all of it is read' [ "$(tail -n 1 read)" = '}' -a -p pipe ]
+expect 'a report may go to a device' [ -z "$(reported /dev/null)" -a -c /dev/null ]
+exec 7<>unnamed && rm unnamed
+reported /dev/fd/7
+expect 'a report may go to a file without a name' grep -q '"vertices": 200' <&7
+exec 7>&-
 name='a name with  blanks, and ünïcödë.off'
 cp torus.off "$name"
 run 0 -- "$name" "new $name" "${fast[@]}" --report r.json

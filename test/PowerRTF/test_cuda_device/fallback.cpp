@@ -47,7 +47,7 @@ TEST_CASE("where a GPU fails in the middle of a run, the CPU begins anew and kno
 TEST_CASE("who wants the GPU only gets no other where it fails")
 {
   CHECK_THROWS_WITH_AS(calls_with("cuda"),
-                       doctest::Contains("--traits cuda cannot be used: the GPU is lost"),
+                       doctest::Contains("the CUDA traits cannot be used: the GPU is lost"),
                        CGAL::PowerRTF::Cuda_error);
 }
 
