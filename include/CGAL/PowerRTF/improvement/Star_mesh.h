@@ -59,6 +59,7 @@ public:
   {
     const std::size_t n = mesh.points.size();
     m.normals.resize(n);
+    m.mirror = projector.surface().mirror;
     if (!mesh.places.empty()) m.set_places(mesh.places);
     for (const auto& [a, b] : mesh.feature_edges) {
       m_on_feature[a] = m_on_feature[b] = true;
