@@ -1,0 +1,143 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The plane that a surface is symmetric about. Only planes across an axis come into question: about
+// another one, numbers of finite precision have no exact images. Such a plane is that through the
+// origin, through the middle of the bounding box or through the center of gravity of the surface.
+#ifndef CGAL_POWER_RTF_FEATURES_FIND_MIRROR_H
+#define CGAL_POWER_RTF_FEATURES_FIND_MIRROR_H
+
+#include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/bounding_box.h>
+#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+namespace internal {
+
+/// A plane, and the vertex whose image is farthest from the surface.
+struct Mirror_candidate {
+  Mirror_plane plane{0, 0};
+  int vertex = -1;
+  double squared_deviation = std::numeric_limits<double>::infinity();
+};
+
+class Mirror_search {
+public:
+  /// \param spacing of the samples
+  Mirror_search(const Surface& surface, double spacing, Concurrency concurrency)
+      : m_surface(surface), m_tree(surface.points, surface.triangles, {}, concurrency),
+        m_box(bounding_box(surface.points, surface.triangles, concurrency)), m_spacing(spacing),
+        m_concurrency(concurrency)
+  {
+    for (std::size_t f = 0; f < surface.triangles.size(); ++f)
+      for (const int v : surface.triangles[f])
+        m_center += (surface.facet_areas[f] / (3 * surface.area)) * surface.points[v];
+  }
+
+  /// The best plane across `axis`, unless `best` is as good.
+  void look_across(int axis, Mirror_candidate& best) const
+  {
+    const Normalization& normalization = m_surface.normalization;
+    const Vec3d middle = 0.5 * (m_box.lo + m_box.hi);
+    for (const Vec3d& point : {normalization.to_inside({0, 0, 0}), middle, m_center}) {
+      Vec3d place = normalization.snapped(point), center = middle;
+      const Mirror_plane plane{axis, Mirror_plane::coordinate(place, axis)};
+      // The image of the box is off it by twice that; one plane is for the message.
+      const double off = 2 * std::abs(plane.at - Mirror_plane::coordinate(center, axis));
+      if (off > tolerance() && !(point == middle)) continue;
+      const Mirror_candidate candidate = judged(plane);
+      if (rank(candidate) < rank(best)) best = candidate;
+    }
+  }
+
+  double tolerance() const { return m_spacing / 2; }
+  double deviation(const Mirror_candidate& c) const { return std::sqrt(c.squared_deviation); }
+
+  /// In words, why the best is not good enough.
+  std::string reason(const Mirror_candidate& best, bool is_given) const
+  {
+    const double unit = 1 / m_surface.normalization.scale;
+    const Vec3d p = m_surface.normalization.to_outside(m_surface.points[best.vertex]);
+    Vec3d on_plane = m_surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
+    std::ostringstream text;
+    text << "the surface is not symmetric about ";
+    if (!is_given) text << "any plane across an axis; the best is ";
+    text << "the plane "
+         << "xyz"[best.plane.axis] << " = " << Mirror_plane::coordinate(on_plane, best.plane.axis)
+         << ": the mirror image of vertex " << m_surface.input_vertices[best.vertex] << ", at ("
+         << p.x << ", " << p.y << ", " << p.z << "), is " << deviation(best) * unit
+         << " away from it, but may be no more than " << tolerance() * unit
+         << ", half the spacing of the samples";
+    return text.str();
+  }
+
+private:
+  Mirror_candidate judged(const Mirror_plane& plane) const
+  {
+    return reduce(
+        m_concurrency, static_cast<int>(m_surface.points.size()), Mirror_candidate{plane, -1, -1},
+        [&](Mirror_candidate& farthest, int v) {
+          const double d =
+              m_tree.nearest_anywhere(plane.image(m_surface.points[v])).squared_distance;
+          if (d > farthest.squared_deviation) farthest = {plane, v, d};
+        },
+        [](Mirror_candidate& farthest, const Mirror_candidate& part) {
+          if (part.squared_deviation > farthest.squared_deviation) farthest = part;
+        });
+  }
+
+  /// Deviations that no one sees are equal: of planes about which a surface is symmetric up to
+  /// rounding, the first one counts.
+  double rank(const Mirror_candidate& c) const
+  {
+    constexpr double unseen = 0.01; // in units of the spacing
+    return (std::max)(deviation(c), unseen * m_spacing);
+  }
+
+  const Surface& m_surface;
+  Facet_tree m_tree;
+  Box3<double> m_box;
+  Vec3d m_center{0, 0, 0}; // of gravity
+  double m_spacing;
+  Concurrency m_concurrency;
+};
+
+} // namespace internal
+
+/// The plane of symmetry of `surface`, on the grid of the result's points.
+/// \param wanted across which axis; not `none`
+/// \param spacing of the samples, of which the image of each vertex may be off by a half
+/// \throws Invalid_input_error the surface is not as symmetric as that
+inline Mirror_plane find_mirror(const Surface& surface, Symmetry wanted, double spacing,
+                                Symmetry_report& report,
+                                internal::Concurrency concurrency = Sequential_tag())
+{
+  const internal::Mirror_search search(surface, spacing, concurrency);
+  internal::Mirror_candidate best;
+  const bool is_given = wanted != Symmetry::automatic;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!is_given || static_cast<int>(wanted) == static_cast<int>(Symmetry::x) + axis)
+      search.look_across(axis, best);
+  if (search.deviation(best) > search.tolerance())
+    throw Invalid_input_error(search.reason(best, is_given));
+  Vec3d on_plane = surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
+  report.axis = "xyz"[best.plane.axis];
+  report.at = Mirror_plane::coordinate(on_plane, best.plane.axis);
+  report.deviation = search.deviation(best) / surface.normalization.scale;
+  return best.plane;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_FEATURES_FIND_MIRROR_H
