@@ -88,6 +88,7 @@ def remesh(
     non_manifold: str = "keep",
     intersections: str = "keep",
     wrap_radius: float = 0.0,
+    symmetry: str = "none",
     density_power: float = 1.0,
     gradation: float = 0.1,
     density_smoothing: float = 3.0,
