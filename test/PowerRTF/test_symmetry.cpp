@@ -8,6 +8,7 @@
 #include "odd_shapes.h"
 #include "remeshed_shape.h"
 
+#include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/features/half_surface.h>
 #include <CGAL/PowerRTF/transfer/Mesh_source.h>
 #include <CGAL/power_rtf_remeshing.h>
@@ -176,6 +177,9 @@ TEST_CASE("an input that is not is refused, with where and how far")
   CHECK(has(about_x, "not symmetric about the plane x = "));
   CHECK(has(about_x, "away from it, but may be no more than"));
   CHECK(refusal(ball, 600, Symmetry::y) == "");
+  Soup open = shapes::box(1); // the image of the hole is within a facet, far from all vertices
+  open.triangles.pop_back();
+  CHECK(has(refusal(open, 600, Symmetry::automatic), "the mirror image of its point"));
   const Soup turned = shapes::rotated(shapes::box(4), 0.5);
   CHECK(has(refusal(turned, 600, Symmetry::automatic), "any plane across an axis"));
 }
@@ -194,14 +198,18 @@ TEST_CASE("what cannot be halved is refused")
 
 TEST_CASE("a number of vertices that is found may have to be even")
 {
-  Remeshing_options options = symmetric(Symmetry::x);
-  options.edge_length = 0.2;
-  for (int k = 0; k < 4; ++k) {
-    const Result result = remesh(shapes::two_spheres(3), 3000, options);
-    check_guarantees(result.report);
-    CHECK(result.report.samples_asked % 2 == 0);
-    options.edge_length += 0.003;
+  const Mesh spheres = make_mesh(shapes::two_spheres(3));
+  Mesh output;
+  std::size_t odd = 0;
+  for (int k = 0; k < 5; ++k) {
+    const Resolution resolution = Resolution::edge_length(0.2 + 0.003 * k);
+    odd += CGAL::power_rtf_remeshing(spheres, resolution, output).samples_asked % 2;
+    const Remeshing_report report =
+        CGAL::power_rtf_remeshing(spheres, resolution, output, params::symmetry(Symmetry::x));
+    check_guarantees(report);
+    CHECK(report.samples_asked % 2 == 0);
   }
+  CHECK(odd > 0);
 }
 
 TEST_CASE("the result is the same on one thread, and that of a scaled input is scaled")
@@ -255,6 +263,47 @@ TEST_CASE("vertices on either side come from their own side, and patches are tho
   std::set<int> numbers;
   for (const auto f : output.faces()) numbers.insert(patches[f]);
   CHECK(numbers.size() == 7); // the roof is two, and each wall and the floor one
+}
+
+TEST_CASE("holes and parts smaller than the spacing stay what they are across the plane")
+{
+  const Soup ring = shapes::mapped(shapes::open_cylinder(40, 10, 1, 1), [](const Vec3d& p) {
+    const double r = 0.05 + 0.95 * p.z;
+    return Vec3d{p.x * r, p.y * r, 0};
+  });
+  for (const std::size_t n : {8, 9, 10, 12, 15, 20, 200}) {
+    CAPTURE(n);
+    remesh_symmetric(ring, n, symmetric(Symmetry::y));
+  }
+  for (const std::size_t n : {60, 100, 150, 301}) {
+    CAPTURE(n);
+    for (const Symmetry plane : {Symmetry::x, Symmetry::y}) {
+      remesh_symmetric(shapes::ellipsoid(0.12, 0.12, 1, 4), n, symmetric(plane));
+      remesh_symmetric(shapes::ball_with_finger(0.1), n, symmetric(plane));
+    }
+  }
+}
+
+TEST_CASE("within a half no edge joins vertices at the mirror, nor does a collapse make one")
+{
+  using Vertex = internal::Working_mesh::Vertex;
+  const std::vector<Vec3d> points = {
+      {0, 0, 0}, {1, 0.5, 0}, {0, 1, 0}, {-1, 0.5, 0}, {0.1, 0.5, 0}};
+  internal::Working_mesh two(points, {{0, 1, 3}, {1, 2, 3}}, CGAL::Sequential_tag());
+  const auto diagonal = two.mesh.edge(two.mesh.halfedge(Vertex(1), Vertex(3)));
+  CHECK(two.is_flippable(diagonal));
+  two.mirror = Mirror_plane{0, 0};
+  CHECK_FALSE(two.is_flippable(diagonal));
+
+  internal::Working_mesh four(points, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
+                              CGAL::Sequential_tag());
+  const auto joins_twice = [&](int from, int to) {
+    return four.joins_twice(four.mesh.halfedge(Vertex(from), Vertex(to)));
+  };
+  CHECK_FALSE(joins_twice(4, 0));
+  four.mirror = Mirror_plane{0, 0};
+  CHECK(joins_twice(4, 0));
+  CHECK_FALSE(joins_twice(4, 1));
 }
 
 TEST_CASE("a half ends in the plane exactly, and has half the area")

@@ -33,7 +33,7 @@ expect 'with another resolution, too' [ "$(lone out.off)" = 0 ]
 
 # A bump on one side
 awk 'NR > 2 && NF == 3 && $1 > 3.9 { $1 = $1 + 1 } { print }' torus.off >bump.off
-run 1 'not symmetric about the plane x = ' 'mirror image of vertex' 'half the spacing' -- \
+run 1 'not symmetric about the plane x = ' 'mirror image of its point' 'half the spacing' -- \
   bump.off out.off -n 501 --symmetry x
 run 0 -- bump.off out.off -n 501 --symmetry auto --report r.json
 expect 'there are two other planes' grep -q '"axis": "y",' r.json

@@ -25,10 +25,10 @@
 namespace CGAL::PowerRTF {
 namespace internal {
 
-/// A plane, and the vertex whose image is farthest from the surface.
+/// A plane, and the point whose image is farthest from the surface.
 struct Mirror_candidate {
   Mirror_plane plane{0, 0};
-  int vertex = -1;
+  Vec3d farthest{0, 0, 0};
   double squared_deviation = std::numeric_limits<double>::infinity();
 };
 
@@ -68,33 +68,55 @@ public:
   std::string reason(const Mirror_candidate& best, bool is_given) const
   {
     const double unit = 1 / m_surface.normalization.scale;
-    const Vec3d p = m_surface.normalization.to_outside(m_surface.points[best.vertex]);
+    const Vec3d p = m_surface.normalization.to_outside(best.farthest);
     Vec3d on_plane = m_surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
     std::ostringstream text;
     text << "the surface is not symmetric about ";
     if (!is_given) text << "any plane across an axis; the best is ";
     text << "the plane "
          << "xyz"[best.plane.axis] << " = " << Mirror_plane::coordinate(on_plane, best.plane.axis)
-         << ": the mirror image of vertex " << m_surface.input_vertices[best.vertex] << ", at ("
-         << p.x << ", " << p.y << ", " << p.z << "), is " << deviation(best) * unit
-         << " away from it, but may be no more than " << tolerance() * unit
-         << ", half the spacing of the samples";
+         << ": the mirror image of its point (" << p.x << ", " << p.y << ", " << p.z << ") is "
+         << deviation(best) * unit << " away from it, but may be no more than "
+         << tolerance() * unit << ", half the spacing of the samples";
     return text.str();
   }
 
 private:
   Mirror_candidate judged(const Mirror_plane& plane) const
   {
+    const auto look_at = [&](Mirror_candidate& farthest, const Vec3d& p) {
+      const double d = m_tree.nearest_anywhere(plane.image(p)).squared_distance;
+      if (d > farthest.squared_deviation) farthest = {plane, p, d};
+    };
+    const int vertices = static_cast<int>(m_surface.points.size()),
+              facets = static_cast<int>(m_surface.triangles.size());
     return reduce(
-        m_concurrency, static_cast<int>(m_surface.points.size()), Mirror_candidate{plane, -1, -1},
-        [&](Mirror_candidate& farthest, int v) {
-          const double d =
-              m_tree.nearest_anywhere(plane.image(m_surface.points[v])).squared_distance;
-          if (d > farthest.squared_deviation) farthest = {plane, v, d};
+        m_concurrency, vertices + facets, Mirror_candidate{plane, {0, 0, 0}, -1},
+        [&](Mirror_candidate& farthest, int i) {
+          if (i < vertices)
+            look_at(farthest, m_surface.points[i]);
+          else
+            for_each_point(i - vertices, [&](const Vec3d& p) { look_at(farthest, p); });
         },
         [](Mirror_candidate& farthest, const Mirror_candidate& part) {
           if (part.squared_deviation > farthest.squared_deviation) farthest = part;
         });
+  }
+
+  /// Calls `f` for points of a facet that is larger than the spacing, no farther apart than that.
+  template <class F>
+  void for_each_point(int facet, F&& f) const
+  {
+    constexpr double most = 64; // on a side
+    const Triangle& t = m_surface.triangles[facet];
+    const Vec3d &a = m_surface.points[t[0]], ab = m_surface.points[t[1]] - a,
+                ac = m_surface.points[t[2]] - a;
+    const double longest =
+        std::sqrt((std::max)({squared_length(ab), squared_length(ac), squared_length(ac - ab)}));
+    const int parts = static_cast<int>((std::min)(std::ceil(longest / m_spacing), most));
+    if (parts <= 1) return;
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j) f(a + (1. * i / parts) * ab + (1. * j / parts) * ac);
   }
 
   /// Deviations that no one sees are equal: of planes about which a surface is symmetric up to
@@ -117,7 +139,7 @@ private:
 
 /// The plane of symmetry of `surface`, on the grid of the result's points.
 /// \param wanted across which axis; not `none`
-/// \param spacing of the samples, of which the image of each vertex may be off by a half
+/// \param spacing of the samples, of which the image of no point may be off by more than a half
 /// \throws Invalid_input_error the surface is not as symmetric as that
 inline Mirror_plane find_mirror(const Surface& surface, Symmetry wanted, double spacing,
                                 Symmetry_report& report,
