@@ -159,6 +159,11 @@ TEST_CASE("the plane is that of the input, wherever it is")
   const Soup ellipsoid = shapes::rotated(shapes::ellipsoid(1, 0.6, 0.4, 4), 0.4, {0, 1, 0});
   CHECK(remesh_symmetric(ellipsoid, 500, symmetric(Symmetry::automatic)).report.symmetry.axis ==
         "y");
+  const Soup upright = shapes::mapped(shapes::plane_patch(5, 5), [](const Vec3d& p) {
+    return Vec3d{0, p.x, p.y};
+  });
+  CHECK(remesh_symmetric(upright, 500, symmetric(Symmetry::automatic)).report.symmetry.axis ==
+        "y"); // it cannot be halved by x = 0, which it lies in
 }
 
 TEST_CASE("an input that is nearly symmetric becomes symmetric, and the report says how nearly")
@@ -187,6 +192,13 @@ TEST_CASE("an input that is not is refused, with where and how far")
 TEST_CASE("what cannot be halved is refused")
 {
   CHECK(has(refusal(shapes::plane_patch(4, 4), 100, Symmetry::z), "lies in the plane"));
+  const Soup wavy = shapes::mapped(shapes::plane_patch(20, 20), [](const Vec3d& p) {
+    return Vec3d{p.x, p.y, 0.01 * std::sin(9 * p.x)};
+  });
+  CHECK(has(refusal(wavy, 400, Symmetry::z), "lies in the plane"));
+  const Soup sheet =
+      shapes::joined(shapes::box(4), shapes::translated(shapes::plane_patch(4, 4), {2, 0, 0}));
+  CHECK(has(refusal(sheet, 400, Symmetry::z), "a part of it lies in the plane"));
   CHECK(has(refusal(shapes::two_spheres(3), 801, Symmetry::x), "has to be even"));
   const Soup box = shapes::box(4);
   Mesh mesh = make_mesh(box);

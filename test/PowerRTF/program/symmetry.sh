@@ -36,7 +36,7 @@ awk 'NR > 2 && NF == 3 && $1 > 3.9 { $1 = $1 + 1 } { print }' torus.off >bump.of
 run 1 'not symmetric about the plane x = ' 'mirror image of its point' 'half the spacing' -- \
   bump.off out.off -n 501 --symmetry x
 run 0 -- bump.off out.off -n 501 --symmetry auto --report r.json
-expect 'there are two other planes' grep -q '"axis": "y",' r.json
+expect 'there are two other planes' grep -q '"axis": "[yz]",' r.json
 
 run 2 "one of none|auto|x|y|z" -- torus.off out.off --symmetry q
 

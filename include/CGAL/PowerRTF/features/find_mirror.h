@@ -45,18 +45,33 @@ public:
         m_center += (surface.facet_areas[f] / (3 * surface.area)) * surface.points[v];
   }
 
+  /// Whether all lies in one plane across `axis`, as nearly as may be.
+  bool is_flat(int axis) const
+  {
+    Vec3d size = m_box.hi - m_box.lo;
+    return Mirror_plane::coordinate(size, axis) <= tolerance();
+  }
+
   /// The best plane across `axis`, unless `best` is as good.
   void look_across(int axis, Mirror_candidate& best) const
   {
     const Normalization& normalization = m_surface.normalization;
-    const Vec3d middle = 0.5 * (m_box.lo + m_box.hi);
-    for (const Vec3d& point : {normalization.to_inside({0, 0, 0}), middle, m_center}) {
-      Vec3d place = normalization.snapped(point), center = middle;
-      const Mirror_plane plane{axis, Mirror_plane::coordinate(place, axis)};
-      // The image of the box is off it by twice that; one plane is for the message.
-      const double off = 2 * std::abs(plane.at - Mirror_plane::coordinate(center, axis));
-      if (off > tolerance() && !(point == middle)) continue;
-      const Mirror_candidate candidate = judged(plane);
+    const auto coordinate = [&](const Vec3d& point) {
+      Vec3d place = normalization.snapped(point);
+      return Mirror_plane::coordinate(place, axis);
+    };
+    const double middle = coordinate(0.5 * (m_box.lo + m_box.hi)),
+                 origin = coordinate(normalization.to_inside({0, 0, 0}));
+    std::vector<double> seen;
+    for (const double at : {origin, middle, coordinate(m_center)}) {
+      // The image of the box is off it by twice as much; one plane is for the message.
+      const bool is_off = 2 * std::abs(at - middle) > tolerance() && at != middle;
+      if (is_off || std::any_of(seen.begin(), seen.end(), [&](double other) {
+            return std::abs(at - other) < unseen * m_spacing;
+          }))
+        continue;
+      seen.push_back(at);
+      const Mirror_candidate candidate = judged({axis, at});
       if (rank(candidate) < rank(best)) best = candidate;
     }
   }
@@ -82,6 +97,15 @@ public:
   }
 
 private:
+  /// In units of the spacing. Deviations that no one sees are equal: of planes about which a
+  /// surface is symmetric up to rounding, the first one counts.
+  static constexpr double unseen = 0.01;
+
+  double rank(const Mirror_candidate& c) const
+  {
+    return (std::max)(deviation(c), unseen * m_spacing);
+  }
+
   Mirror_candidate judged(const Mirror_plane& plane) const
   {
     const auto look_at = [&](Mirror_candidate& farthest, const Vec3d& p) {
@@ -119,14 +143,6 @@ private:
       for (int j = 0; i + j <= parts; ++j) f(a + (1. * i / parts) * ab + (1. * j / parts) * ac);
   }
 
-  /// Deviations that no one sees are equal: of planes about which a surface is symmetric up to
-  /// rounding, the first one counts.
-  double rank(const Mirror_candidate& c) const
-  {
-    constexpr double unseen = 0.01; // in units of the spacing
-    return (std::max)(deviation(c), unseen * m_spacing);
-  }
-
   const Surface& m_surface;
   Facet_tree m_tree;
   Box3<double> m_box;
@@ -140,7 +156,7 @@ private:
 /// The plane of symmetry of `surface`, on the grid of the result's points.
 /// \param wanted across which axis; not `none`
 /// \param spacing of the samples, of which the image of no point may be off by more than a half
-/// \throws Invalid_input_error the surface is not as symmetric as that
+/// \throws Invalid_input_error the surface is not as symmetric as that, or lies in the plane
 inline Mirror_plane find_mirror(const Surface& surface, Symmetry wanted, double spacing,
                                 Symmetry_report& report,
                                 internal::Concurrency concurrency = Sequential_tag())
@@ -148,9 +164,13 @@ inline Mirror_plane find_mirror(const Surface& surface, Symmetry wanted, double 
   const internal::Mirror_search search(surface, spacing, concurrency);
   internal::Mirror_candidate best;
   const bool is_given = wanted != Symmetry::automatic;
-  for (int axis = 0; axis < 3; ++axis)
-    if (!is_given || static_cast<int>(wanted) == static_cast<int>(Symmetry::x) + axis)
+  for (int axis = 0; axis < 3; ++axis) {
+    if (is_given && static_cast<int>(wanted) != static_cast<int>(Symmetry::x) + axis) continue;
+    if (!search.is_flat(axis))
       search.look_across(axis, best);
+    else if (is_given)
+      throw Invalid_input_error("the surface lies in the plane that it would be symmetric about");
+  }
   if (search.deviation(best) > search.tolerance())
     throw Invalid_input_error(search.reason(best, is_given));
   Vec3d on_plane = surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
