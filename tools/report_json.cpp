@@ -55,6 +55,15 @@ Json to_json(const Intersection_cure& c)
           {"wrap_offset", c.wrap_offset}};
 }
 
+Json to_json(const Symmetry_report& s)
+{
+  return {{"axis", s.axis},
+          {"at", s.at},
+          {"deviation", s.deviation},
+          {"vertices", s.vertices},
+          {"lone_facets", s.lone_facets}};
+}
+
 Json to_json(const Thin_parts& t)
 {
   return {{"places", t.places},
@@ -222,6 +231,7 @@ Json to_json(const Run& run)
   json["cells"] = to_json(r.cells);
   json["repairs"] = to_json(r.repairs);
   json["cure"] = to_json(r.cure);
+  if (!r.symmetry.axis.empty()) json["symmetry"] = to_json(r.symmetry);
   json["seconds"] = to_json(r.seconds);
   if (!r.device.name.empty())
     json["device"] = {

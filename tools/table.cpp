@@ -57,6 +57,11 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
     counts(out, "sheets of the network", a.sheets, b.sheets);
     counts(out, "curves where they meet", a.junctions, b.junctions);
   }
+  if (!r.symmetry.axis.empty()) {
+    row(out, "plane of symmetry", r.symmetry.axis + " = " + figure(r.symmetry.at));
+    row(out, "vertices on it", std::to_string(r.symmetry.vertices));
+    row(out, "deviation from symmetry", "", figure(r.symmetry.deviation));
+  }
   if (r.kept_faces > 0) row(out, "triangles kept around the region", std::to_string(r.kept_faces));
   row(out, "self-intersections", std::to_string(r.self_intersections));
   if (r.feature_edges > 0)

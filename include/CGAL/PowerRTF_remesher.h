@@ -15,8 +15,10 @@
 #include <CGAL/PowerRTF/extraction/extract_from_cells.h>
 #include <CGAL/PowerRTF/extraction/extract_restricted_delaunay.h>
 #include <CGAL/PowerRTF/extraction/mesh_patches.h>
+#include <CGAL/PowerRTF/extraction/mirrored_mesh.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/features/move_off_kept_edges.h>
+#include <CGAL/PowerRTF/features/split_off_image.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
@@ -26,12 +28,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace CGAL {
 
 /// \ingroup PkgPowerRTFRef
-/// Distributes samples on a surface by their restricted tangent faces and triangulates them.
+/// Distributes samples on a surface by their restricted tangent faces and triangulates them. With
+/// `Remeshing_options::symmetry` these are samples of one half of the surface.
 ///
 /// \tparam Traits a model of `PowerRTFTraits_3`.
 template <class Traits>
@@ -43,13 +47,15 @@ public:
 
   /// `surface`: from `prepare_surface()`, and `report` what that has begun. \throws
   /// Invalid_input_error when an option has a value that is not allowed, or the samples are too few
-  /// for the surface.
+  /// for the surface, or it is not as symmetric as it has to be.
   PowerRTF_remesher(PowerRTF::Surface surface, const Options& options, const Report& report = {})
       : m_surface(std::move(surface)), m_options(with_number_of_samples(options, report)),
+        m_report(report), m_whole(PowerRTF::split_off_image(m_surface, m_options, m_report,
+                                                            typename Traits::Concurrency_tag())),
         m_patches(m_surface, m_options, typename Traits::Concurrency_tag()),
-        m_engine(m_patches.surface(), m_options), m_report(report)
+        m_engine(m_patches.surface(), m_options)
   {
-    m_report.samples_asked = m_options.number_of_samples;
+    if (!m_whole) m_report.samples_asked = m_options.number_of_samples;
     m_report.min_angle = m_options.min_angle;
     m_report.max_angle = m_options.max_angle;
     m_report.feature_samples = m_patches.features().size();
@@ -80,7 +86,8 @@ public:
     return mesh;
   }
 
-  const PowerRTF::Surface& surface() const { return m_surface; }
+  const PowerRTF::Surface& surface() const { return m_whole ? *m_whole : m_surface; }
+  /// With the number of the samples that are distributed.
   const Options& options() const { return m_options; }
   const Report& report() const { return m_report; }
   Report& report() { return m_report; }
@@ -105,10 +112,12 @@ public:
         m_patches.surface(), m_options, m_patches.features(), m_engine.facet_tree());
   }
   /// The patch of each triangle of `mesh`, a result of `extract()`: numbers from 0, in the order of
-  /// the surface's facets.
+  /// the surface's facets, or, with a symmetry, of the triangles.
   std::vector<int> patches(const PowerRTF::Extracted_mesh& mesh) const
   {
-    return PowerRTF::mesh_patches(mesh, m_patches.surface(), typename Traits::Concurrency_tag());
+    using Tag = typename Traits::Concurrency_tag;
+    return m_whole ? PowerRTF::mesh_parts(mesh, Tag()).first
+                   : PowerRTF::mesh_patches(mesh, m_patches.surface(), Tag());
   }
   /// The precision of the cells' numbers: the machine epsilon of double, or of float.
   double epsilon() const { return m_engine.epsilon(); }
@@ -194,8 +203,18 @@ private:
       PowerRTF::Opened_surface::sew_up(mesh);
     }
     const Stage stage("quality", m_report.seconds.quality);
-    PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
-                     typename Traits::Concurrency_tag(), m_engine.distance_finder());
+    const typename Traits::Concurrency_tag concurrency;
+    if (!m_whole) {
+      PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
+                       concurrency, m_engine.distance_finder());
+    } else {
+      const std::size_t of_half = mesh.points.size();
+      mesh = PowerRTF::mirrored_mesh(std::move(mesh), m_surface, concurrency);
+      m_report.symmetry.vertices = 2 * of_half - mesh.points.size();
+      PowerRTF::assess(*m_whole, mesh, m_report, concurrency);
+      m_report.symmetry.lone_facets =
+          PowerRTF::facets_without_image(mesh, *m_surface.mirror, concurrency);
+    }
     return mesh;
   }
 
@@ -320,11 +339,12 @@ private:
     m_report.cancelled = !visitor.go_further();
   }
 
-  PowerRTF::Surface m_surface;
+  PowerRTF::Surface m_surface; // that samples are distributed on
   Options m_options;
+  Report m_report;
+  std::optional<PowerRTF::Surface> m_whole; // of which that is the half; none: it is the whole
   PowerRTF::Surface_patches m_patches;
   Engine m_engine;
-  Report m_report;
 };
 
 } // namespace CGAL

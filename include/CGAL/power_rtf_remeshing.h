@@ -45,6 +45,7 @@ Remeshing_options options_of(const Resolution& resolution, const NamedParameters
   resolution.set(options);
   if (Has_float_coordinates<Point>::value) options.coordinates = Coordinates::single_precision;
   options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair);
+  options.symmetry = choose_parameter(get_parameter(np, symmetry_t()), options.symmetry);
   options.random_seed =
       choose_parameter(get_parameter(np, internal_np::random_seed), options.random_seed);
   options.max_iterations = choose_parameter(get_parameter(np, internal_np::number_of_iterations),
@@ -182,6 +183,15 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
  *     \cgalParamExtra{What was repaired is counted in `PowerRTF::Remeshing_report::repairs`.}
  *   \cgalParamNEnd
  *
+ *   \cgalParamNBegin{PowerRTF::parameters::symmetry}
+ *     \cgalParamDescription{a plane across an axis, that one or the one that fits best: the result
+ *                           is its own mirror image about it, vertex by vertex, and the plane's
+ *                           curve is a line of vertices}
+ *     \cgalParamType{`PowerRTF::Symmetry`}
+ *     \cgalParamDefault{`PowerRTF::Remeshing_options::symmetry`, none}
+ *     \cgalParamExtra{`input` has to be symmetric within half the spacing of the vertices.}
+ *   \cgalParamNEnd
+ *
  *   \cgalParamNBegin{edge_is_constrained_map}
  *     \cgalParamDescription{a property map that names the creases: the result keeps them as chains
  *                           of edges, and their ends and corners as vertices}
@@ -277,13 +287,14 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
  * \returns what was done and what the result is worth. `missed_guarantees()` is empty when the
  *          result has exactly the vertices asked for, is a 2-manifold with the components, borders
  *          and Euler characteristic of the input, keeps its creases and borders as edges, does
- *          not intersect itself, and keeps the bounds of distance and angles that are asked for.
+ *          not intersect itself, and keeps the bounds and the symmetry that are asked for.
  *          When the visitor stopped the run, `cancelled` is `true` and `output` is as it was.
  *
  * \throws PowerRTF::Invalid_input_error the input has no facet, no area, a coordinate that is not
  *         finite or is no 2-manifold; a density or a wanted edge length is not a positive, finite
- *         number; the samples are too few for the surface, or for the lengths; `resolution` or an
- *         option has a value that is not allowed (the message says what is). `output` is as it was.
+ *         number; the samples are too few for the surface, or for the lengths; the surface is not
+ *         as symmetric as it has to be; `resolution` or an option has a value that is not allowed
+ *         (the message says what is). `output` is as it was.
  */
 template <class ConcurrencyTag = Parallel_if_available_tag, class InputMesh, class OutputMesh,
           class NamedParametersIn = parameters::Default_named_parameters,
@@ -297,11 +308,11 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
   static_assert(!PowerRTF::internal::has_output_parameter<NamedParametersIn>(),
                 "vertex_source_map and face_source_map belong into the second chain of named "
                 "parameters");
-  static_assert(!PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
-                "density_map, sizing_map, refinements, remeshing_options and repair belong into "
-                "the first chain of named "
-                "parameters; one that began in CGAL::parameters takes them by "
-                "PowerRTF::parameters::combine(chain, density_map(map))");
+  static_assert(
+      !PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
+      "density_map, sizing_map, refinements, remeshing_options, repair and symmetry belong "
+      "into the first chain of named parameters; one that began in CGAL::parameters takes them by "
+      "PowerRTF::parameters::combine(chain, density_map(map))");
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, InputMesh, NamedParametersIn>;
   using Output_map = typename GetVertexPointMap<OutputMesh, NamedParametersOut>::type;
   using Output_point = typename boost::property_traits<Output_map>::value_type;

@@ -79,6 +79,7 @@ class Options:
     non_manifold: str | None = None
     intersections: str | None = None
     wrap_radius: float | None = None
+    symmetry: str | None = None
     density_power: float | None = None
     gradation: float | None = None
     density_smoothing: float | None = None
@@ -147,6 +148,7 @@ def remesh(
     non_manifold: str = "keep",
     intersections: str = "keep",
     wrap_radius: float = 0.0,
+    symmetry: str = "none",
     density_power: float = 1.0,
     gradation: float = 0.1,
     density_smoothing: float = 3.0,

@@ -116,6 +116,25 @@ def test_what_is_no_region_stays_bit_for_bit(real):
     assert (by_number.vertices == mesh.vertices).all()
 
 
+@pytest.mark.parametrize("real", [np.float32, np.float64])
+def test_a_symmetric_result_is_its_own_mirror_image(real):
+    points, faces = sphere(16, real)
+    mesh = powerrtf.remesh(points, faces, 301, symmetry="z")
+    plane = mesh.report.symmetry
+    assert mesh.missed_guarantees == [] and len(mesh.vertices) == 301
+    assert plane["axis"] == "z" and plane["lone_facets"] == 0
+    images = mesh.vertices.astype(np.float64) * [1, 1, -1] + [0, 0, 2 * plane["at"]]
+    assert {tuple(p) for p in images} == {tuple(p) for p in mesh.vertices.astype(np.float64)}
+    assert (images[:, 2] == mesh.vertices[:, 2]).sum() == plane["vertices"]
+
+
+def test_what_is_not_symmetric_is_refused():
+    points, faces = sphere(16, np.float64)
+    points[points[:, 0] > 0.8] *= 2
+    with pytest.raises(ValueError, match="not symmetric about the plane x"):
+        powerrtf.remesh(points, faces, 301, symmetry="x")
+
+
 @pytest.mark.parametrize("region, message", [
     ([], "no facet is in the region"), ([True, False], "region has the shape"),
     ([-1], "no face's number"), ([10**6], "no face's number"), ([0.5], "whole numbers")])

@@ -58,6 +58,12 @@ for name in plain refined; do
   render "$work/$name.off" "$target/fandisk_$name.png" --azimuth 35 --elevation 30 --palette 128
 done
 
+# A symmetric mesh.
+"$program" "$models/head.off" "$work/plain.off" --samples 1500 --quiet
+"$program" "$models/head.off" "$work/symmetric.off" --samples 1500 --symmetry auto --quiet
+render "$work/plain.off" "$target/symmetry_before.png" --azimuth 270 --elevation 5 --palette 128
+render "$work/symmetric.off" "$target/symmetry_after.png" --azimuth 270 --elevation 5 --palette 128
+
 # A region, finer than the rest.
 "$program" "$models/bunny00.off" "$work/coarse.off" --samples 2000 --quiet
 awk -v ply="$work/region.ply" -v vtk="$work/before.vtk" '

@@ -51,6 +51,8 @@ enum class Non_manifold { keep, split, refuse };
 /// facets are cut where they meet, and all sheets stay. `wrap`: the input is replaced by a closed
 /// surface around it.
 enum class Intersections { keep, resolve, wrap };
+/// Of the result about a plane across an axis, which is looked for, or across that one.
+enum class Symmetry { none, automatic, x, y, z };
 /// Of the result's points.
 enum class Coordinates { double_precision, single_precision };
 
@@ -84,6 +86,10 @@ struct Remeshing_options {
   /// input's unit. 0: as the spacing, from a hundredth to a twentieth of the diagonal of the
   /// bounding box.
   double wrap_radius = 0;
+
+  /// The result is the same as its mirror image, vertex by vertex. The plane is that of the input's
+  /// own symmetry, to which it has to come within half the spacing.
+  Symmetry symmetry = Symmetry::none;
 
   /// Degrees: edges whose facets' normals differ by at least this are kept as creases where such
   /// edges make clean curves; 180: none. Creases named by the user go first.

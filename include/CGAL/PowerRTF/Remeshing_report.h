@@ -94,6 +94,15 @@ struct Intersection_cure {
   double wrap_offset = 0; ///< `wrap`, in the input's unit: how far from the input it lies
 };
 
+/// The plane that the result is symmetric about (`Remeshing_options::symmetry`).
+struct Symmetry_report {
+  std::string axis;            ///< across the plane: "x", "y" or "z"; empty: none was asked for
+  double at = 0;               ///< its coordinate, in the input's
+  double deviation = 0;        ///< of the input, in its unit: how far an image is from it at most
+  std::size_t vertices = 0;    ///< of the result on the plane
+  std::size_t lone_facets = 0; ///< of the result, whose mirror image is none of its facets
+};
+
 /// Where the surface is too thin for the spacing of the samples: nearer to its other side than 0.8
 /// times that, around a finger, a plate's rim, a groove.
 struct Thin_parts {
@@ -144,6 +153,8 @@ struct Remeshing_report {
   Capacity_statistics capacity; ///< at the end
   Repair_counts repairs;
   Intersection_cure cure;
+  /// With a symmetry, samples and cells, and what was done about them, are those of one half.
+  Symmetry_report symmetry;
   Topology_statistics input_topology, topology;
   std::size_t self_intersections = 0;       ///< pairs of facets
   std::size_t input_self_intersections = 0; ///< counted only when the result has some
@@ -209,6 +220,7 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
                         ": the option intersections is about them)"
                   : std::string()));
   same(lost_feature_edges, std::size_t(0), "lost edges of creases and borders");
+  same(symmetry.lone_facets, std::size_t(0), "facets without a mirror image");
   const auto bounded = [&expect](bool met, const char* what, double is, double asked) {
     std::ostringstream text;
     text << what << is << " instead of " << asked;

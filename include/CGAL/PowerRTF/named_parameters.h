@@ -24,6 +24,7 @@ enum sizing_map_t { sizing_map };
 enum refinements_t { refinements };
 enum remeshing_options_t { remeshing_options };
 enum repair_t { repair };
+enum symmetry_t { symmetry };
 enum vertex_source_map_t { vertex_source_map };
 enum face_source_map_t { face_source_map };
 
@@ -58,6 +59,7 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
     return with<remeshing_options_t>(options);
   }
   auto repair(bool wanted) const { return with<repair_t>(wanted ? Repair::yes : Repair::no); }
+  auto symmetry(Symmetry plane) const { return with<symmetry_t>(plane); }
   template <class Map>
   auto vertex_source_map(const Map& map) const
   {
@@ -122,7 +124,7 @@ constexpr bool has_input_parameter()
          has_parameter<NamedParameters, sizing_map_t>() ||
          has_parameter<NamedParameters, refinements_t>() ||
          has_parameter<NamedParameters, remeshing_options_t>() ||
-         has_parameter<NamedParameters, repair_t>();
+         has_parameter<NamedParameters, repair_t>() || has_parameter<NamedParameters, symmetry_t>();
 }
 
 /// Whether a chain has one of our own parameters about the output.
@@ -175,6 +177,13 @@ inline auto remeshing_options(const Remeshing_options& options)
 inline auto repair(bool wanted)
 {
   return internal::named_parameter<internal::repair_t>(wanted ? Repair::yes : Repair::no);
+}
+
+/// The plane that the output is symmetric about, vertex by vertex: none (default), or across an
+/// axis.
+inline auto symmetry(Symmetry plane)
+{
+  return internal::named_parameter<internal::symmetry_t>(plane);
 }
 
 /// Gets where the vertices of the output come from: a writable property map from them to

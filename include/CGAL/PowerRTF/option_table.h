@@ -47,6 +47,7 @@ inline Value_names value_names(Dislocations) { return {"keep", "annihilate"}; }
 inline Value_names value_names(Repair) { return {"no", "yes"}; }
 inline Value_names value_names(Non_manifold) { return {"keep", "split", "refuse"}; }
 inline Value_names value_names(Intersections) { return {"keep", "resolve", "wrap"}; }
+inline Value_names value_names(Symmetry) { return {"none", "auto", "x", "y", "z"}; }
 inline Value_names value_names(Coordinates) { return {"double", "single"}; }
 
 /// \endcond
@@ -143,6 +144,10 @@ void for_each_option(Visitor&& visit)
       "wrap: closes holes and gaps narrower than twice this, in the input's unit; 0: as the "
       "spacing",
       {0, 1e300});
+  add("symmetry", &O::symmetry, "",
+      "the result is its own mirror image, exactly, about a plane across that axis, or the one "
+      "that fits best; the input has to be, within half the spacing",
+      no_number);
 
   group = "Density (Section 4.3)";
   add("density_power", &O::density_power, "p", "rho = kappa^p: 1, 2, 3 are the paper's f, f^2, f^3",

@@ -35,6 +35,8 @@ inline void check_fields(const Remeshing_options& options, const Surface_fields&
     throw Invalid_input_error("densities and edge lengths at the vertices exclude each other");
   if (options.size_factor > 0 && !fields.sizes)
     throw Invalid_input_error("size_factor needs a sizing field, but there is none");
+  if (options.symmetry != Symmetry::none && !fields.kept_edges.empty())
+    throw Invalid_input_error("symmetry is that of a whole: a region has to fit what stays");
   if (is_distance_asked_for(options) && has_wanted_lengths(options, fields))
     throw Invalid_input_error("a largest distance and wanted edge lengths exclude each other");
 }

@@ -28,15 +28,16 @@ PUBLIC = {
            "Invalid_input_error",
     "Concepts": "PowerRTFTraits_3 PowerRTFEngine PowerRTFDensityMap PowerRTFVisitor "
                 "TangentCellTraits_3",
-    "Parameters": "density_map remeshing_options repair vertex_point_map edge_is_constrained_map "
+    "Parameters": "density_map remeshing_options repair symmetry vertex_point_map edge_is_constrained_map "
                   "geom_traits visitor random_seed number_of_iterations combine "
                   "vertex_source_map face_source_map sizing_map refinements face_patch_map",
     "Transfer": "Mesh_source interpolated transfer_vertex_values transfer_face_values",
     "Options": "Remeshing_options Resolution Refinement Preset Density Sampling Attributes Projection "
                "Position_method Weight_method Weight_operator Extraction_method Improvement "
-               "Dislocations Repair Option "
+               "Dislocations Repair Symmetry Option "
                "for_each_option validate",
-    "Report": "Remeshing_report Iteration_report Quality_statistics Repair_counts",
+    "Report": "Remeshing_report Iteration_report Quality_statistics Repair_counts "
+              "Symmetry_report",
     "Surface": "Surface Samples Cell_polygon Extracted_mesh prepare_surface import_surface "
                "import_soup set_creases set_density Surface_fields",
     "Traits": "PowerRTF_traits_3 PowerRTF_exact_traits_3 PowerRTF_cuda_traits_3 Cpu_engine "

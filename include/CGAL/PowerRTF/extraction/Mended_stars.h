@@ -153,6 +153,11 @@ private:
     };
     if (is_closed(s) ? s.size() < 3 : !is_on_curve(s.front()[0]) || !is_on_curve(s.back()[1]))
       return false;
+    const auto is_at_mirror = [&](int w) { return m_surface.is_at_mirror(m_samples.points[w]); };
+    if (is_at_mirror(v) && std::any_of(s.begin() + 1, s.end(), [&](const Fan_corner& c) {
+          return is_at_mirror(c[0]); // the image of that edge has the same ends
+        }))
+      return false;
     return std::all_of(curve.begin(), curve.end(), [&](int w) {
       return w == s.back()[1] ||
              std::any_of(s.begin(), s.end(), [w](const Fan_corner& c) { return c[0] == w; });

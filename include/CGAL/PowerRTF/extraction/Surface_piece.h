@@ -123,6 +123,7 @@ private:
         surface.kept_edges.push_back(edge(h));
     std::sort(surface.kept_edges.begin(), surface.kept_edges.end());
     surface.normalization = m_whole.normalization;
+    surface.mirror = m_whole.mirror;
   }
 
   void add_sample(int s, int f)

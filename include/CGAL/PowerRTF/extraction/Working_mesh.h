@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -41,6 +42,8 @@ struct Working_mesh {
   std::vector<int> patches;   ///< by face: the surface's flat patch; -1, or empty: of none
   /// By vertex, of an opened surface: its place (see `Seam_places`). Empty: all are alone.
   std::vector<int> places;
+  /// Of a half: its border there will be sewn to that of its image.
+  std::optional<Mirror_plane> mirror;
 
   /// \throw Invalid_input_error if the triangles are no oriented 2-manifold
   explicit Working_mesh(Refined_surface&& surface, Concurrency concurrency = Sequential_tag())
@@ -50,6 +53,7 @@ struct Working_mesh {
     samples = std::move(surface.samples);
     patches = std::move(surface.patches);
     patches.resize(surface.triangles.size(), -1);
+    mirror = surface.mirror;
     for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
   }
 
@@ -113,6 +117,7 @@ struct Working_mesh {
     places[kept] = places[v];
   }
   bool is_on_seam(Vertex v) const { return !places.empty() && places[v] >= 0; }
+  bool is_at_mirror(Vertex v) const { return mirror && mirror->has(point(v)); }
 
   Vec3d point(Vertex v) const
   {
@@ -241,8 +246,10 @@ struct Working_mesh {
 
   /// Whether there is an edge between other copies of both, or they are copies of one: sewn up, an
   /// edge between them would be there twice, or none. `as_seam`: other edges of seams do not count.
+  /// The image of an edge whose ends are at the mirror has the same ends.
   bool are_joined_elsewhere(Vertex a, Vertex b, bool as_seam = false) const
   {
+    if (is_at_mirror(a) && is_at_mirror(b)) return !as_seam;
     if (!is_on_seam(a) && !is_on_seam(b)) return false;
     if (places[a] == places[b]) return true;
     for (const Vertex c : copies(a))
@@ -260,7 +267,7 @@ struct Working_mesh {
   /// Whether a collapse of the source of `h` into its target joins what is joined elsewhere.
   bool joins_twice(Halfedge h) const
   {
-    if (places.empty()) return false;
+    if (places.empty() && !mirror) return false;
     const Vertex v = mesh.target(h);
     for (const Halfedge g : halfedges_around_source(mesh.source(h), mesh)) {
       const Vertex w = mesh.target(g);

@@ -74,7 +74,7 @@ public:
   Guarded_extraction(const Surface& surface, const Samples& samples,
                      const Feature_samples& features, const std::vector<Ball>& balls, double reach,
                      const Seam_places& seams, Care care)
-      : m_may_go(may_go(samples, features)),
+      : m_may_go(may_go(surface, samples, features)),
         m(mesh_with_samples(surface, samples, features, seams, care)),
         m_guard(m, sight(balls, reach)), m_was_everywhere(m_guard.watches_all()),
         m_flipper(m, 0.1, &m_guard), m_next_twin(static_cast<int>(samples.size()))
@@ -109,13 +109,15 @@ private:
     return mesh;
   }
 
-  // By sample: all but those at corners.
-  static std::vector<char> may_go(const Samples& samples, const Feature_samples& features)
+  // By sample: all but those at corners, and those at a mirror, whose number counts.
+  static std::vector<char> may_go(const Surface& surface, const Samples& samples,
+                                  const Feature_samples& features)
   {
     std::vector<char> result(samples.size(), true);
     const std::size_t first = samples.size() - features.size();
     for (std::size_t k = 0; k < features.size(); ++k)
-      result[first + k] = features.places[k].from != features.places[k].to;
+      result[first + k] = features.places[k].from != features.places[k].to &&
+                          !surface.is_at_mirror(samples.points[first + k]);
     return result;
   }
 

@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -42,6 +43,7 @@ struct Refined_surface {
   std::vector<Triangle> triangles;
   std::vector<int> patches;   ///< by triangle: the surface's flat patch that it is a part of
   std::vector<Edge> features; ///< the pieces of the creases and borders
+  std::optional<Mirror_plane> mirror{}; ///< that of the surface
 };
 
 /// Builds a `Refined_surface`. The result does not depend on the samples' order.
@@ -71,6 +73,7 @@ public:
     }
     if (!features.empty()) cut_features();
     for (Vec3d& p : m_refined.points) p = surface.normalization.snapped(p);
+    m_refined.mirror = surface.mirror;
   }
 
   Refined_surface release() { return std::move(m_refined); }

@@ -11,9 +11,25 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
+
+/// The part of each triangle of `mesh` between its pieces of creases and borders, numbered in the
+/// order of the triangles; and the number of parts.
+inline std::pair<std::vector<int>, int>
+mesh_parts(const Extracted_mesh& mesh, internal::Concurrency concurrency = Sequential_tag())
+{
+  Facet_adjacency adjacency = facet_adjacency(mesh.triangles, mesh.points.size(), concurrency);
+  internal::for_each_index(concurrency, static_cast<int>(adjacency.opposite.size()), [&](int h) {
+    const Edge edge =
+        sorted_edge(halfedge_source(mesh.triangles, h), halfedge_target(mesh.triangles, h));
+    if (std::binary_search(mesh.feature_edges.begin(), mesh.feature_edges.end(), edge))
+      adjacency.opposite[h] = Facet_adjacency::none;
+  });
+  return facet_components(adjacency, concurrency);
+}
 
 /// The patch of each triangle of `mesh`. Triangles that no piece of a crease parts are of the same
 /// patch: that at the center of the largest of them.
@@ -24,14 +40,7 @@ inline std::vector<int> mesh_patches(const Extracted_mesh& mesh, const Surface& 
 {
   std::vector<int> result(mesh.triangles.size(), 0);
   if (patches.facet_patches.empty()) return result;
-  Facet_adjacency adjacency = facet_adjacency(mesh.triangles, mesh.points.size(), concurrency);
-  internal::for_each_index(concurrency, static_cast<int>(adjacency.opposite.size()), [&](int h) {
-    const Edge edge =
-        sorted_edge(halfedge_source(mesh.triangles, h), halfedge_target(mesh.triangles, h));
-    if (std::binary_search(mesh.feature_edges.begin(), mesh.feature_edges.end(), edge))
-      adjacency.opposite[h] = Facet_adjacency::none;
-  });
-  const auto [parts, count] = facet_components(adjacency, concurrency);
+  const auto [parts, count] = mesh_parts(mesh, concurrency);
   const auto area_vector = [&](int f) { // twice as long as the area
     const Triangle& t = mesh.triangles[f];
     return cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);

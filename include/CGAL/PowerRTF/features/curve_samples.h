@@ -40,15 +40,21 @@ public:
   /// The number of samples that `run()` makes.
   std::size_t count(double spacing) const
   {
-    std::size_t count = 0;
-    std::vector<char> is_corner(m_surface.points.size(), 0);
-    for (std::size_t c = 0; c < m_curves.size(); ++c) {
-      count += segments(c, spacing);
-      if (!m_curves[c].has_corners) continue;
-      --count;
-      is_corner[m_curves[c].vertices.front()] = is_corner[m_curves[c].vertices.back()] = 1;
-    }
-    return count + std::count(is_corner.begin(), is_corner.end(), 1);
+    return count(spacing, [](const Feature_curve&) { return true; });
+  }
+  /// The same of those at the mirror.
+  std::size_t count_at_mirror(double spacing) const
+  {
+    return count(spacing, [](const Feature_curve& c) { return c.is_mirror; });
+  }
+  /// Makes so many at the mirror, where the longest curve gets what is missing.
+  void set_count_at_mirror(std::size_t wanted, double spacing)
+  {
+    for (std::size_t c = 0; c < m_curves.size(); ++c)
+      if (m_curves[c].is_mirror &&
+          (m_adapted == none || m_sums[c].back() > m_sums[m_adapted].back()))
+        m_adapted = c;
+    m_added = static_cast<double>(wanted) - static_cast<double>(count_at_mirror(spacing));
   }
 
   /// `spacing`: the constant C of the spacing C / sqrt(rho).
@@ -80,6 +86,24 @@ public:
   }
 
 private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// Of the curves that are wanted.
+  template <class IsWanted>
+  std::size_t count(double spacing, const IsWanted& is_wanted) const
+  {
+    std::size_t count = 0;
+    std::vector<char> is_corner(m_surface.points.size(), 0);
+    for (std::size_t c = 0; c < m_curves.size(); ++c) {
+      if (!is_wanted(m_curves[c])) continue;
+      count += segments(c, spacing);
+      if (!m_curves[c].has_corners) continue;
+      --count;
+      is_corner[m_curves[c].vertices.front()] = is_corner[m_curves[c].vertices.back()] = 1;
+    }
+    return count + std::count(is_corner.begin(), is_corner.end(), 1);
+  }
+
   /// Length of edge `ab` times sqrt(rho), integrated over the linear density.
   double weighted_length(int a, int b) const
   {
@@ -89,15 +113,25 @@ private:
     return mean * length(m_surface.points[b] - m_surface.points[a]);
   }
 
+  /// Whether a curve leads from the mirror to the mirror, and would be its own image as one edge.
+  bool is_bow(const Feature_curve& curve) const
+  {
+    const std::vector<Vec3d>& points = m_surface.points;
+    return !curve.is_mirror && m_surface.is_at_mirror(points[curve.vertices.front()]) &&
+           m_surface.is_at_mirror(points[curve.vertices.back()]);
+  }
+
   std::size_t segments(std::size_t c, double spacing) const
   {
     const Feature_curve& curve = m_curves[c];
     if (curve.vertices.size() == 1 || curve.is_kept) return 1;
     const bool is_closed = curve.vertices.front() == curve.vertices.back();
-    const double least = is_closed ? 3 : curve.parallels > 1 ? 2 : 1;
+    const double least = is_closed ? 3 : curve.parallels > 1 || is_bow(curve) ? 2 : 1;
     constexpr double most = 1e9; // more than memory holds
-    return static_cast<std::size_t>(
-        (std::min)(most, (std::max)(least, std::floor(m_sums[c].back() / spacing + 0.5))));
+    const double fitting = std::floor(m_sums[c].back() / spacing + 0.5);
+    const double segments = std::clamp(fitting, least, most);
+    return static_cast<std::size_t>(c == m_adapted ? (std::max)(least, segments + m_added)
+                                                   : segments);
   }
 
   /// The place on curve `c` with the given share of its weighted length before it.
@@ -119,6 +153,8 @@ private:
   const Surface& m_surface;
   const std::vector<Feature_curve>& m_curves;
   std::vector<std::vector<double>> m_sums; // of each curve: weighted length up to each vertex
+  std::size_t m_adapted = none;            // the curve that gets `m_added` segments more
+  double m_added = 0;
 };
 
 } // namespace internal

@@ -23,6 +23,7 @@ struct Feature_curve {
   bool has_corners = true; ///< no: closed, and none of its vertices is a corner
   int parallels = 1;       ///< curves between the same two corners, itself included
   bool is_kept = false;    ///< a kept edge: the result has it as it is, without samples inside
+  bool is_mirror = false;  ///< where the surface goes on as its mirror image
 };
 
 namespace internal {
@@ -52,6 +53,7 @@ public:
     for (const int v : surface.contacts) m_is_corner[v] = 1;
     for (const int v : surface.kept_vertices) m_is_corner[v] = 1;
     if (!surface.seams.empty()) mark_ends_of_sheets();
+    if (surface.mirror) mark_ends_at_mirror();
     if (scale > 0) mark_turns();
   }
 
@@ -71,6 +73,7 @@ public:
       }
       curve.is_kept = std::binary_search(m_surface.kept_edges.begin(), m_surface.kept_edges.end(),
                                          sorted_edge(curve.vertices[0], curve.vertices[1]));
+      curve.is_mirror = is_at_mirror(curve.vertices[0]) && is_at_mirror(curve.vertices[1]);
       curves.push_back(std::move(curve));
     };
     for (int v = 0; v < static_cast<int>(m_surface.points.size()); ++v)
@@ -89,6 +92,17 @@ public:
   }
 
 private:
+  bool is_at_mirror(int v) const { return m_surface.is_at_mirror(m_surface.points[v]); }
+
+  /// Vertices where another border goes on from that on the plane of the mirror.
+  void mark_ends_at_mirror()
+  {
+    for (int v = 0; v < static_cast<int>(m_surface.points.size()); ++v)
+      if (is_at_mirror(v) && m_graph.degree(v) == 2)
+        for (const int e : m_graph.at(v))
+          if (!is_at_mirror(m_graph.other_end(e, v))) m_is_corner[v] = 1;
+  }
+
   /// Vertices of two feature edges where a sheet of a network has only one of them, or other edges
   /// on both its sides: sheets meet there that do not go on along the curve.
   void mark_ends_of_sheets()

@@ -214,9 +214,9 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
     return internal::Curve_sampler(surface, curves).count(spacing);
   };
   const auto samples = [&](double spacing) {
-    return internal::Feature_site_builder(surface, cut,
-                                          internal::Curve_sampler(surface, curves).run(spacing))
-        .release();
+    internal::Curve_sampler sampler(surface, curves);
+    if (surface.mirror_samples > 0) sampler.set_count_at_mirror(surface.mirror_samples, spacing);
+    return internal::Feature_site_builder(surface, cut, sampler.run(spacing)).release();
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (2 * count(infinity) > n) curves = feature_curves(surface, 0); // turns are dispensable

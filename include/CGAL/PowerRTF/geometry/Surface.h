@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_GEOMETRY_SURFACE_H
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_H
 
+#include <CGAL/PowerRTF/geometry/Mirror_plane.h>
 #include <CGAL/PowerRTF/geometry/vector.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -102,11 +104,16 @@ struct Surface {
   std::vector<int> kept_vertices;
   /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
   std::vector<int> facet_patches;
-  double area = 0; ///< sum of the facets' areas
+  /// Of the half of a symmetric surface, which is above: its border on the plane is where it goes
+  /// on as its own mirror image.
+  std::optional<Mirror_plane> mirror;
+  std::size_t mirror_samples = 0; ///< to be on the plane; 0: as many as their spacing gives
+  double area = 0;                ///< sum of the facets' areas
   Normalization normalization;
 
   /// Whether it must be cut to be an oriented 2-manifold.
   bool is_closed_up() const { return !seams.empty() || !contacts.empty(); }
+  bool is_at_mirror(const Vec3d& p) const { return mirror && mirror->has(p); }
 };
 
 /// \ingroup PkgPowerRTFSurface

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -33,6 +34,19 @@ inline void mend_vertex_normals(Surface& surface)
   for (Vec3d& n : surface.vertex_normals) {
     n = normalized(n);
     if (squared_length(n) == 0) n = {0, 0, 1}; // all its facets are degenerate
+  }
+}
+
+/// Where a half goes on smoothly as its mirror image, its normals are along the plane.
+inline void level_mirror_normals(Surface& surface)
+{
+  constexpr double smooth = 0.34; // sine of 20 degrees: twice that is a crease by default
+  const Mirror_plane& mirror = *surface.mirror;
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    Vec3d& n = surface.vertex_normals[v];
+    if (mirror.has(surface.points[v]) &&
+        std::abs(Mirror_plane::coordinate(n, mirror.axis)) < smooth)
+      n = normalized(mirror.along(n));
   }
 }
 
@@ -83,6 +97,7 @@ inline void compute_geometry(Surface& surface, internal::Concurrency concurrency
     return !(l > no_direction);
   });
   if (!cancelled.empty()) internal::mend_vertex_normals(surface);
+  if (surface.mirror) internal::level_mirror_normals(surface);
   internal::for_each_index(concurrency, facets, [&](int f) {
     if (angles[f] != std::array<double, 3>{0, 0, 0}) return;
     const Triangle& t = surface.triangles[f];

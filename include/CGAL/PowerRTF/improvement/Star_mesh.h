@@ -63,6 +63,7 @@ public:
     constexpr double rounding = 1e-3; // of a point on the surface, in units of the spacing
     const double reach = rounding * std::sqrt(projector.surface().area / double(n));
     m.normals.resize(n);
+    m.mirror = projector.surface().mirror;
     if (!mesh.places.empty()) m.set_places(mesh.places);
     for (const auto& [a, b] : mesh.feature_edges) {
       m_on_feature[a] = m_on_feature[b] = true;
