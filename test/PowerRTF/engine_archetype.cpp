@@ -30,6 +30,7 @@ public:
   Samples sites() const;
   std::vector<Cell_polygon> cells();
   void release_memory();
+  Find_distances distance_finder();
   Neighbor_cycles neighbors();
   double epsilon() const;
   const Facet_tree& facet_tree();
