@@ -106,6 +106,21 @@ private:
   std::size_t m_at = 0, m_line = 1, m_tokens = 0;
 };
 
+/// \throws Invalid_input_error always
+[[noreturn]] inline void reject(const std::string& reason)
+{
+  throw CGAL::PowerRTF::Invalid_input_error(reason);
+}
+
+/// Why a facet (numbered from 0) is refused that refers to a vertex that does not exist.
+inline std::string out_of_range(const Tokenizer& tokens, std::size_t facet, long long vertex,
+                                std::size_t count)
+{
+  return tokens.at() + "facet " + std::to_string(facet + 1) + " refers to vertex " +
+         std::to_string(vertex) + ": the index is out of range, there are " +
+         std::to_string(count) + " vertices";
+}
+
 } // namespace tools
 
 #endif // POWER_RTF_TOOLS_TOKENIZER_H

@@ -5,10 +5,11 @@
 #include "dataset.h"
 #include "foreign_file.h"
 #include "gmsh_mesh.h"
+#include "obj_mesh.h"
+#include "off_mesh.h"
 #include "output_file.h"
 #include "ply_mesh.h"
 #include "stl_mesh.h"
-#include "text_mesh.h"
 
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
