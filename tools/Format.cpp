@@ -34,6 +34,8 @@ bool holds_numbers(Format format)
   return holds_cells(format) || format == Format::vtu || format == Format::msh;
 }
 
+bool holds_texture(Format format) { return format == Format::obj; }
+
 bool holds_cells(Format format) { return format == Format::ply || format == Format::vtp; }
 
 bool holds_floats(Format format, Encoding encoding)

@@ -24,6 +24,9 @@ bool is_read(Format format);
 /// Whether a format holds any numbers of vertices and faces: PLY, VTP, VTU and MSH do.
 bool holds_numbers(Format format);
 
+/// Whether a format holds texture coordinates of corners, and names of materials: OBJ does.
+bool holds_texture(Format format);
+
 /// Whether a format holds cells and samples with numbers: PLY and VTP do.
 bool holds_cells(Format format);
 

@@ -59,6 +59,8 @@ Mesh_properties held_by(Format format, const Mesh_properties& properties)
     if (is_held(format, p, true)) held.vertices.push_back(p);
   for (const Mesh_property& p : properties.faces)
     if (is_held(format, p, false)) held.faces.push_back(p);
+  if (holds_texture(format)) held.texture = properties.texture;
+  held.material_files = properties.material_files;
   return held;
 }
 
@@ -69,6 +71,7 @@ std::set<std::string> not_held_by(Format format, const Mesh_properties& properti
     if (!is_held(format, p, true)) words.insert(in_words(p.name, true));
   for (const Mesh_property& p : properties.faces)
     if (!is_held(format, p, false)) words.insert(in_words(p.name, false));
+  if (!properties.texture.empty() && !holds_texture(format)) words.insert("texture coordinates");
   return words;
 }
 

@@ -6,6 +6,7 @@
 #define POWER_RTF_TOOLS_MESH_PROPERTY_H
 
 #include "Format.h"
+#include "Texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,8 +70,11 @@ struct Mesh_property {
 
 struct Mesh_properties {
   std::vector<Mesh_property> vertices, faces;
+  Texture texture{};
+  /// OBJ: the files that say what the materials look like, as the file names them.
+  std::vector<std::string> material_files{};
 
-  bool empty() const { return vertices.empty() && faces.empty(); }
+  bool empty() const { return vertices.empty() && faces.empty() && texture.empty(); }
 };
 
 /// The property of that name, or null.
@@ -83,8 +87,8 @@ bool is_color(const std::string& name);
 /// What a property means, in words: "normals".
 std::string in_words(const std::string& name, bool of_vertices);
 
-/// Those that files of a format hold: PLY, VTP, VTU and MSH all, OBJ the colors of vertices
-/// and the names of faces.
+/// Those that files of a format hold: PLY, VTP, VTU and MSH all numbers, OBJ the colors of
+/// vertices, the names of faces, and textures.
 Mesh_properties held_by(Format format, const Mesh_properties& properties);
 
 /// The others, in words.

@@ -6,6 +6,7 @@
 #include "Tokenizer.h"
 
 #include <array>
+#include <charconv>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -13,6 +14,7 @@
 namespace tools {
 namespace {
 
+using CGAL::PowerRTF::Invalid_input_error;
 using CGAL::PowerRTF::Triangle;
 using CGAL::PowerRTF::Vec3d;
 
@@ -35,14 +37,21 @@ struct Obj_name {
 };
 constexpr Obj_name obj_names[] = {{"usemtl", "material"}, {"g", "group"}};
 
+/// The words in the rest of a line.
+std::string rest_of_line(Tokenizer& tokens)
+{
+  std::string words;
+  while (tokens.next_in_line()) words += (words.empty() ? "" : " ") + std::string(tokens.token());
+  return words;
+}
+
 /// The names of facets in OBJ.
 class Obj_names {
 public:
   /// Reads the rest of a statement.
   void read(Tokenizer& tokens)
   {
-    std::string name;
-    while (tokens.next_in_line()) name += (name.empty() ? "" : " ") + std::string(tokens.token());
+    std::string name = rest_of_line(tokens);
     if (!m_is_used && m_unnamed > 0) m_values.assign(m_unnamed, number_of("default"));
     m_is_used = true;
     m_now = std::move(name);
@@ -119,6 +128,68 @@ int obj_corner(long long v, long long n)
   return corner(v > 0 ? v - 1 : v == 0 || v < -n ? -1 : n + v); // negative: from the last
 }
 
+/// The texture coordinates in OBJ, which corners of facets refer to.
+class Obj_texture {
+public:
+  /// Reads the rest of a statement: u, v (0) and what else there is.
+  void read(Tokenizer& tokens)
+  {
+    std::array<double, 2> uv{0, 0};
+    try {
+      for (double& x : uv)
+        if (tokens.next_in_line()) x = tokens.number();
+    } catch (const Invalid_input_error& e) {
+      note(e.what());
+    }
+    m_texture.coordinates.push_back(uv);
+  }
+  /// Reads a corner of a facet: "vertex/coordinates".
+  void read_corner(const Tokenizer& tokens)
+  {
+    const std::string_view token = tokens.token();
+    const std::size_t slash = token.find('/');
+    int c = -1;
+    if (slash != std::string_view::npos) {
+      const char* const begin = token.data() + slash + 1;
+      const char* const end = token.data() + token.size();
+      long long index = 0;
+      const auto [stop, error] = std::from_chars(begin, end, index);
+      if (error == std::errc()) {
+        c = obj_corner(index, static_cast<long long>(m_texture.coordinates.size()));
+        if (c < 0) note(tokens.at() + no_such(token));
+        if (c > m_largest) {
+          m_largest = c;
+          m_at_largest = tokens.at() + no_such(token);
+        }
+      } else if (begin != end && *begin != '/') {
+        note(tokens.at() + no_such(token));
+      }
+    }
+    m_texture.corners.push_back(c);
+  }
+  void add_to(Polygon_mesh& mesh)
+  {
+    if (m_texture.coordinates.empty()) return;
+    if (m_largest >= static_cast<int>(m_texture.coordinates.size())) note(m_at_largest);
+    mesh.texture_error = std::move(m_error);
+    if (mesh.texture_error.empty()) mesh.properties.texture = std::move(m_texture);
+  }
+
+private:
+  static std::string no_such(std::string_view token)
+  {
+    return "'" + printable(token) + "' refers to texture coordinates that do not exist";
+  }
+  void note(const std::string& error)
+  {
+    if (m_error.empty()) m_error = error;
+  }
+
+  Texture m_texture;
+  int m_largest = -1;
+  std::string m_at_largest, m_error; // the first
+};
+
 /// Reads the rest of a line: pairs of its vertices that follow each other.
 void read_obj_line(Tokenizer& tokens, Polygon_mesh& mesh)
 {
@@ -142,6 +213,7 @@ Polygon_mesh parse_obj(std::string_view text)
   std::size_t facet_of_largest = 0;
   std::array<std::size_t, std::size(obj_attributes)> counts{};
   Obj_colors colors;
+  Obj_texture texture;
   std::array<Obj_names, std::size(obj_names)> names;
   while (tokens.next()) {
     if (tokens.token() == "v") {
@@ -160,6 +232,7 @@ Polygon_mesh parse_obj(std::string_view text)
         const long long v = tokens.whole_number(true);
         if (v == 0 || v < -n) reject(out_of_range(tokens, facet, v, soup.points.size()));
         soup.corners.push_back(obj_corner(v, n));
+        texture.read_corner(tokens);
         if (v <= largest) continue;
         largest = v;
         at_largest = tokens;
@@ -178,12 +251,15 @@ Polygon_mesh parse_obj(std::string_view text)
         counts[k] += keyword == obj_attributes[k].keyword;
       for (std::size_t k = 0; k < names.size(); ++k)
         if (keyword == obj_names[k].keyword) names[k].read(tokens);
+      if (keyword == "vt") texture.read(tokens);
       if (keyword == "l") read_obj_line(tokens, mesh);
+      if (keyword == "mtllib") mesh.properties.material_files.push_back(rest_of_line(tokens));
     }
     tokens.skip_line();
   }
   if (soup.points.empty()) reject("it is not an OBJ file: it has no vertices");
   colors.add_to(mesh);
+  texture.add_to(mesh);
   for (std::size_t k = 0; k < names.size(); ++k) names[k].add_to(mesh, obj_names[k].property);
   if (largest > static_cast<long long>(soup.points.size()))
     reject(out_of_range(at_largest, facet_of_largest, largest, soup.points.size()));
@@ -201,10 +277,18 @@ void write_obj(std::ostream& out, const std::vector<Vec3d>& points,
     if (const Mesh_property* const p = find_property(properties.vertices, channel))
       colors.push_back(p);
   if (colors.size() != std::size(color_channels)) colors.clear();
+  for (const std::string& file : properties.material_files) out << "mtllib " << file << '\n';
   write_rows(out, points.size(), [&](Text& text, std::size_t i) {
     text << "v " << points[i];
     for (const Mesh_property* const p : colors)
       text << " " << static_cast<float>(p->values[i] / (is_real(p->type) ? 1 : 255));
+    text << "\n";
+  });
+  const Texture& texture = properties.texture;
+  write_rows(out, texture.coordinates.size(), [&](Text& text, std::size_t i) {
+    text << "vt";
+    for (const double x : texture.coordinates[i])
+      float(x) == x ? text << " " << float(x) : text << " " << x; // as short as it can be
     text << "\n";
   });
   std::vector<std::pair<std::string, const Mesh_property*>> names;
@@ -216,8 +300,13 @@ void write_obj(std::ostream& out, const std::vector<Vec3d>& points,
     for (const auto& [keyword, p] : names)
       if (i == 0 || p->values[i] != p->values[i - 1])
         text << keyword.c_str() << " " << p->names[std::size_t(p->values[i])].c_str() << "\n";
-    const Triangle& t = triangles[i];
-    text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+    text << "f";
+    for (std::size_t k = 0; k < 3; ++k) {
+      text << " " << triangles[i][k] + 1;
+      if (!texture.empty() && texture.corners[3 * i + k] >= 0)
+        text << "/" << texture.corners[3 * i + k] + 1;
+    }
+    text << "\n";
   });
 }
 

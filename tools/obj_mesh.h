@@ -15,11 +15,12 @@
 
 namespace tools {
 
+/// What is wrong with texture coordinates only is told in `texture_error`.
 /// \throws Invalid_input_error the reason, with the line where it has one
 Polygon_mesh parse_obj(std::string_view text);
 
-/// The coordinates read back the same. `properties`: the colors of the points and the materials
-/// and groups of the triangles are written.
+/// The coordinates read back the same. `properties`: the colors of the points, the materials and
+/// groups of the triangles, and their texture are written.
 void write_obj(std::ostream& out, const std::vector<CGAL::PowerRTF::Vec3d>& points,
                const std::vector<CGAL::PowerRTF::Triangle>& triangles,
                const Mesh_properties& properties = {});

@@ -199,6 +199,8 @@ private:
             "creases are kept between different ones, and the output's faces have them (PLY, VTP, "
             "VTU; names: OBJ; physical groups: MSH)")("lines",
                                                       "the lines of an OBJ input are creases, too")(
+            "texture", "keep the texture coordinates of the input's faces, with their materials; "
+                       "the seams of the texture are creases, too (OBJ)")(
             "patches", "number the output's faces by the patches between creases: their property "
                        "\"patch\" (PLY, VTP, VTU, MSH)");
   }
@@ -287,6 +289,7 @@ Remeshing_options remeshing_options(const po::variables_map& values)
 void set_fields(const po::variables_map& values, Program_options& o)
 {
   o.keeps_lines = values.count("lines") > 0;
+  o.keeps_texture = values.count("texture") > 0;
   o.writes_patches = values.count("patches") > 0;
   for (const auto& [option, name] :
        {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field},

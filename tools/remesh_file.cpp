@@ -20,6 +20,7 @@
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
+#include <CGAL/PowerRTF/transfer/find_corner_sources.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <algorithm>
@@ -234,8 +235,13 @@ Sources find_sources(Input& input, const Normalization& normalization, const Ext
 {
   if (!has_sources(input.mesh, run.options)) return {};
   const Stage stage("transfer", run.report.seconds.transfer);
-  return find_sources(input.remeshed_soup(), normalization, run.report.faces_as_input(),
-                      mesh.points, mesh.triangles, Concurrency());
+  const Polygon_soup& soup = input.remeshed_soup();
+  Sources sources = find_sources(soup, normalization, run.report.faces_as_input(), mesh.points,
+                                 mesh.triangles, Concurrency());
+  if (!input.mesh.properties.texture.empty())
+    sources.corners = find_corner_sources(soup, input.remeshed_fields().lines, normalization,
+                                          mesh.points, mesh.triangles, sources, Concurrency());
+  return sources;
 }
 
 /// What a region has become, `mesh`, with what stays of the input around it. The report gets what
@@ -262,7 +268,7 @@ Joined_mesh join(const Input& input, const Normalization& normalization, const E
 /// Writes all files but the report. \param joined the mesh as it is written; null: it is `mesh`
 template <class Remesher>
 void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* joined,
-                   const Sources& sources, const Mesh_properties& properties, const Run& run,
+                   const Sources& sources, const Polygon_mesh& input, const Run& run,
                    Outputs& outputs)
 {
   const Program_options& options = run.options;
@@ -272,7 +278,7 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
     write_json(report, run);
     write_html(out, remesher.surface(), mesh, report.str());
   });
-  Mesh_properties values = transferred(properties, sources);
+  Mesh_properties values = transferred(input, sources);
   if (options.writes_patches) set_patches(remesher.patches(mesh), values);
   for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
   const std::vector<Vec3d>& points = joined ? joined->points : mesh.points;
@@ -319,8 +325,7 @@ void make_results(Run& run, Input& input, Surface surface, Outputs& outputs)
   }
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
   const Stage stage("write", run.report.seconds.write);
-  write_results(remesher, mesh, joined ? &*joined : nullptr, sources, input.mesh.properties, run,
-                outputs);
+  write_results(remesher, mesh, joined ? &*joined : nullptr, sources, input.mesh, run, outputs);
 }
 
 /// Sets the number of samples to what a sphere would need for the distance asked for.
