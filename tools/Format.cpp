@@ -25,8 +25,7 @@ Format format_of(const std::string& file)
 
 bool is_read(Format format)
 {
-  return format == Format::off || format == Format::obj || format == Format::ply ||
-         format == Format::stl;
+  return format != Format::unknown && format != Format::vtu && format != Format::msh;
 }
 
 bool holds_numbers(Format format)

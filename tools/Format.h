@@ -12,13 +12,15 @@ namespace tools {
 enum class Format { unknown, off, obj, ply, stl, vtp, vtu, msh };
 enum class Encoding { binary, text };
 
+/// How the names of files end that can be read.
+constexpr char read_endings[] = ".off, .obj, .ply, .stl or .vtp";
 /// How the names of files end that can be written.
 constexpr char written_endings[] = ".off, .obj, .ply, .stl, .vtp, .vtu or .msh";
 
 /// The format that the extension of the file's name stands for, in upper or lower case.
 Format format_of(const std::string& file);
 
-/// Whether files of a format can be read: OFF, OBJ, PLY and STL; the others are written only.
+/// Whether files of a format can be read: all but VTU and MSH, which are written only.
 bool is_read(Format format);
 
 /// Whether a format holds any numbers of vertices and faces: PLY, VTP, VTU and MSH do.

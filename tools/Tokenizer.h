@@ -76,6 +76,15 @@ public:
     return x;
   }
 
+  /// The token as a number; NaN if it is none.
+  double number_or_nan() const
+  {
+    double x = 0;
+    const char* const end = m_token.data() + m_token.size();
+    const auto [stop, error] = std::from_chars(m_token.data(), end, x);
+    return error == std::errc() && stop == end ? x : std::numeric_limits<double>::quiet_NaN();
+  }
+
   /// The token, or its part before '/', as a whole number, clamped to the limits of the type.
   long long whole_number(bool before_slash = false) const
   {

@@ -10,6 +10,7 @@
 #include "output_file.h"
 #include "ply_mesh.h"
 #include "stl_mesh.h"
+#include "vtp_mesh.h"
 
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -71,7 +72,7 @@ std::string kind_error(const std::string& file, Format format)
   if (format == Format::stl && is_binary_stl(beginning, fs::file_size(file))) return {};
   const std::string foreign = foreign_kind(beginning, format);
   if (!foreign.empty()) return foreign;
-  if (!is_read(format)) return "its name does not end in .off, .obj, .ply or .stl";
+  if (!is_read(format)) return std::string("its name does not end in ") + read_endings;
   return {};
 }
 
@@ -139,6 +140,7 @@ Polygon_mesh parse_mesh(Format format, std::string_view data)
   Polygon_mesh mesh = format == Format::off   ? parse_off(data)
                       : format == Format::obj ? parse_obj(data)
                       : format == Format::ply ? parse_ply(data)
+                      : format == Format::vtp ? parse_vtp(data)
                                               : parse_stl(data);
   mesh.soup.merges_vertices = true;
   check(mesh);

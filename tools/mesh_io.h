@@ -18,9 +18,8 @@
 
 namespace tools {
 
-/// Reads OFF, OBJ, PLY or STL. The mesh has at least one facet, its coordinates are finite and its
-/// indices in range.
-/// \throws Invalid_input_error naming file and reason
+/// Reads OFF, OBJ, PLY, STL or VTP. The mesh has at least one facet, its coordinates are finite and
+/// its indices in range. \throws Invalid_input_error naming file and reason
 Polygon_mesh read_mesh(const std::string& file);
 
 /// The same from the content of a file of that format.

@@ -136,7 +136,7 @@ public:
     out << "power_rtf_remesh INPUT OUTPUT [options]\n"
            "power_rtf_remesh --batch INPUTS FOLDER [options]\n"
            "Remeshes a surface by power diagrams restricted to tangent planes (PowerRTF).\n"
-           "Reads OFF, OBJ, PLY, STL; writes these, VTP, VTU and Gmsh's MSH, as the file's name "
+           "Reads OFF, OBJ, PLY, STL, VTP; writes these, VTU and Gmsh's MSH, as the file's name "
            "ends.\n"
            "In {braces}: what is allowed; in [brackets]: the paper's symbol; in (parentheses): the "
            "default.\n";

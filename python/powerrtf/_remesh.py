@@ -133,7 +133,7 @@ def remesh_file(input, output, n=None, *, ascii=False, density="curvature", refi
                 threads=0, progress=None, **options):
     """Remeshes from file to file.
 
-    :param input: OFF, OBJ, PLY or STL
+    :param input: OFF, OBJ, PLY, STL or VTP
     :param output: OFF, OBJ, PLY, STL, VTP, VTU or MSH; it is written whole or not at all
     :param ascii: PLY and STL are written as text
     :returns: the :class:`Mesh`; the other parameters are those of :func:`remesh`
