@@ -12,9 +12,9 @@ namespace {
 bool is_held(Format format, const Mesh_property& property, bool of_vertices)
 {
   if (holds_numbers(format)) return true;
-  if (format != Format::obj) return false;
-  return of_vertices ? is_color(property.name) && property.name != "alpha"
-                     : !property.names.empty();
+  if (!holds_texture(format)) return false;
+  if (of_vertices) return is_color(property.name) && (property.name != "alpha" || is_gltf(format));
+  return !property.names.empty() && (property.name == "material" || format == Format::obj);
 }
 
 } // namespace
@@ -61,6 +61,7 @@ Mesh_properties held_by(Format format, const Mesh_properties& properties)
     if (is_held(format, p, false)) held.faces.push_back(p);
   if (holds_texture(format)) held.texture = properties.texture;
   held.material_files = properties.material_files;
+  held.gltf_materials = properties.gltf_materials;
   return held;
 }
 

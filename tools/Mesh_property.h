@@ -68,11 +68,19 @@ struct Mesh_property {
   std::vector<std::string> names{}; ///< what the values 0, 1, ... stand for; empty: numbers
 };
 
+/// glTF: what the materials look like.
+struct Gltf_materials {
+  std::string json{}; ///< materials, textures, samplers and images; empty: not known
+  /// The bytes of the images that have a "bufferView", by its number.
+  std::vector<std::string> images{};
+};
+
 struct Mesh_properties {
   std::vector<Mesh_property> vertices, faces;
   Texture texture{};
   /// OBJ: the files that say what the materials look like, as the file names them.
   std::vector<std::string> material_files{};
+  Gltf_materials gltf_materials{};
 
   bool empty() const { return vertices.empty() && faces.empty() && texture.empty(); }
 };
@@ -87,8 +95,8 @@ bool is_color(const std::string& name);
 /// What a property means, in words: "normals".
 std::string in_words(const std::string& name, bool of_vertices);
 
-/// Those that files of a format hold: PLY, VTP, VTU and MSH all numbers, OBJ the colors of
-/// vertices, the names of faces, and textures.
+/// Those that files of a format hold: PLY, VTP, VTU and MSH all numbers, OBJ and glTF the colors of
+/// vertices, names of faces (glTF: of materials only), and textures.
 Mesh_properties held_by(Format format, const Mesh_properties& properties);
 
 /// The others, in words.

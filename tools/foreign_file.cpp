@@ -32,7 +32,7 @@ constexpr Kind kinds[] = {
     {"<?xml"sv, "an XML file", Format::vtp},
     {"<vtkfile"sv, "a VTK file, but its name does not end in .vtp", Format::vtp},
     {"# vtk datafile"sv, "a VTK file"},
-    {"gltf"sv, "a glTF file"},
+    {"gltf"sv, "a glTF file, but its name does not end in .glb", Format::glb},
     {"kaydara fbx"sv, "an FBX file"},
     {"iso-10303-21"sv, "a STEP file: mesh it first"},
     {"$meshformat"sv, "a Gmsh file"},

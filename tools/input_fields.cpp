@@ -239,7 +239,8 @@ void choose_names(const Program_options& options, Polygon_mesh& mesh)
   for (const Mesh_property& p : faces) {
     if (p.names.empty()) continue;
     mesh.attributes.erase(p.name + "s");
-    if (format_of(options.output) != Format::obj)
+    const Format output = format_of(options.output);
+    if (!holds_texture(output) || (is_gltf(output) && p.name != "material"))
       mesh.attributes.insert("names of " + p.name + "s");
   }
   if (!find_property(faces, "material")) mesh.properties.material_files.clear();

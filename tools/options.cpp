@@ -114,9 +114,9 @@ public:
         "no-mesh", "stop at the samples: OUTPUT is not needed and not written")(
         "batch",
         "remesh many files: INPUT is a folder, or a text file with the name of one in each "
-        "line; OUTPUT is a folder")("format", text("NAME"),
-                                    "off|obj|ply|stl|vtp|vtu|msh: of a batch's outputs (that of "
-                                    "each input)");
+        "line; OUTPUT is a folder")(
+        "format", text("NAME"),
+        "off|obj|ply|stl|vtp|vtu|msh|gltf|glb: of a batch's outputs (that of each input)");
     group("Comparison with exact arithmetic")
         .add_options()("check", "compare the cells with the exact ones")(
             "check-every", text("N"),
@@ -136,7 +136,7 @@ public:
     out << "power_rtf_remesh INPUT OUTPUT [options]\n"
            "power_rtf_remesh --batch INPUTS FOLDER [options]\n"
            "Remeshes a surface by power diagrams restricted to tangent planes (PowerRTF).\n"
-           "Reads OFF, OBJ, PLY, STL, VTP; writes these, VTU and Gmsh's MSH, as the file's name "
+           "Reads OFF, OBJ, PLY, STL, VTP, glTF; writes these, VTU and Gmsh's MSH, as the name "
            "ends.\n"
            "In {braces}: what is allowed; in [brackets]: the paper's symbol; in (parentheses): the "
            "default.\n";
@@ -200,7 +200,7 @@ private:
             "VTU; names: OBJ; physical groups: MSH)")("lines",
                                                       "the lines of an OBJ input are creases, too")(
             "texture", "keep the texture coordinates of the input's faces, with their materials; "
-                       "the seams of the texture are creases, too (OBJ)")(
+                       "the seams of the texture are creases, too (OBJ, glTF)")(
             "patches", "number the output's faces by the patches between creases: their property "
                        "\"patch\" (PLY, VTP, VTU, MSH)");
   }
@@ -327,9 +327,10 @@ void set_batch(const po::variables_map& values, Program_options& o)
   if (values.count("format")) {
     o.format = values["format"].as<std::string>();
     if (!o.is_batch) throw Usage_error("--format: for --batch; else OUTPUT's name says it");
-    const std::vector<std::string> names{"off", "obj", "ply", "stl", "vtp", "vtu", "msh"};
+    const std::vector<std::string> names{"off", "obj", "ply",  "stl", "vtp",
+                                         "vtu", "msh", "gltf", "glb"};
     if (std::find(names.begin(), names.end(), o.format) == names.end())
-      reject("format", o.format, "one of off|obj|ply|stl|vtp|vtu|msh");
+      reject("format", o.format, "one of off|obj|ply|stl|vtp|vtu|msh|gltf|glb");
   }
   if (!o.is_batch) return;
   for (const char* other : {"cells", "samples-out", "fields", "provenance", "no-mesh"})

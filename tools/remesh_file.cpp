@@ -88,6 +88,8 @@ bool writes_floats(const Program_options& options)
   return options.write_mesh && holds_floats(format_of(options.output), options.encoding);
 }
 
+constexpr char more_digits[] = "; PLY, or STL as text (--ascii), holds more digits";
+
 /// \throws Output_error when the coordinates of a binary file cannot hold the result
 void check_precision(Surface& surface, const Program_options& options)
 {
@@ -95,8 +97,7 @@ void check_precision(Surface& surface, const Program_options& options)
   try {
     set_output_grid(surface, options.remeshing);
   } catch (const Invalid_input_error& e) {
-    throw Output_error(options.output + ": cannot be written: " + e.what() +
-                       "; text (--ascii) holds more digits");
+    throw Output_error(options.output + ": cannot be written: " + e.what() + more_digits);
   }
 }
 
@@ -260,7 +261,7 @@ Joined_mesh join(const Input& input, const Normalization& normalization, const E
         throw Output_error(run.options.output +
                            ": cannot be written: its coordinates, numbers of single precision, "
                            "cannot hold vertex " +
-                           std::to_string(v) + " as it is; text (--ascii) holds more digits");
+                           std::to_string(v) + " as it is" + more_digits);
   }
   return joined;
 }

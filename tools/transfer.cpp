@@ -99,6 +99,7 @@ Mesh_properties transferred(const Polygon_mesh& mesh, const Sources& sources)
   normalize(result.vertices);
   if (!input.texture.empty()) result.texture = of_corners(input.texture, mesh.soup, sources);
   result.material_files = input.material_files;
+  result.gltf_materials = input.gltf_materials;
   return result;
 }
 
