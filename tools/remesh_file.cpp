@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remesh_file.h"
 
+#include "Outputs.h"
 #include "Progress.h"
 #include "cells_io.h"
 #include "fields_io.h"
@@ -9,7 +10,6 @@
 #include "input_fields.h"
 #include "mesh_io.h"
 #include "outcome.h"
-#include "output_file.h"
 #include "traits.h"
 #include "transfer.h"
 
@@ -26,7 +26,6 @@
 #include <algorithm>
 #include <future>
 #include <limits>
-#include <list>
 #include <optional>
 #include <sstream>
 
@@ -148,31 +147,6 @@ Surface prepare(Polygon_soup&& soup, const Surface_fields& fields, Run& run)
   check_precision(surface, options);
   return surface;
 }
-
-/// The files of one run. All of them appear at the end, or none.
-class Outputs {
-public:
-  template <class Write>
-  void add(const std::string& file, Write&& write)
-  {
-    if (file.empty()) return;
-    m_files.emplace_back(file);
-    try {
-      write(m_files.back().stream());
-    } catch (const Output_error& e) {
-      throw Output_error(file + ": cannot be written: " + e.what());
-    }
-    stop_if_interrupted();
-    m_files.back().close();
-  }
-  void commit()
-  {
-    for (Output_file& file : m_files) file.commit();
-  }
-
-private:
-  std::list<Output_file> m_files;
-};
 
 /// Compares the cells of a remesher with the exact ones (--check).
 template <class Remesher>
