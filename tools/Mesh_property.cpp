@@ -73,6 +73,9 @@ std::set<std::string> not_held_by(Format format, const Mesh_properties& properti
   for (const Mesh_property& p : properties.faces)
     if (!is_held(format, p, false)) words.insert(in_words(p.name, false));
   if (!properties.texture.empty() && !holds_texture(format)) words.insert("texture coordinates");
+  if ((is_gltf(format) && !properties.material_files.empty()) ||
+      (format == Format::obj && !properties.gltf_materials.json.empty()))
+    words.insert("the look of materials");
   return words;
 }
 

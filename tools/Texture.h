@@ -12,7 +12,7 @@
 namespace tools {
 
 struct Texture {
-  std::vector<std::array<double, 2>> coordinates; ///< u and v
+  std::vector<std::array<double, 2>> coordinates; ///< u and v, which goes up
   std::vector<int> corners; ///< by corner of the polygons: its coordinates; -1: it has none
 
   bool empty() const { return corners.empty(); }

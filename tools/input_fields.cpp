@@ -243,7 +243,10 @@ void choose_names(const Program_options& options, Polygon_mesh& mesh)
     if (!holds_texture(output) || (is_gltf(output) && p.name != "material"))
       mesh.attributes.insert("names of " + p.name + "s");
   }
-  if (!find_property(faces, "material")) mesh.properties.material_files.clear();
+  if (!find_property(faces, "material")) {
+    mesh.properties.material_files.clear();
+    mesh.properties.gltf_materials = {};
+  }
   for (std::string& file : mesh.properties.material_files)
     file = seen_from(options.output, options.input, file);
 }

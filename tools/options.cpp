@@ -191,14 +191,16 @@ private:
             "sphere:x,y,z,r,h or box:x0,y0,z0,x1,y1,z1,h: edges are no longer than about h inside; "
             "may be given several times")(
             "region", text("NAME=VALUE"),
-            "remesh only the input's faces of which that property has that value (PLY), or whose "
+            "remesh only the input's faces of which that property has that value (PLY, VTP), or "
+            "whose "
             "material or group has that name (OBJ), N vertices in all; the others stay as they "
             "are, with the border between")(
             "labels", text("NAME"),
-            "a property of the input's faces, of whole numbers (PLY), or material or group (OBJ): "
+            "a property of the input's faces, of whole numbers (PLY, VTP), or material or group "
+            "(OBJ): "
             "creases are kept between different ones, and the output's faces have them (PLY, VTP, "
-            "VTU; names: OBJ; physical groups: MSH)")("lines",
-                                                      "the lines of an OBJ input are creases, too")(
+            "VTU; names: OBJ; physical groups: MSH)")(
+            "lines", "the lines of an OBJ or VTP input are creases, too")(
             "texture", "keep the texture coordinates of the input's faces, with their materials; "
                        "the seams of the texture are creases, too (OBJ, glTF)")(
             "patches", "number the output's faces by the patches between creases: their property "
