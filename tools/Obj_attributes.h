@@ -21,14 +21,6 @@
 
 namespace tools {
 
-/// The words in the rest of a line.
-inline std::string rest_of_line(Tokenizer& tokens)
-{
-  std::string words;
-  while (tokens.next_in_line()) words += (words.empty() ? "" : " ") + std::string(tokens.token());
-  return words;
-}
-
 /// The names of facets in OBJ.
 class Obj_names {
 public:

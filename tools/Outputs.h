@@ -1,5 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The files that a run writes.
 #ifndef POWER_RTF_TOOLS_OUTPUTS_H
 #define POWER_RTF_TOOLS_OUTPUTS_H
 

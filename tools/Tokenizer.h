@@ -115,6 +115,14 @@ private:
   std::size_t m_at = 0, m_line = 1, m_tokens = 0;
 };
 
+/// The words in the rest of a line.
+inline std::string rest_of_line(Tokenizer& tokens)
+{
+  std::string words;
+  while (tokens.next_in_line()) words += (words.empty() ? "" : " ") + std::string(tokens.token());
+  return words;
+}
+
 /// \throws Invalid_input_error always
 [[noreturn]] inline void reject(const std::string& reason)
 {

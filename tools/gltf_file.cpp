@@ -69,7 +69,8 @@ double number_of(std::string_view bytes, const Component& c)
                      : double(static_cast<std::int16_t>(bits));
 }
 
-/// The bytes of a file that is named by a URI, whose %20 is a blank; none, if it cannot be read.
+} // namespace
+
 std::string bytes_of_file(const std::string& folder, const std::string& uri)
 {
   std::string name;
@@ -91,7 +92,20 @@ std::string bytes_of_file(const std::string& folder, const std::string& uri)
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-} // namespace
+std::string image_of_file(const std::string& folder, Json& image)
+{
+  const std::string uri = image.value("uri", "");
+  const std::string end = std::filesystem::path(uri).extension().string();
+  const char* const type = end == ".png"                     ? "image/png"
+                           : end == ".jpg" || end == ".jpeg" ? "image/jpeg"
+                                                             : nullptr;
+  if (!type || uri.compare(0, 5, "data:") == 0) return {};
+  std::string bytes = bytes_of_file(folder, uri);
+  if (bytes.empty()) return {};
+  image.erase("uri");
+  image["mimeType"] = type;
+  return bytes;
+}
 
 std::size_t gltf_number(const Json& json, const char* name, std::size_t none)
 {
@@ -146,21 +160,6 @@ void Gltf_file::read_buffers(std::string_view binary)
       if (m_buffers.back().empty()) reject("its file " + printable(uri) + " cannot be read");
     }
   }
-}
-
-std::string Gltf_file::file(Json& image) const
-{
-  const std::string uri = image.value("uri", "");
-  const std::string end = std::filesystem::path(uri).extension().string();
-  const char* const type = end == ".png"                     ? "image/png"
-                           : end == ".jpg" || end == ".jpeg" ? "image/jpeg"
-                                                             : nullptr;
-  if (!type || uri.compare(0, 5, "data:") == 0) return {};
-  std::string bytes = bytes_of_file(m_folder, uri);
-  if (bytes.empty()) return {};
-  image.erase("uri");
-  image["mimeType"] = type;
-  return bytes;
 }
 
 const Json& Gltf_file::element(const char* name, std::size_t i) const

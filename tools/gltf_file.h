@@ -35,6 +35,7 @@ public:
   Gltf_file(std::string_view data, const std::string& folder);
 
   const Json& json() const { return m_json; }
+  const std::string& folder() const { return m_folder; }
   /// The i-th of the elements of that name, "nodes".
   /// \throws Invalid_input_error there is none
   const Json& element(const char* name, std::size_t i) const;
@@ -43,10 +44,6 @@ public:
   /// The bytes of a buffer view. \throws Invalid_input_error it cannot be read
   std::string_view view(std::size_t i) const;
 
-  /// The bytes of the file that `image` names by its URI, which becomes its type; nothing, and the
-  /// URI stays, if that is data, of another type than PNG and JPEG, or cannot be read.
-  std::string file(Json& image) const;
-
 private:
   void read_buffers(std::string_view binary);
 
@@ -54,6 +51,13 @@ private:
   Json m_json;
   std::vector<std::string> m_buffers;
 };
+
+/// The bytes of a file that is named by a URI, whose %20 is a blank; none, if it cannot be read.
+std::string bytes_of_file(const std::string& folder, const std::string& uri);
+
+/// The bytes of the file that `image` names by its URI, which becomes its type; nothing, and the
+/// URI stays, if that is data, of another type than PNG and JPEG, or cannot be read.
+std::string image_of_file(const std::string& folder, Json& image);
 
 /// The whole number of that name; `none` if there is none.
 /// \throws Invalid_input_error it is not a whole number, or negative

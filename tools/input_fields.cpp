@@ -3,6 +3,7 @@
 #include "input_fields.h"
 
 #include "Tokenizer.h"
+#include "obj_materials.h"
 
 #include <CGAL/PowerRTF/input/near_borders.h>
 
@@ -243,9 +244,17 @@ void choose_names(const Program_options& options, Polygon_mesh& mesh)
     if (!holds_texture(output) || (is_gltf(output) && p.name != "material"))
       mesh.attributes.insert("names of " + p.name + "s");
   }
-  if (!find_property(faces, "material")) {
-    mesh.properties.material_files.clear();
-    mesh.properties.gltf_materials = {};
+  Mesh_properties& properties = mesh.properties;
+  const Mesh_property* const material = find_property(faces, "material");
+  if (!material) {
+    properties.material_files.clear();
+    properties.gltf_materials = {};
+  } else if (is_gltf(format_of(options.output)) && !properties.material_files.empty()) {
+    std::vector<std::string> files;
+    for (const std::string& file : properties.material_files)
+      files.push_back((std::filesystem::path(options.input).parent_path() / file).string());
+    properties.gltf_materials = read_materials(files, material->names);
+    if (!properties.gltf_materials.json.empty()) properties.material_files.clear();
   }
   for (std::string& file : mesh.properties.material_files)
     file = seen_from(options.output, options.input, file);

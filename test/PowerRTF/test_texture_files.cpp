@@ -266,6 +266,34 @@ TEST_CASE("materials come with their files, whose names are as seen from the out
         std::vector<std::string>{"../a b.mtl"});
 }
 
+TEST_CASE("the materials of an OBJ file and their images go into a glTF file")
+{
+  const Scratch scratch;
+  const auto file = [&](const std::string& name) { return (scratch.path / name).string(); };
+  std::ofstream(file("a.mtl")) << "newmtl red\nKd 1 0.5 0\nd 0.25\nmap_Kd wood grain.png\n"
+                                  "newmtl none\nmap_Kd nowhere.png\n";
+  std::ofstream(file("wood grain.png")) << "the bytes of an image";
+  std::ofstream(file("a.obj")) << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n"
+                                  "usemtl none\nf 1/1 2/1 3/1\nusemtl red\nf 1/1 3/1 4/1\n";
+  Program_options options;
+  options.input = file("a.obj");
+  options.output = file("a.glb");
+  options.remeshing.number_of_samples = 50;
+  options.traits = "cpu";
+  options.quiet = options.keeps_texture = true;
+  CHECK(remesh_file(options, 0).not_carried_over.empty());
+  const Mesh_properties properties = read_mesh(options.output).properties;
+  CHECK(properties.faces.at(0).names == std::vector<std::string>{"none", "red"});
+  CHECK(properties.gltf_materials.images == std::vector<std::string>{"the bytes of an image"});
+  const std::string& json = properties.gltf_materials.json;
+  CHECK(json.find("[1.0,0.5,0.0,0.25]") != std::string::npos);
+  CHECK(json.find("nowhere") == std::string::npos);
+
+  fs::remove(file("a.mtl"));
+  CHECK(remesh_file(options, 0).not_carried_over ==
+        std::vector<std::string>{"the look of materials"});
+}
+
 TEST_CASE("OBJ: texture coordinates come back as they were written")
 {
   Mesh_properties properties;
