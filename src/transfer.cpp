@@ -2,4 +2,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Part of PowerRTF::core: where the result comes from.
+#include <CGAL/PowerRTF/transfer/find_corner_sources_impl.h>
 #include <CGAL/PowerRTF/transfer/find_sources_impl.h>

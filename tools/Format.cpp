@@ -20,13 +20,14 @@ Format format_of(const std::string& file)
   if (end == ".vtp") return Format::vtp;
   if (end == ".vtu") return Format::vtu;
   if (end == ".msh") return Format::msh;
+  if (end == ".gltf") return Format::gltf;
+  if (end == ".glb") return Format::glb;
   return Format::unknown;
 }
 
 bool is_read(Format format)
 {
-  return format == Format::off || format == Format::obj || format == Format::ply ||
-         format == Format::stl;
+  return format != Format::unknown && format != Format::vtu && format != Format::msh;
 }
 
 bool holds_numbers(Format format)
@@ -34,11 +35,15 @@ bool holds_numbers(Format format)
   return holds_cells(format) || format == Format::vtu || format == Format::msh;
 }
 
+bool holds_texture(Format format) { return format == Format::obj || is_gltf(format); }
+
+bool is_gltf(Format format) { return format == Format::gltf || format == Format::glb; }
+
 bool holds_cells(Format format) { return format == Format::ply || format == Format::vtp; }
 
 bool holds_floats(Format format, Encoding encoding)
 {
-  return format == Format::stl && encoding == Encoding::binary;
+  return (format == Format::stl && encoding == Encoding::binary) || is_gltf(format);
 }
 
 } // namespace tools

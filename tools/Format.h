@@ -9,25 +9,33 @@
 
 namespace tools {
 
-enum class Format { unknown, off, obj, ply, stl, vtp, vtu, msh };
+enum class Format { unknown, off, obj, ply, stl, vtp, vtu, msh, gltf, glb };
 enum class Encoding { binary, text };
 
+/// How the names of files end that can be read.
+constexpr char read_endings[] = ".off, .obj, .ply, .stl, .vtp, .gltf or .glb";
 /// How the names of files end that can be written.
-constexpr char written_endings[] = ".off, .obj, .ply, .stl, .vtp, .vtu or .msh";
+constexpr char written_endings[] = ".off, .obj, .ply, .stl, .vtp, .vtu, .msh, .gltf or .glb";
 
 /// The format that the extension of the file's name stands for, in upper or lower case.
 Format format_of(const std::string& file);
 
-/// Whether files of a format can be read: OFF, OBJ, PLY and STL; the others are written only.
+/// Whether files of a format can be read: all but VTU and MSH, which are written only.
 bool is_read(Format format);
 
 /// Whether a format holds any numbers of vertices and faces: PLY, VTP, VTU and MSH do.
 bool holds_numbers(Format format);
 
+/// Whether a format holds texture coordinates of corners, and names of materials: OBJ and glTF do.
+bool holds_texture(Format format);
+
+/// Whether it is glTF, as text or binary.
+bool is_gltf(Format format);
+
 /// Whether a format holds cells and samples with numbers: PLY and VTP do.
 bool holds_cells(Format format);
 
-/// Whether a mesh is written with coordinates of single precision: as binary STL.
+/// Whether a mesh is written with coordinates of single precision: as binary STL or glTF.
 bool holds_floats(Format format, Encoding encoding);
 
 } // namespace tools

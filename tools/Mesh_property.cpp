@@ -12,9 +12,9 @@ namespace {
 bool is_held(Format format, const Mesh_property& property, bool of_vertices)
 {
   if (holds_numbers(format)) return true;
-  if (format != Format::obj) return false;
-  return of_vertices ? is_color(property.name) && property.name != "alpha"
-                     : !property.names.empty();
+  if (!holds_texture(format)) return false;
+  if (of_vertices) return is_color(property.name) && (property.name != "alpha" || is_gltf(format));
+  return !property.names.empty() && (property.name == "material" || format == Format::obj);
 }
 
 } // namespace
@@ -59,6 +59,9 @@ Mesh_properties held_by(Format format, const Mesh_properties& properties)
     if (is_held(format, p, true)) held.vertices.push_back(p);
   for (const Mesh_property& p : properties.faces)
     if (is_held(format, p, false)) held.faces.push_back(p);
+  if (holds_texture(format)) held.texture = properties.texture;
+  held.material_files = properties.material_files;
+  held.gltf_materials = properties.gltf_materials;
   return held;
 }
 
@@ -69,6 +72,10 @@ std::set<std::string> not_held_by(Format format, const Mesh_properties& properti
     if (!is_held(format, p, true)) words.insert(in_words(p.name, true));
   for (const Mesh_property& p : properties.faces)
     if (!is_held(format, p, false)) words.insert(in_words(p.name, false));
+  if (!properties.texture.empty() && !holds_texture(format)) words.insert("texture coordinates");
+  if ((is_gltf(format) && !properties.material_files.empty()) ||
+      (format == Format::obj && !properties.gltf_materials.json.empty()))
+    words.insert("the look of materials");
   return words;
 }
 

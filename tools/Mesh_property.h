@@ -6,6 +6,7 @@
 #define POWER_RTF_TOOLS_MESH_PROPERTY_H
 
 #include "Format.h"
+#include "Texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,10 +68,21 @@ struct Mesh_property {
   std::vector<std::string> names{}; ///< what the values 0, 1, ... stand for; empty: numbers
 };
 
+/// glTF: what the materials look like.
+struct Gltf_materials {
+  std::string json{}; ///< materials, textures, samplers and images; empty: not known
+  /// The bytes of the images that have a "bufferView", by its number.
+  std::vector<std::string> images{};
+};
+
 struct Mesh_properties {
   std::vector<Mesh_property> vertices, faces;
+  Texture texture{};
+  /// OBJ: the files that say what the materials look like, as the file names them.
+  std::vector<std::string> material_files{};
+  Gltf_materials gltf_materials{};
 
-  bool empty() const { return vertices.empty() && faces.empty(); }
+  bool empty() const { return vertices.empty() && faces.empty() && texture.empty(); }
 };
 
 /// The property of that name, or null.
@@ -83,8 +95,8 @@ bool is_color(const std::string& name);
 /// What a property means, in words: "normals".
 std::string in_words(const std::string& name, bool of_vertices);
 
-/// Those that files of a format hold: PLY, VTP, VTU and MSH all, OBJ the colors of vertices
-/// and the names of faces.
+/// Those that files of a format hold: PLY, VTP, VTU and MSH all numbers, OBJ and glTF the colors of
+/// vertices, names of faces (glTF: of materials only), and textures.
 Mesh_properties held_by(Format format, const Mesh_properties& properties);
 
 /// The others, in words.

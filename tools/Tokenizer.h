@@ -76,6 +76,15 @@ public:
     return x;
   }
 
+  /// The token as a number; NaN if it is none.
+  double number_or_nan() const
+  {
+    double x = 0;
+    const char* const end = m_token.data() + m_token.size();
+    const auto [stop, error] = std::from_chars(m_token.data(), end, x);
+    return error == std::errc() && stop == end ? x : std::numeric_limits<double>::quiet_NaN();
+  }
+
   /// The token, or its part before '/', as a whole number, clamped to the limits of the type.
   long long whole_number(bool before_slash = false) const
   {
@@ -105,6 +114,29 @@ private:
   char m_comment;
   std::size_t m_at = 0, m_line = 1, m_tokens = 0;
 };
+
+/// The words in the rest of a line.
+inline std::string rest_of_line(Tokenizer& tokens)
+{
+  std::string words;
+  while (tokens.next_in_line()) words += (words.empty() ? "" : " ") + std::string(tokens.token());
+  return words;
+}
+
+/// \throws Invalid_input_error always
+[[noreturn]] inline void reject(const std::string& reason)
+{
+  throw CGAL::PowerRTF::Invalid_input_error(reason);
+}
+
+/// Why a facet (numbered from 0) is refused that refers to a vertex that does not exist.
+inline std::string out_of_range(const Tokenizer& tokens, std::size_t facet, long long vertex,
+                                std::size_t count)
+{
+  return tokens.at() + "facet " + std::to_string(facet + 1) + " refers to vertex " +
+         std::to_string(vertex) + ": the index is out of range, there are " +
+         std::to_string(count) + " vertices";
+}
 
 } // namespace tools
 

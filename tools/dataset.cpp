@@ -4,6 +4,7 @@
 
 #include "Text.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -94,9 +95,13 @@ void ply_properties(Streamed_text& text, const std::vector<Field>& fields)
 {
   constexpr const char* names[] = {"char", "uchar", "short", "ushort",
                                    "int",  "uint",  "float", "double"};
-  for (const Field& f : fields)
+  for (const Field& f : fields) {
+    std::string name = f.name; // one word
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return c <= ' '; }, '_');
     text << "property " << (f.integers.empty() ? names[static_cast<int>(f.type)] : "int") << " "
-         << f.name << "\n";
+         << name << "\n";
+  }
 }
 
 template <class Row>

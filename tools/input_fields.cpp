@@ -3,10 +3,12 @@
 #include "input_fields.h"
 
 #include "Tokenizer.h"
+#include "obj_materials.h"
 
 #include <CGAL/PowerRTF/input/near_borders.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +16,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 namespace tools {
 namespace {
@@ -117,6 +120,60 @@ const std::vector<Edge>& checked_lines(const Polygon_mesh& mesh)
   return mesh.lines;
 }
 
+/// The name of a file that `from`, a file, knows as `name`, for `to`, another file.
+std::string seen_from(const std::string& to, const std::string& from, const std::string& name)
+{
+  namespace fs = std::filesystem;
+  const auto folder = [](const std::string& file) { return fs::absolute(file).parent_path(); };
+  if (fs::path(name).is_absolute() || folder(from) == folder(to)) return name;
+  return (folder(from) / name).lexically_relative(folder(to)).generic_string();
+}
+
+/// The seams of the texture: the edges where the coordinates jump or the material is another.
+/// \throws Invalid_input_error the texture coordinates cannot be used
+std::vector<Edge> seams_of(const Polygon_mesh& mesh)
+{
+  if (!mesh.texture_error.empty())
+    throw Invalid_input_error("its texture coordinates cannot be used: " + mesh.texture_error);
+  const CGAL::PowerRTF::Polygon_soup& soup = mesh.soup;
+  const Texture& texture = mesh.properties.texture;
+  if (texture.empty()) return {};
+  using Place = std::array<double, 3>; // material, u, v
+  const Mesh_property* const material = find_property(mesh.properties.faces, "material");
+  const auto place = [&](std::size_t face, int corner) {
+    const double name = material ? material->values[face] : 0;
+    const int c = texture.corners[corner];
+    if (c < 0) return Place{name, HUGE_VAL, HUGE_VAL};
+    return Place{name, texture.coordinates[c][0], texture.coordinates[c][1]};
+  };
+  struct Side {
+    Edge edge; // of places
+    std::array<Place, 2> texture;
+    Edge points;
+  };
+  const std::vector<int> first = CGAL::PowerRTF::first_of_equal_points(soup.points);
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k + 1 < soup.first.size(); ++k)
+    for (int c = soup.first[k]; c < soup.first[k + 1]; ++c) {
+      const int d = c + 1 < soup.first[k + 1] ? c + 1 : soup.first[k];
+      const int a = soup.corners[c], b = soup.corners[d];
+      Side side{{first[a], first[b]}, {place(k, c), place(k, d)}, {a, b}};
+      if (first[b] < first[a]) {
+        std::swap(side.edge[0], side.edge[1]);
+        std::swap(side.texture[0], side.texture[1]);
+      }
+      sides.push_back(side);
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return std::tie(s.edge, s.texture, s.points) < std::tie(t.edge, t.texture, t.points);
+  });
+  std::vector<Edge> seams;
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].edge == sides[i - 1].edge && sides[i].texture != sides[i - 1].texture)
+      seams.push_back(sides[i].points);
+  return seams;
+}
+
 } // namespace
 
 std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name)
@@ -146,6 +203,10 @@ Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mes
     fields.refinements.push_back(parse_refinement(region));
   if (!options.labels.empty()) fields.labels = face_labels(mesh, options.labels);
   if (options.keeps_lines) fields.lines = checked_lines(mesh);
+  if (options.keeps_texture) {
+    const std::vector<Edge> seams = seams_of(mesh);
+    fields.lines.insert(fields.lines.end(), seams.begin(), seams.end());
+  }
   return fields;
 }
 
@@ -165,18 +226,38 @@ std::vector<char> region_of(const Program_options& options, const Polygon_mesh& 
 void choose_names(const Program_options& options, Polygon_mesh& mesh)
 {
   if (options.keeps_lines) mesh.attributes.erase("lines");
+  if (options.keeps_texture)
+    mesh.attributes.erase("texture coordinates");
+  else
+    mesh.properties.texture = {};
 
   std::vector<Mesh_property>& faces = mesh.properties.faces;
   const auto is_unwanted = [&](const Mesh_property& p) {
-    return !p.names.empty() && p.name != options.labels && p.name != options.region_name;
+    return !p.names.empty() && p.name != options.labels && p.name != options.region_name &&
+           (p.name != "material" || !options.keeps_texture);
   };
   faces.erase(std::remove_if(faces.begin(), faces.end(), is_unwanted), faces.end());
   for (const Mesh_property& p : faces) {
     if (p.names.empty()) continue;
     mesh.attributes.erase(p.name + "s");
-    if (format_of(options.output) != Format::obj)
+    const Format output = format_of(options.output);
+    if (!holds_texture(output) || (is_gltf(output) && p.name != "material"))
       mesh.attributes.insert("names of " + p.name + "s");
   }
+  Mesh_properties& properties = mesh.properties;
+  const Mesh_property* const material = find_property(faces, "material");
+  if (!material) {
+    properties.material_files.clear();
+    properties.gltf_materials = {};
+  } else if (is_gltf(format_of(options.output)) && !properties.material_files.empty()) {
+    std::vector<std::string> files;
+    for (const std::string& file : properties.material_files)
+      files.push_back((std::filesystem::path(options.input).parent_path() / file).string());
+    properties.gltf_materials = read_materials(files, material->names);
+    if (!properties.gltf_materials.json.empty()) properties.material_files.clear();
+  }
+  for (std::string& file : mesh.properties.material_files)
+    file = seen_from(options.output, options.input, file);
 }
 
 Refinement parse_refinement(const std::string& text)

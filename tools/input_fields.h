@@ -22,15 +22,16 @@ std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& n
 
 /// The fields, regions and creases that the options name, of `mesh`.
 /// \throws Invalid_input_error as `vertex_values()`; a label is no whole number; a line
-///   runs along no edge of a facet
+///   runs along no edge of a facet; texture coordinates cannot be used
 CGAL::PowerRTF::Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh);
 
 /// By facet of `mesh`: whether the options want it to be remeshed.
 /// \throws Invalid_input_error the facets have no such property, or none has that value
 std::vector<char> region_of(const Program_options& options, const Polygon_mesh& mesh);
 
-/// Leaves of the materials and groups of an OBJ file those that the options name, and of what is
-/// not carried over names what these options do carry over no longer.
+/// Leaves of the materials, groups and texture of an OBJ file those that the options name, and of
+/// what is not carried over names what these options do carry over no longer. The files of
+/// materials get the names that they have for the output's file.
 void choose_names(const Program_options& options, Polygon_mesh& mesh);
 
 /// From `sphere:x,y,z,r,h` or `box:x0,y0,z0,x1,y1,z1,h`.

@@ -4,11 +4,14 @@
 
 #include "dataset.h"
 #include "foreign_file.h"
+#include "gltf_mesh.h"
 #include "gmsh_mesh.h"
+#include "obj_mesh.h"
+#include "off_mesh.h"
 #include "output_file.h"
 #include "ply_mesh.h"
 #include "stl_mesh.h"
-#include "text_mesh.h"
+#include "vtp_mesh.h"
 
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -70,7 +73,7 @@ std::string kind_error(const std::string& file, Format format)
   if (format == Format::stl && is_binary_stl(beginning, fs::file_size(file))) return {};
   const std::string foreign = foreign_kind(beginning, format);
   if (!foreign.empty()) return foreign;
-  if (!is_read(format)) return "its name does not end in .off, .obj, .ply or .stl";
+  if (!is_read(format)) return std::string("its name does not end in ") + read_endings;
   return {};
 }
 
@@ -107,7 +110,7 @@ void check_single_precision(const std::vector<Vec3d>& points)
   for (const Vec3d& p : points)
     for (const double x : {p.x, p.y, p.z})
       if (std::abs(x) > largest)
-        throw Output_error("a coordinate is too large for binary STL (--ascii writes text)");
+        throw Output_error("a coordinate is too large for single precision");
 }
 
 } // namespace
@@ -121,7 +124,8 @@ Polygon_mesh read_mesh(const std::string& file)
     if (!reason.empty()) throw Invalid_input_error(reason);
     namespace ipc = boost::interprocess;
     const ipc::mapped_region data(ipc::file_mapping(file.c_str(), ipc::read_only), ipc::read_only);
-    return parse_mesh(format, {static_cast<const char*>(data.get_address()), data.get_size()});
+    return parse_mesh(format, {static_cast<const char*>(data.get_address()), data.get_size()},
+                      fs::path(file).parent_path().string());
   } catch (const Invalid_input_error& e) {
     throw Invalid_input_error(file + ": cannot be read: " + e.what());
   } catch (const boost::interprocess::interprocess_exception& e) { // it cannot be mapped
@@ -129,7 +133,7 @@ Polygon_mesh read_mesh(const std::string& file)
   }
 }
 
-Polygon_mesh parse_mesh(Format format, std::string_view data)
+Polygon_mesh parse_mesh(Format format, std::string_view data, const std::string& folder)
 {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // as some editors begin UTF-8
   const bool is_text = format != Format::stl || !is_binary_stl(data, data.size());
@@ -138,6 +142,8 @@ Polygon_mesh parse_mesh(Format format, std::string_view data)
   Polygon_mesh mesh = format == Format::off   ? parse_off(data)
                       : format == Format::obj ? parse_obj(data)
                       : format == Format::ply ? parse_ply(data)
+                      : format == Format::vtp ? parse_vtp(data)
+                      : is_gltf(format)       ? parse_gltf(data, folder)
                                               : parse_stl(data);
   mesh.soup.merges_vertices = true;
   check(mesh);
@@ -162,13 +168,12 @@ void write_mesh(std::ostream& out, Format format, Encoding encoding,
   }
   if (format == Format::off) return write_off(out, points, triangles);
   if (format == Format::obj) return write_obj(out, points, triangles, properties);
+  if (holds_floats(format, encoding)) check_single_precision(points);
+  if (is_gltf(format)) return write_gltf(out, format == Format::glb, points, triangles, properties);
   std::vector<Point> copies;
   copies.reserve(points.size());
   for (const Vec3d& p : points) copies.emplace_back(p.x, p.y, p.z);
-  if (encoding == Encoding::binary) {
-    check_single_precision(points);
-    CGAL::IO::set_binary_mode(out);
-  }
+  if (encoding == Encoding::binary) CGAL::IO::set_binary_mode(out);
   CGAL::IO::write_STL(out, copies, triangles, CGAL::parameters::stream_precision(17));
 }
 

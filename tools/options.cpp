@@ -114,9 +114,9 @@ public:
         "no-mesh", "stop at the samples: OUTPUT is not needed and not written")(
         "batch",
         "remesh many files: INPUT is a folder, or a text file with the name of one in each "
-        "line; OUTPUT is a folder")("format", text("NAME"),
-                                    "off|obj|ply|stl|vtp|vtu|msh: of a batch's outputs (that of "
-                                    "each input)");
+        "line; OUTPUT is a folder")(
+        "format", text("NAME"),
+        "off|obj|ply|stl|vtp|vtu|msh|gltf|glb: of a batch's outputs (that of each input)");
     group("Comparison with exact arithmetic")
         .add_options()("check", "compare the cells with the exact ones")(
             "check-every", text("N"),
@@ -136,7 +136,7 @@ public:
     out << "power_rtf_remesh INPUT OUTPUT [options]\n"
            "power_rtf_remesh --batch INPUTS FOLDER [options]\n"
            "Remeshes a surface by power diagrams restricted to tangent planes (PowerRTF).\n"
-           "Reads OFF, OBJ, PLY, STL; writes these, VTP, VTU and Gmsh's MSH, as the file's name "
+           "Reads OFF, OBJ, PLY, STL, VTP, glTF; writes these, VTU and Gmsh's MSH, as the name "
            "ends.\n"
            "In {braces}: what is allowed; in [brackets]: the paper's symbol; in (parentheses): the "
            "default.\n";
@@ -191,14 +191,18 @@ private:
             "sphere:x,y,z,r,h or box:x0,y0,z0,x1,y1,z1,h: edges are no longer than about h inside; "
             "may be given several times")(
             "region", text("NAME=VALUE"),
-            "remesh only the input's faces of which that property has that value (PLY), or whose "
+            "remesh only the input's faces of which that property has that value (PLY, VTP), or "
+            "whose "
             "material or group has that name (OBJ), N vertices in all; the others stay as they "
             "are, with the border between")(
             "labels", text("NAME"),
-            "a property of the input's faces, of whole numbers (PLY), or material or group (OBJ): "
+            "a property of the input's faces, of whole numbers (PLY, VTP), or material or group "
+            "(OBJ): "
             "creases are kept between different ones, and the output's faces have them (PLY, VTP, "
-            "VTU; names: OBJ; physical groups: MSH)")("lines",
-                                                      "the lines of an OBJ input are creases, too")(
+            "VTU; names: OBJ; physical groups: MSH)")(
+            "lines", "the lines of an OBJ or VTP input are creases, too")(
+            "texture", "keep the texture coordinates of the input's faces, with their materials; "
+                       "the seams of the texture are creases, too (OBJ, glTF)")(
             "patches", "number the output's faces by the patches between creases: their property "
                        "\"patch\" (PLY, VTP, VTU, MSH)");
   }
@@ -287,6 +291,7 @@ Remeshing_options remeshing_options(const po::variables_map& values)
 void set_fields(const po::variables_map& values, Program_options& o)
 {
   o.keeps_lines = values.count("lines") > 0;
+  o.keeps_texture = values.count("texture") > 0;
   o.writes_patches = values.count("patches") > 0;
   for (const auto& [option, name] :
        {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field},
@@ -324,9 +329,10 @@ void set_batch(const po::variables_map& values, Program_options& o)
   if (values.count("format")) {
     o.format = values["format"].as<std::string>();
     if (!o.is_batch) throw Usage_error("--format: for --batch; else OUTPUT's name says it");
-    const std::vector<std::string> names{"off", "obj", "ply", "stl", "vtp", "vtu", "msh"};
+    const std::vector<std::string> names{"off", "obj", "ply",  "stl", "vtp",
+                                         "vtu", "msh", "gltf", "glb"};
     if (std::find(names.begin(), names.end(), o.format) == names.end())
-      reject("format", o.format, "one of off|obj|ply|stl|vtp|vtu|msh");
+      reject("format", o.format, "one of off|obj|ply|stl|vtp|vtu|msh|gltf|glb");
   }
   if (!o.is_batch) return;
   for (const char* other : {"cells", "samples-out", "fields", "provenance", "no-mesh"})

@@ -32,6 +32,7 @@ struct Program_options {
   /// Only faces with that value of that property are remeshed. No name: all are.
   std::string region_name, region_value;
   bool keeps_lines = false;    ///< of the input's file
+  bool keeps_texture = false;  ///< of the input's file
   bool writes_patches = false; ///< as a property of the output's faces
   std::string traits;  ///< "cpu", "exact", "cuda", or "auto": the faster of "cpu" and "cuda"
   bool check = false;  ///< compare the cells with the exact ones at the end

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ply_mesh.h"
 
+#include "Bytes.h"
 #include "ply_header.h"
 
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -48,14 +47,7 @@ public:
   }
   double number() const { return m_tokens.number(); }
   /// What is no number is not refused: only coordinates must be finite.
-  double value() const
-  {
-    const std::string_view text = m_tokens.token();
-    double x = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    const bool is_number = error == std::errc() && stop == text.data() + text.size();
-    return is_number ? x : std::numeric_limits<double>::quiet_NaN();
-  }
+  double value() const { return m_tokens.number_or_nan(); }
   long long whole_number() const { return m_tokens.whole_number(); }
 
 private:
@@ -97,12 +89,7 @@ public:
   }
   double number() const
   {
-    // the same on machines of either byte order
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < m_value.size(); ++i) {
-      const char byte = m_value[m_big_endian ? i : m_value.size() - 1 - i];
-      bits = bits << 8 | static_cast<unsigned char>(byte);
-    }
+    const std::uint64_t bits = bits_of_bytes(m_value, m_big_endian);
     switch (m_type) {
     case Type::int8:
       return static_cast<std::int8_t>(bits);
@@ -122,15 +109,6 @@ public:
   long long whole_number() const { return static_cast<long long>(number()); }
 
 private:
-  template <class To, class From>
-  static To bit_cast(From from)
-  {
-    static_assert(sizeof(To) == sizeof(From));
-    To to;
-    std::memcpy(&to, &from, sizeof(to));
-    return to;
-  }
-
   std::string_view m_data, m_value;
   bool m_big_endian;
   Type m_type = Type::int8;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remesh_file.h"
 
+#include "Outputs.h"
 #include "Progress.h"
 #include "cells_io.h"
 #include "fields_io.h"
@@ -9,7 +10,6 @@
 #include "input_fields.h"
 #include "mesh_io.h"
 #include "outcome.h"
-#include "output_file.h"
 #include "traits.h"
 #include "transfer.h"
 
@@ -20,12 +20,12 @@
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
+#include <CGAL/PowerRTF/transfer/find_corner_sources.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <algorithm>
 #include <future>
 #include <limits>
-#include <list>
 #include <optional>
 #include <sstream>
 
@@ -87,6 +87,8 @@ bool writes_floats(const Program_options& options)
   return options.write_mesh && holds_floats(format_of(options.output), options.encoding);
 }
 
+constexpr char more_digits[] = "; PLY, or STL as text (--ascii), holds more digits";
+
 /// \throws Output_error when the coordinates of a binary file cannot hold the result
 void check_precision(Surface& surface, const Program_options& options)
 {
@@ -94,8 +96,7 @@ void check_precision(Surface& surface, const Program_options& options)
   try {
     set_output_grid(surface, options.remeshing);
   } catch (const Invalid_input_error& e) {
-    throw Output_error(options.output + ": cannot be written: " + e.what() +
-                       "; text (--ascii) holds more digits");
+    throw Output_error(options.output + ": cannot be written: " + e.what() + more_digits);
   }
 }
 
@@ -146,31 +147,6 @@ Surface prepare(Polygon_soup&& soup, const Surface_fields& fields, Run& run)
   check_precision(surface, options);
   return surface;
 }
-
-/// The files of one run. All of them appear at the end, or none.
-class Outputs {
-public:
-  template <class Write>
-  void add(const std::string& file, Write&& write)
-  {
-    if (file.empty()) return;
-    m_files.emplace_back(file);
-    try {
-      write(m_files.back().stream());
-    } catch (const Output_error& e) {
-      throw Output_error(file + ": cannot be written: " + e.what());
-    }
-    stop_if_interrupted();
-    m_files.back().close();
-  }
-  void commit()
-  {
-    for (Output_file& file : m_files) file.commit();
-  }
-
-private:
-  std::list<Output_file> m_files;
-};
 
 /// Compares the cells of a remesher with the exact ones (--check).
 template <class Remesher>
@@ -234,8 +210,13 @@ Sources find_sources(Input& input, const Normalization& normalization, const Ext
 {
   if (!has_sources(input.mesh, run.options)) return {};
   const Stage stage("transfer", run.report.seconds.transfer);
-  return find_sources(input.remeshed_soup(), normalization, run.report.faces_as_input(),
-                      mesh.points, mesh.triangles, Concurrency());
+  const Polygon_soup& soup = input.remeshed_soup();
+  Sources sources = find_sources(soup, normalization, run.report.faces_as_input(), mesh.points,
+                                 mesh.triangles, Concurrency());
+  if (!input.mesh.properties.texture.empty())
+    sources.corners = find_corner_sources(soup, input.remeshed_fields().lines, normalization,
+                                          mesh.points, mesh.triangles, sources, Concurrency());
+  return sources;
 }
 
 /// What a region has become, `mesh`, with what stays of the input around it. The report gets what
@@ -254,7 +235,7 @@ Joined_mesh join(const Input& input, const Normalization& normalization, const E
         throw Output_error(run.options.output +
                            ": cannot be written: its coordinates, numbers of single precision, "
                            "cannot hold vertex " +
-                           std::to_string(v) + " as it is; text (--ascii) holds more digits");
+                           std::to_string(v) + " as it is" + more_digits);
   }
   return joined;
 }
@@ -262,7 +243,7 @@ Joined_mesh join(const Input& input, const Normalization& normalization, const E
 /// Writes all files but the report. \param joined the mesh as it is written; null: it is `mesh`
 template <class Remesher>
 void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* joined,
-                   const Sources& sources, const Mesh_properties& properties, const Run& run,
+                   const Sources& sources, const Polygon_mesh& input, const Run& run,
                    Outputs& outputs)
 {
   const Program_options& options = run.options;
@@ -272,7 +253,7 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
     write_json(report, run);
     write_html(out, remesher.surface(), mesh, remesher.cells(), report.str());
   });
-  Mesh_properties values = transferred(properties, sources);
+  Mesh_properties values = transferred(input, sources);
   if (options.writes_patches) set_patches(remesher.patches(mesh), values);
   for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
   const std::vector<Vec3d>& points = joined ? joined->points : mesh.points;
@@ -319,8 +300,7 @@ void make_results(Run& run, Input& input, Surface surface, Outputs& outputs)
   }
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
   const Stage stage("write", run.report.seconds.write);
-  write_results(remesher, mesh, joined ? &*joined : nullptr, sources, input.mesh.properties, run,
-                outputs);
+  write_results(remesher, mesh, joined ? &*joined : nullptr, sources, input.mesh, run, outputs);
 }
 
 /// Sets the number of samples to what a sphere would need for the distance asked for.

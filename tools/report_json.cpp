@@ -201,6 +201,7 @@ Json fields(const Program_options& o)
   if (!o.region_name.empty()) json["region"] = o.region_name + "=" + o.region_value;
   if (!o.refine.empty()) json["refine"] = o.refine;
   if (o.keeps_lines) json["lines"] = true;
+  if (o.keeps_texture) json["texture"] = true;
   return json;
 }
 

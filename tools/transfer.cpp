@@ -6,6 +6,8 @@
 
 #include <CGAL/PowerRTF/transfer/Mesh_source.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -37,6 +39,37 @@ Mesh_property of_faces(const Mesh_property& property, const std::vector<Source>&
   return {property.name, property.type, values_at(property.values, sources), property.names};
 }
 
+/// Corners that come from near the same place have the same coordinates, which for that are rounded
+/// to single precision; those of a corner of the input are its own.
+Texture of_corners(const Texture& texture, const CGAL::PowerRTF::Polygon_soup& soup,
+                   const Sources& sources)
+{
+  constexpr double at_corner = 1 - 1e-9;
+  Texture result;
+  for (const auto& triangle : sources.corners)
+    for (const Source& s : triangle) {
+      const auto begin = soup.corners.begin() + soup.first[s.face],
+                 end = soup.corners.begin() + soup.first[s.face + 1];
+      std::array<int, 3> c;
+      for (int i = 0; i < 3; ++i)
+        c[i] = texture.corners[std::find(begin, end, s.vertices[i]) - soup.corners.begin()];
+      if (*std::min_element(c.begin(), c.end()) < 0) {
+        result.corners.push_back(-1);
+        continue;
+      }
+      const auto& [a, b, d] = c;
+      const auto& all = texture.coordinates;
+      std::array<double, 2> uv = interpolated(all[a], all[b], all[d], s.weights);
+      for (double& x : uv) x = static_cast<float>(x);
+      for (int i = 0; i < 3; ++i)
+        if (s.weights[i] > at_corner) uv = all[c[i]];
+      result.corners.push_back(static_cast<int>(result.coordinates.size()));
+      result.coordinates.push_back(uv);
+    }
+  result.merge_equal();
+  return result;
+}
+
 /// Gives the normals, where there are some, the length 1.
 void normalize(std::vector<Mesh_property>& properties)
 {
@@ -56,13 +89,17 @@ void normalize(std::vector<Mesh_property>& properties)
 
 } // namespace
 
-Mesh_properties transferred(const Mesh_properties& input, const Sources& sources)
+Mesh_properties transferred(const Polygon_mesh& mesh, const Sources& sources)
 {
+  const Mesh_properties& input = mesh.properties;
   Mesh_properties result;
   for (const Mesh_property& p : input.vertices)
     result.vertices.push_back(of_vertices(p, sources.vertices));
   for (const Mesh_property& p : input.faces) result.faces.push_back(of_faces(p, sources.faces));
   normalize(result.vertices);
+  if (!input.texture.empty()) result.texture = of_corners(input.texture, mesh.soup, sources);
+  result.material_files = input.material_files;
+  result.gltf_materials = input.gltf_materials;
   return result;
 }
 

@@ -5,7 +5,7 @@
 #ifndef POWER_RTF_TOOLS_TRANSFER_H
 #define POWER_RTF_TOOLS_TRANSFER_H
 
-#include "Mesh_property.h"
+#include "Polygon_mesh.h"
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/transfer/find_sources.h>
@@ -17,8 +17,9 @@ namespace tools {
 
 /// The properties of a result, from those of the input. Of vertices, real numbers and colors are
 /// interpolated linearly, normals get the length 1 again, and other integers, which may be labels,
-/// are those of the nearest corner; faces get what the face at their center has.
-Mesh_properties transferred(const Mesh_properties& input, const CGAL::PowerRTF::Sources& sources);
+/// are those of the nearest corner; faces get what the face at their center has, and corners the
+/// texture coordinates of `sources.corners`, interpolated linearly.
+Mesh_properties transferred(const Polygon_mesh& input, const CGAL::PowerRTF::Sources& sources);
 
 /// Adds the property `patch` of the faces, in place of one of that name.
 void set_patches(const std::vector<int>& patches, Mesh_properties& properties);

@@ -273,6 +273,17 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
  *     \cgalParamDefault{none: nothing is looked for}
  *   \cgalParamNEnd
  *
+ *   \cgalParamNBegin{PowerRTF::parameters::corner_source_map}
+ *     \cgalParamDescription{the same for the corners of the faces of `output`, as halfedges that
+ *                           end there, each on its face's side of the constrained edges of
+ *                           `input`; for `PowerRTF::transfer_corner_values()`, as of texture
+ *                           coordinates}
+ *     \cgalParamType{a class model of `WritablePropertyMap` with
+ *                    `boost::graph_traits<OutputMesh>::%halfedge_descriptor` as key type and
+ *                    `PowerRTF::Mesh_source<InputMesh>` as value type}
+ *     \cgalParamDefault{none: nothing is looked for}
+ *   \cgalParamNEnd
+ *
  *   \cgalParamNBegin{face_patch_map}
  *     \cgalParamDescription{a property map that gets the labels of the faces of `output`: those of
  *                           `input`, if the parameter of the same name is in `np_in`; else the
@@ -306,7 +317,8 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
                     const NamedParametersOut& np_out = parameters::default_values())
 {
   static_assert(!PowerRTF::internal::has_output_parameter<NamedParametersIn>(),
-                "vertex_source_map and face_source_map belong into the second chain of named "
+                "vertex_source_map, face_source_map and corner_source_map belong into the second "
+                "chain of named "
                 "parameters");
   static_assert(
       !PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
@@ -376,7 +388,7 @@ power_rtf_remeshing(const FaceRange& faces, PolygonMesh& mesh,
                     const NamedParameters& np = parameters::default_values())
 {
   static_assert(!PowerRTF::internal::has_output_parameter<NamedParameters>(),
-                "there is no vertex_source_map and no face_source_map here: they would have the "
+                "there are no maps of sources here: they would have the "
                 "descriptors of elements that are no more");
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, PolygonMesh, NamedParameters>;
   using Point_map = typename GetVertexPointMap<PolygonMesh, NamedParameters>::type;

@@ -122,8 +122,8 @@ def remesh_file(input, output, n=None, *, ascii=False, refine=(), threads=0, pro
                 **single):
     """Remeshes from file to file.
 
-    :param input: OFF, OBJ, PLY or STL
-    :param output: OFF, OBJ, PLY, STL, VTP, VTU or MSH; it is written whole or not at all
+    :param input: OFF, OBJ, PLY, STL, VTP or glTF
+    :param output: OFF, OBJ, PLY, STL, VTP, glTF, VTU or MSH; it is written whole or not at all
     :param ascii: PLY and STL are written as text
     :returns: the :class:`Mesh`; the other parameters are those of :func:`remesh`
     :raises OutputError: `output` cannot be written

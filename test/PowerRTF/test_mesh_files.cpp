@@ -314,7 +314,8 @@ TEST_CASE("PLY with values: binary and text hold the same")
       CHECK(polygons_of(mesh)[0] == std::vector<std::size_t>(corners, 2));
       CHECK(polygons_of(mesh)[1] == std::vector<std::size_t>{0, 1, 2});
       CHECK(mesh.attributes.empty());
-      const auto& [vertices, faces] = mesh.properties;
+      const auto& vertices = mesh.properties.vertices;
+      const auto& faces = mesh.properties.faces;
       REQUIRE(vertices.size() == 4); // the normals first
       CHECK(vertices[0].values == std::vector<double>{0, 0, 1});
       CHECK(vertices[3].values == data.point_fields[0].values);

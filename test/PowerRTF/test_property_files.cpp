@@ -234,7 +234,8 @@ TEST_CASE("MSH: the first labels of faces are physical groups, all properties ar
 
 TEST_CASE("real numbers and colors are interpolated, labels are not, normals have the length 1")
 {
-  const Mesh_properties input = {
+  Polygon_mesh input;
+  input.properties = {
       {{"red", Number_type::uint8, {0, 100, 255}},
        {"label", Number_type::int32, {5, 6, 1000}},
        {"nx", Number_type::float32, {1, 0, 0}},
@@ -253,6 +254,6 @@ TEST_CASE("real numbers and colors are interpolated, labels are not, normals hav
     for (const double x : result.vertices[axis].values) CHECK(x == doctest::Approx(std::sqrt(0.5)));
   CHECK(result.faces[0].values == Values{9, 3});
   CHECK(result.faces[1].values == Values{1.5, 0.5});
-  for (std::size_t k = 0; k < input.vertices.size(); ++k)
-    CHECK(result.vertices[k].type == input.vertices[k].type);
+  for (std::size_t k = 0; k < result.vertices.size(); ++k)
+    CHECK(result.vertices[k].type == input.properties.vertices[k].type);
 }

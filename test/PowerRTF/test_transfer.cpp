@@ -275,6 +275,55 @@ TEST_CASE("the output may be of another type than the input")
     CHECK(length(internal::to_vec3d(v->point()) - point_of(input, place)) < 0.02);
 }
 
+TEST_CASE("values of corners jump at constrained edges only, as texture coordinates do")
+{
+  using Halfedge = Mesh::Halfedge_index;
+  const auto mesh_with_values = [](int around, auto& values, auto& is_seam) {
+    Mesh mesh = shapes::make_mesh(shapes::open_cylinder(around, around / 4, 1, 2));
+    values = mesh.add_property_map<Halfedge, double>("h:u").first;
+    is_seam = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
+    for (const Face f : mesh.faces()) { // angles, from 0 at y = 0 up
+      const bool is_below = center(mesh, f).y < 0;
+      for (const Halfedge h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh)) {
+        const Vec3d p = at(mesh, mesh.target(h));
+        const double angle = std::abs(p.y) < 1e-9 && p.x > 0 ? 0 : std::atan2(p.y, p.x);
+        values[h] = angle + (is_below && angle <= 0 ? 2 * shapes::pi : 0);
+      }
+    }
+    for (const auto e : mesh.edges()) {
+      const Vec3d p = at(mesh, mesh.vertex(e, 0)), q = at(mesh, mesh.vertex(e, 1));
+      is_seam[e] = p.x > 0 && q.x > 0 && std::abs(p.y) + std::abs(q.y) < 1e-9;
+    }
+    return mesh;
+  };
+  const auto error = [&](int around, std::size_t n) {
+    Mesh::Property_map<Halfedge, double> values;
+    Mesh::Property_map<Mesh::Edge_index, bool> is_seam;
+    const Mesh input = mesh_with_values(around, values, is_seam);
+    Mesh output;
+    auto sources = output.add_property_map<Halfedge, Place>("h:source").first;
+    CGAL::power_rtf_remeshing(input, n, output, params::edge_is_constrained_map(is_seam),
+                              params::corner_source_map(sources));
+    auto new_values = output.add_property_map<Halfedge, double>("h:u").first;
+    transfer_corner_values(output, sources, input, values, new_values);
+    double largest = 0;
+    std::size_t jumps = 0;
+    for (const Face f : output.faces())
+      for (const Halfedge h : CGAL::halfedges_around_face(output.halfedge(f), output)) {
+        const Vec3d p = at(output, output.target(h));
+        double wanted = std::atan2(p.y, p.x);
+        if (wanted < -1e-9 || (wanted < 1e-9 && center(output, f).y < 0)) wanted += 2 * shapes::pi;
+        jumps += wanted > 6.28;
+        largest = (std::max)(largest, std::abs(new_values[h] - wanted));
+      }
+    CHECK(jumps > 3);
+    return largest;
+  };
+  const double coarse = error(24, 300), fine = error(96, 4800);
+  CHECK(coarse < 0.1);
+  CHECK(fine < coarse / 8);
+}
+
 TEST_CASE("the sources are the same for any number of threads")
 {
   const Soup soup = shapes::icosphere(4);

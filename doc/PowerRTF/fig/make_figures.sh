@@ -113,3 +113,32 @@ import sys
 from PIL import Image
 Image.open(sys.argv[1]).convert("RGB").quantize(256, kmeans=1).save(sys.argv[2], optimize=True)
 end
+
+# A texture on a knot, a tube whose texture has a seam along it and one across.
+awk 'BEGIN {
+  pi = atan2(0, -1); n = 160; m = 24
+  for (i = 0; i <= n; ++i) for (j = 0; j <= m; ++j) print "vt", 16 * i / n, 2 * j / m
+  for (i = 0; i < n; ++i) {
+    t = 2 * pi * i / n
+    x = sin(t) + 2 * sin(2 * t); y = cos(t) - 2 * cos(2 * t); z = -sin(3 * t)
+    tx = cos(t) + 4 * cos(2 * t); ty = -sin(t) + 4 * sin(2 * t); tz = -3 * cos(3 * t)
+    l = sqrt(tx * tx + ty * ty + tz * tz); tx /= l; ty /= l; tz /= l # along
+    bx = -tz * tx; by = -tz * ty; bz = 1 - tz * tz
+    l = sqrt(bx * bx + by * by + bz * bz); bx /= l; by /= l; bz /= l # across
+    nx = by * tz - bz * ty; ny = bz * tx - bx * tz; nz = bx * ty - by * tx
+    for (j = 0; j < m; ++j) {
+      c = 0.55 * cos(2 * pi * j / m); s = 0.55 * sin(2 * pi * j / m)
+      print "v", x + c * nx + s * bx, y + c * ny + s * by, z + c * nz + s * bz
+    }
+  }
+  for (i = 0; i < n; ++i) for (j = 0; j < m; ++j) {
+    a = i * m + j + 1; b = i * m + (j + 1) % m + 1; u = i * (m + 1) + j + 1
+    c = (i + 1) % n * m + j + 1; d = (i + 1) % n * m + (j + 1) % m + 1; w = u + m + 1
+    print "f", a "/" u, b "/" u + 1, d "/" w + 1; print "f", a "/" u, d "/" w + 1, c "/" w
+  }
+}' >"$work/before.obj"
+"$program" "$work/before.obj" "$work/after.obj" --samples 4000 --texture --quiet
+for name in before after; do
+  render "$work/$name.obj" "$target/texture_$name.png" --texture --up z --elevation 50 --zoom 2 \
+    --palette 128
+done

@@ -105,6 +105,14 @@ def draw_lattice(plotter, path, view):
         plotter.add_mesh(layer, color=color, lighting=False, line_width=1.3)
 
 
+def board():
+    """A texture of four by four squares, of other colors along both sides."""
+    u, v = numpy.meshgrid(numpy.arange(512) / 512, numpy.arange(512) / 512)
+    dark = (numpy.floor(4 * u) + numpy.floor(4 * v)) % 2
+    image = numpy.stack([0.95 - 0.5 * u, 0.8 - 0.2 * v, 0.4 + 0.5 * u], axis=-1)
+    return pyvista.Texture(numpy.uint8(255 * image * (1 - 0.35 * dark[..., None])))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("mesh")
@@ -116,6 +124,8 @@ def main():
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
                         help="of the colors; default: the 2nd to the 98th percentile")
     parser.add_argument("--color", default="#e9dcc3", help="where there is no --color-by")
+    parser.add_argument("--texture", action="store_true",
+                        help="draw a board of squares by the mesh's texture coordinates")
     parser.add_argument("--lattice", metavar="FILE",
                         help="drawn on the mesh, which is smooth then: the program's --fields")
     parser.add_argument("--up", choices="xyz", default="y", help="the model's axis (default: y)")
@@ -149,6 +159,8 @@ def main():
         values = numpy.asarray(mesh.cell_data[options.color_by], dtype=float)
         appearance = {"scalars": values, "cmap": "viridis",
                       "clim": options.range or numpy.nanpercentile(values, (2, 98))}
+    if options.texture:
+        appearance = {"texture": board()}
     plotter.add_mesh(mesh, show_edges=options.edges, edge_color="#202020",
                      line_width=options.edge_width, show_scalar_bar=False, ambient=0.3,
                      diffuse=0.8, specular=0.1, smooth_shading=bool(options.lattice), **appearance)

@@ -27,6 +27,7 @@ enum repair_t { repair };
 enum symmetry_t { symmetry };
 enum vertex_source_map_t { vertex_source_map };
 enum face_source_map_t { face_source_map };
+enum corner_source_map_t { corner_source_map };
 
 /// A chain of named parameters that goes on with our own and with those of CGAL's that we take.
 template <class T, class Tag, class Base = internal_np::No_property>
@@ -69,6 +70,11 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
   auto face_source_map(const Map& map) const
   {
     return with<face_source_map_t>(map);
+  }
+  template <class Map>
+  auto corner_source_map(const Map& map) const
+  {
+    return with<corner_source_map_t>(map);
   }
 
   template <class Map>
@@ -132,7 +138,8 @@ template <class NamedParameters>
 constexpr bool has_output_parameter()
 {
   return has_parameter<NamedParameters, vertex_source_map_t>() ||
-         has_parameter<NamedParameters, face_source_map_t>();
+         has_parameter<NamedParameters, face_source_map_t>() ||
+         has_parameter<NamedParameters, corner_source_map_t>();
 }
 
 } // namespace internal
@@ -200,6 +207,15 @@ template <class FaceSourceMap>
 auto face_source_map(const FaceSourceMap& map)
 {
   return internal::named_parameter<internal::face_source_map_t>(map);
+}
+
+/// Gets where the corners of the output's faces come from, for values that jump at the constrained
+/// edges of the input: a writable property map from the output's halfedges, which stand for the
+/// corners at their targets, to `Mesh_source` of the input.
+template <class CornerSourceMap>
+auto corner_source_map(const CornerSourceMap& map)
+{
+  return internal::named_parameter<internal::corner_source_map_t>(map);
 }
 
 /// The points of the vertices, as in `CGAL::parameters`.

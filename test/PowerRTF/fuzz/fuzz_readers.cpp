@@ -32,6 +32,11 @@ void check(const tools::Polygon_mesh& mesh)
     fuzz::promise(soup.points.empty() ? property.values.empty()
                                       : property.values.size() % soup.points.size() == 0,
                   "all vertices have values");
+  const tools::Texture& texture = mesh.properties.texture;
+  fuzz::promise(texture.empty() || texture.corners.size() == soup.corners.size(),
+                "a texture is of all corners");
+  for (const int c : texture.corners)
+    fuzz::promise(c >= -1 && c < int(texture.coordinates.size()), "corners have coordinates");
 }
 
 } // namespace

@@ -353,6 +353,25 @@ expect 'the report lists it' grep -q '^    "materials",$' r.json
 run 0 -- textured.obj out.off "${fast[@]}" --quiet --report r.json
 expect '--quiet does not say it' [ ! -s stderr ]
 expect 'the report lists it nevertheless' grep -q '^    "texture coordinates"$' r.json
+awk '/^v / { print; print "vt", $2, $3 } /^f / { print "f", $2 "/" $2, $3 "/" $3, $4 "/" $4 }' textured.obj |
+  sed '1i mtllib a.mtl' >uv.obj
+run 0 'not carried over to the output: texture coordinates' -- uv.obj out.ply "${fast[@]}" --texture
+run 0 -- uv.obj out.obj "${fast[@]}" --texture --report r.json
+has not_carried_over '[]'
+has texture true
+expect 'every vertex has texture coordinates' [ "$(grep -c '^vt ' out.obj)" = 200 ]
+for format in glb gltf; do
+  run 0 -- uv.obj "uv.$format" "${fast[@]}" --texture
+  run 0 -- "uv.$format" out.obj "${fast[@]}" --texture
+  expect "texture coordinates go through $format" [ "$(grep -c '^vt ' out.obj)" = 200 ]
+done
+run 0 -- torus.off torus.vtp -n 300 --iterations 5 --traits cpu --patches
+run 0 -- torus.vtp out.vtp "${fast[@]}" --labels patch --report r.json
+has input_vertices 300
+expect 'labels go from VTP to VTP' grep -q 'Name="patch"' out.vtp
+sed -i 's/^vt .*/vt 0 x/' uv.obj
+run 1 'its texture coordinates cannot be used: line' -- uv.obj out.off "${fast[@]}" --texture
+run 0 -- uv.obj out.off "${fast[@]}"
 
 # --- what the output has of the input: a torus whose colors and heights are linear functions of z
 off_to_ply <torus.off | awk '

@@ -16,6 +16,7 @@
 #include <boost/range/irange.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -143,17 +144,21 @@ struct Joined_mesh {
     for (std::size_t f = 0; f < input_polygons.size(); ++f) {
       Triangle t = triangles[f];
       for (int& v : t) v = input_points[v];
+      std::array<Source, 3> corners;
       for (int i = 0; i < 3; ++i) {
-        Source& s = result.vertices[triangles[f][i]];
-        s = {input_polygons[f], t, {0, 0, 0}};
-        s.weights[i] = 1;
+        corners[i] = {input_polygons[f], t, {0, 0, 0}};
+        corners[i].weights[i] = 1;
+        result.vertices[triangles[f][i]] = corners[i];
       }
+      if (!sources.corners.empty()) result.corners.push_back(corners);
       result.faces.push_back({input_polygons[f], t, {1. / 3, 1. / 3, 1. / 3}});
     }
     for (std::size_t v = 0; v < names.size(); ++v)
       if (names[v] >= static_cast<int>(input_points.size()))
         result.vertices[names[v]] = in_whole(sources.vertices[v]);
     for (const Source& s : sources.faces) result.faces.push_back(in_whole(s));
+    for (const auto& [a, b, c] : sources.corners)
+      result.corners.push_back({in_whole(a), in_whole(b), in_whole(c)});
     return result;
   }
 

@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_TRANSFER_MESH_SOURCE_H
 
 #include <CGAL/IO/Color.h>
+#include <CGAL/boost/graph/iterator.h>
 
 #include <boost/graph/graph_traits.hpp>
 
@@ -97,6 +98,31 @@ void transfer_face_values(const OutputMesh& output, const SourceMap& sources, co
                           ToMap to)
 {
   for (const auto f : faces(output)) put(to, f, get(from, get(sources, f).face));
+}
+
+/// Gives the corners of a result's faces the values of the input's corners, interpolated linearly
+/// in the face on their side of the constrained edges. A halfedge stands for the corner at its
+/// target.
+///
+/// \param sources readable: from the halfedges of `output` to `Mesh_source` of `input`, as the
+/// named
+///   parameter `corner_source_map` has set it
+/// \param from readable: from the halfedges of `input` to values, see `interpolated()`
+/// \param to writable: from the halfedges of `output` to the same type
+template <class OutputMesh, class SourceMap, class InputMesh, class FromMap, class ToMap>
+void transfer_corner_values(const OutputMesh& output, const SourceMap& sources,
+                            const InputMesh& input, const FromMap& from, ToMap to)
+{
+  for (const auto f : faces(output))
+    for (const auto h : halfedges_around_face(halfedge(f, output), output)) {
+      const auto& source = get(sources, h);
+      const auto value = [&](int i) {
+        auto corner = halfedge(source.face, input);
+        while (target(corner, input) != source.vertices[i]) corner = next(corner, input);
+        return get(from, corner);
+      };
+      put(to, h, interpolated(value(0), value(1), value(2), source.weights));
+    }
 }
 
 /// @}

@@ -10,9 +10,15 @@
 #include <CGAL/PowerRTF/input/read_mesh.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/named_parameters.h>
+#include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/transfer/Mesh_source.h>
+#include <CGAL/PowerRTF/transfer/find_corner_sources.h>
 #include <CGAL/PowerRTF/transfer/find_sources.h>
 
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/properties.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
@@ -55,10 +61,12 @@ struct Source_elements {
   std::vector<typename Graph_traits::face_descriptor> faces;
 };
 
-/// Sets the maps `vertex_source_map` and `face_source_map`, those of them that `np` has.
+/// Sets the maps `vertex_source_map`, `face_source_map` and `corner_source_map`, those of them that
+/// `np` has. \param triangles of the mesh that has become `output`
 template <class FaceGraph, class OutputMesh, class NamedParameters>
 void put_sources(const Sources& sources, const Source_elements<FaceGraph>& input,
-                 const Exported_mesh<OutputMesh>& exported, const NamedParameters& np)
+                 const Exported_mesh<OutputMesh>& exported, const std::vector<Triangle>& triangles,
+                 const OutputMesh& output, const NamedParameters& np)
 {
   if constexpr (has_parameter<NamedParameters, vertex_source_map_t>()) {
     const auto map = CGAL::parameters::get_parameter(np, vertex_source_map_t());
@@ -69,6 +77,18 @@ void put_sources(const Sources& sources, const Source_elements<FaceGraph>& input
     const auto map = CGAL::parameters::get_parameter(np, face_source_map_t());
     for (std::size_t f = 0; f < exported.faces.size(); ++f)
       put(map, exported.faces[f], input(sources.faces[f]));
+  }
+  if constexpr (has_parameter<NamedParameters, corner_source_map_t>()) {
+    const auto map = CGAL::parameters::get_parameter(np, corner_source_map_t());
+    const auto points = get(CGAL::dynamic_vertex_property_t<int>(), output);
+    for (std::size_t i = 0; i < exported.vertices.size(); ++i)
+      put(points, exported.vertices[i], exported.points[i]);
+    for (std::size_t f = 0; f < exported.faces.size(); ++f)
+      for (const auto h : halfedges_around_face(halfedge(exported.faces[f], output), output)) {
+        const Triangle& t = triangles[f];
+        const auto corner = std::find(t.begin(), t.end(), get(points, target(h, output)));
+        put(map, h, input(sources.corners[f][corner - t.begin()]));
+      }
   }
 }
 
@@ -112,16 +132,21 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
     elements.emplace(input);
     sources = find_sources(soup_of_mesh(input, np_in), normalization, report.faces_as_input(),
                            mesh.points, mesh.triangles, concurrency);
+    if constexpr (has_parameter<NamedParametersOut, corner_source_map_t>())
+      sources.corners = find_corner_sources(
+          soup_of_mesh(input, np_in), constrained_edges(input, np_in).value_or(std::vector<Edge>()),
+          normalization, mesh.points, mesh.triangles, sources, concurrency);
   }
   const Stage stage("write", report.seconds.write);
   if constexpr (puts_labels && has_labels) {
     const auto labels = label_values(input, np_in);
     const auto exported = export_mesh(mesh, normalization, output, np_out);
-    put_sources(sources, *elements, exported, np_out);
+    put_sources(sources, *elements, exported, mesh.triangles, output, np_out);
     put_labels(exported, np_out, [&](std::size_t f) { return labels[sources.faces[f].face]; });
   } else {
     const auto exported = export_mesh(mesh, normalization, output, np_out);
-    if constexpr (puts_sources) put_sources(sources, *elements, exported, np_out);
+    if constexpr (puts_sources)
+      put_sources(sources, *elements, exported, mesh.triangles, output, np_out);
     if constexpr (puts_labels)
       put_labels(exported, np_out, [numbers = patches()](std::size_t f) { return numbers[f]; });
   }

@@ -26,6 +26,8 @@ struct Source {
 /// The sources of a mesh.
 struct Sources {
   std::vector<Source> vertices, faces; ///< those of the faces are the sources of their centers
+  /// By triangle those of its corners, where they are asked for: see `find_corner_sources()`.
+  std::vector<std::array<Source, 3>> corners{};
 };
 
 /// The sources of a mesh: the places of `input` that are nearest to its vertices, which need not

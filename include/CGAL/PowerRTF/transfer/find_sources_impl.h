@@ -6,8 +6,7 @@
 #define CGAL_POWER_RTF_TRANSFER_FIND_SOURCES_IMPL_H
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
-#include <CGAL/PowerRTF/geometry/degenerate_facets.h>
-#include <CGAL/PowerRTF/input/polygon_triangulation.h>
+#include <CGAL/PowerRTF/transfer/Source_triangles.h>
 #include <CGAL/PowerRTF/transfer/find_sources.h>
 
 #include <algorithm>
@@ -17,34 +16,6 @@
 
 namespace CGAL::PowerRTF {
 namespace internal {
-
-/// The triangles of a polygon soup that have an area, in coordinates of the unit box.
-struct Source_triangles {
-  std::vector<Vec3d> points;
-  std::vector<Triangle> triangles;
-  std::vector<int> polygons; ///< of the triangles
-
-  Source_triangles(const Polygon_soup& soup, const Normalization& normalization)
-      : points(soup.points.size(), Vec3d{0, 0, 0})
-  {
-    for (const int v : soup.corners) points[v] = normalization.to_inside(soup.points[v]);
-    triangles.reserve(soup.first.size());
-    polygons.reserve(soup.first.size());
-    std::vector<Triangle> cut;
-    for (std::size_t k = 0; k + 1 < soup.first.size(); ++k) {
-      const std::vector<int> polygon(soup.corners.begin() + soup.first[k],
-                                     soup.corners.begin() + soup.first[k + 1]);
-      if (polygon.size() < 3) continue;
-      cut.clear();
-      triangulate_polygon(points, polygon, cut);
-      for (const Triangle& t : cut) {
-        if (is_degenerate(points[t[0]], points[t[1]], points[t[2]])) continue;
-        triangles.push_back(t);
-        polygons.push_back(static_cast<int>(k));
-      }
-    }
-  }
-};
 
 /// Finds the sources of single points.
 class Source_search {
@@ -63,14 +34,7 @@ public:
     if (m_is_oriented) nearest = m_tree.nearest(p, normal, 0, -1);
     if (nearest.facet < 0 || nearest.squared_distance > reach * reach)
       nearest = m_tree.nearest_anywhere(p);
-    Source result;
-    result.face = m_input.polygons[nearest.facet];
-    result.vertices = m_input.triangles[nearest.facet];
-    auto& [alpha, beta, gamma] = result.weights;
-    const auto corner = [&](int i) { return m_input.points[result.vertices[i]]; };
-    barycentric_coordinates(nearest.point, corner(0), corner(1), corner(2), beta, gamma);
-    alpha = (std::max)(0., 1 - beta - gamma);
-    return result;
+    return m_input.source(nearest.facet, nearest.point);
   }
 
 private:
