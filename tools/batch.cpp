@@ -124,6 +124,7 @@ public:
     Run run;
     run.options = m_options;
     run.options.is_batch = false;
+    run.options.meshes = size();
     run.options.input = item.input;
     run.options.output = item.output;
     run.options.report_file.clear();

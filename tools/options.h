@@ -9,6 +9,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -39,8 +40,9 @@ struct Program_options {
   int check_every = 0; ///< and every so many iterations; 0: only at the end
   int threads = 0;     ///< 0: all
   bool write_mesh = true;
-  bool is_batch = false; ///< the input lists files or is a folder, the output is a folder
-  std::string format;    ///< of a batch's outputs, as "off"; empty: as each input
+  bool is_batch = false;  ///< the input lists files or is a folder, the output is a folder
+  std::size_t meshes = 1; ///< that are remeshed with these options
+  std::string format;     ///< of a batch's outputs, as "off"; empty: as each input
   Encoding encoding = Encoding::binary; ///< of PLY and STL
   bool quiet = false;
 };

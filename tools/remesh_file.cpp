@@ -333,7 +333,7 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
   const Stopwatch total(run.report.seconds.total);
   about_input(options, [&] { return validate(options.remeshing); });
   check_outputs(options);
-  const std::future<void> gpu = start_gpu(options.traits, options.remeshing);
+  const std::future<void> gpu = start_gpu(options.traits, options.remeshing, options.meshes);
   Progress progress(options.quiet);
   const internal::Cancellation cancellation(progress);
   Input input = load(run);
@@ -358,7 +358,7 @@ void make_results(Run& run, std::optional<Outputs>& outputs)
     const bool may_fail = options.traits == "auto" && Traits::name() == std::string("cuda");
     make_results<Traits>(run, input, may_fail ? surface : std::move(surface), *outputs);
   };
-  with_traits(options.traits, prepared.options.remeshing, remesh);
+  with_traits(options.traits, prepared.options.remeshing, remesh, options.meshes);
 }
 
 } // namespace

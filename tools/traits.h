@@ -14,6 +14,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <future>
 #include <string>
 #include <thread>
@@ -30,17 +32,18 @@ struct Type {
 };
 
 #ifdef CGAL_POWER_RTF_WITH_CUDA
-/// Whether a GPU saves more than the start of its context costs, .35 s. What it saves is the
-/// processor time of the optimization: 60 us a sample, with the paper's rule for the weights
-/// 1.5 ms. (Measured on an H200 beside 4 and 16 cores.) `--threads` does not count, as it is to
-/// change no result.
-inline bool is_gpu_faster(const CGAL::PowerRTF::Remeshing_options& options)
+/// Whether a GPU saves so many like meshes more than the start of its context costs, .35 s. What it
+/// saves is processor time: 120 us a sample, with the paper's rule for the weights 1.5 ms, but for
+/// 35 ms a mesh. (Measured on an H100 beside 4 and 16 cores, and 600 meshes at a time.) `--threads`
+/// does not count, as it is to change no result.
+inline bool is_gpu_faster(const CGAL::PowerRTF::Remeshing_options& options, std::size_t meshes)
 {
-  constexpr double start = 0.35; // seconds
+  constexpr double start = 0.35, per_mesh = 0.035; // seconds
   const double per_sample =
-      options.weight_method == CGAL::PowerRTF::Weight_method::multiplicative ? 1.5e-3 : 6e-5;
+      options.weight_method == CGAL::PowerRTF::Weight_method::multiplicative ? 1.5e-3 : 1.2e-4;
   const unsigned cores = (std::max)(1u, std::thread::hardware_concurrency());
-  return per_sample * static_cast<double>(options.number_of_samples) > start * cores;
+  const double saved = per_sample * static_cast<double>(options.number_of_samples) - per_mesh;
+  return static_cast<double>(meshes) * saved > start * cores;
 }
 #endif
 
@@ -48,29 +51,30 @@ inline bool is_gpu_faster(const CGAL::PowerRTF::Remeshing_options& options)
 /// that.
 inline std::future<void>
 start_gpu([[maybe_unused]] const std::string& name,
-          [[maybe_unused]] const CGAL::PowerRTF::Remeshing_options& options)
+          [[maybe_unused]] const CGAL::PowerRTF::Remeshing_options& options,
+          [[maybe_unused]] std::size_t meshes = 1)
 {
 #ifdef CGAL_POWER_RTF_WITH_CUDA
-  if (name == "cuda" || (name == "auto" && is_gpu_faster(options)))
+  if (name == "cuda" || (name == "auto" && is_gpu_faster(options, meshes)))
     return CGAL::PowerRTF::start_cuda_device(options.device);
 #endif
   return {};
 }
 
 /// Returns `run(Type<Traits>(), gpu_not_used, has_failed)` for the traits of that name. For "auto",
-/// they are the faster of CPU and GPU, and the CPU stands in for a GPU that fails: `run` is called
-/// again, unless the GPU fails before. `gpu_not_used` says why no GPU is used although any traits
-/// will do, `has_failed` whether it could not.
+/// they are the faster of CPU and GPU for so many meshes like this one, and the CPU stands in for a
+/// GPU that fails: `run` is called again, unless the GPU fails before. `gpu_not_used` says why no
+/// GPU is used although any traits will do, `has_failed` whether it could not.
 template <class Run>
 auto with_traits(const std::string& name, const CGAL::PowerRTF::Remeshing_options& options,
-                 const Run& run)
+                 const Run& run, [[maybe_unused]] std::size_t meshes = 1)
 {
   using Cpu_traits = CGAL::PowerRTF_traits_3<Kernel, Concurrency>;
   if (name == "exact")
     return run(Type<CGAL::PowerRTF_exact_traits_3<Kernel, Concurrency>>(), std::string(), false);
   if (name == "cpu") return run(Type<Cpu_traits>(), std::string(), false);
 #ifdef CGAL_POWER_RTF_WITH_CUDA
-  if (name == "auto" && !is_gpu_faster(options))
+  if (name == "auto" && !is_gpu_faster(options, meshes))
     return run(Type<Cpu_traits>(), std::string("the CPU is faster for so few samples"), false);
   std::string gpu_not_used;
   try {
