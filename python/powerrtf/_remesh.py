@@ -34,13 +34,13 @@ def _vertex_values(values, name, count):
     return values
 
 
-def _labels(labels, count):
-    labels = index_array(labels, "labels")
-    if len(labels) != count:
-        raise InvalidInputError(f"labels has {len(labels)} entries, but there are {count} faces")
-    if len(labels) and np.abs(labels).max() > np.iinfo(np.int32).max:
-        raise InvalidInputError("labels has an entry that is too large")
-    return labels
+def _labels(face_labels, count):
+    face_labels = index_array(face_labels, "face_labels")
+    if len(face_labels) != count:
+        raise InvalidInputError(f"face_labels has {len(face_labels)} entries, but there are {count} faces")
+    if len(face_labels) and np.abs(face_labels).max() > np.iinfo(np.int32).max:
+        raise InvalidInputError("face_labels has an entry that is too large")
+    return face_labels
 
 
 def _region(region, count):
@@ -56,10 +56,10 @@ def _region(region, count):
     return array
 
 
-def _run(vertices, faces, options, *, sizing=None, refine=(), constrained_edges=None, labels=None, region=None,
-         patches=False, threads=0, progress=None, coordinates="double"):
+def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_edges=None, face_labels=None,
+         region=None, patches=False, threads=0, progress=None, coordinates="double"):
     resolutions = [name for name in RESOLUTIONS if name in options and (options[name] or name == "n")]
-    if sizing is not None and not resolutions:
+    if size_field is not None and not resolutions:
         options = {**options, "size_factor": 1.0}
     elif len(resolutions) != 1:
         raise InvalidInputError(f"one of {', '.join(RESOLUTIONS)} must be given, not "
@@ -73,14 +73,14 @@ def _run(vertices, faces, options, *, sizing=None, refine=(), constrained_edges=
               "refine": list(refine), "patches": bool(patches)}
     if not isinstance(options.get("density", ""), str):
         fields["density"] = _vertex_values(options.pop("density"), "density", len(vertices))
-    if sizing is not None:
-        fields["sizing"] = _vertex_values(sizing, "sizing", len(vertices))
+    if size_field is not None:
+        fields["sizing"] = _vertex_values(size_field, "size_field", len(vertices))
     if constrained_edges is not None:
         fields["constrained_edges"] = index_array(constrained_edges, "constrained_edges", (2,))
     corners, sizes = faces
     count = len(corners) if sizes is None else len(sizes)
-    if labels is not None:
-        fields["labels"] = _labels(labels, count)
+    if face_labels is not None:
+        fields["labels"] = _labels(face_labels, count)
     if region is not None:
         if patches:
             raise InvalidInputError("patches is about whole meshes: what region leaves has none")
@@ -93,8 +93,8 @@ def _run(vertices, faces, options, *, sizing=None, refine=(), constrained_edges=
         close()
     mesh = Mesh(points, triangles, numbers if patches else None, Report(json.loads(report)), sites, sources,
                 given)
-    if labels is not None:
-        mesh.labels = mesh.transfer(labels, of="faces")
+    if face_labels is not None:
+        mesh.labels = mesh.transfer(face_labels, of="faces")
     return mesh
 
 
@@ -104,15 +104,16 @@ def _warn(mesh):
     return mesh
 
 
-def remesh(vertices, faces=None, n=None, *, sizing=None, refine=(), constrained_edges=None, labels=None,
-           region=None, patches=False, threads=0, progress=None, options=None, **single):
+def remesh(vertices, faces=None, n=None, *, size_field=None, refine=(), constrained_edges=None,
+           face_labels=None, region=None, patches=False, threads=0, progress=None, options=None, **single):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
     corners, sizes = face_arrays(faces)
-    mesh = _run(points, (corners, sizes), given_options(options, n, single), sizing=sizing, refine=refine,
-                constrained_edges=constrained_edges, labels=labels, region=region, patches=patches,
-                threads=threads, progress=progress, coordinates=_precision(points.dtype == np.float32))
+    mesh = _run(points, (corners, sizes), given_options(options, n, single), size_field=size_field,
+                refine=refine, constrained_edges=constrained_edges, face_labels=face_labels, region=region,
+                patches=patches, threads=threads, progress=progress,
+                coordinates=_precision(points.dtype == np.float32))
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
     return _warn(mesh)
@@ -159,12 +160,12 @@ what the result lacks, if it does.
 :param faces: (m, 3) or more columns, or polygons of different sizes: vertices, numbered from 0
 :param n: the number of vertices asked for; or instead ``edge_length``, ``max_distance``, one of them
     relative to the diagonal, or ``vertex_share``
-:param sizing: a positive number for each vertex: the edge length that is wanted there. Without `n` or
+:param size_field: a positive number for each vertex: the edge length that is wanted there. Without `n` or
     what else gives it, the number of vertices comes from it
 :param refine: regions where edges are to be short: "sphere:x,y,z,r,h" or
     "box:x0,y0,z0,x1,y1,z1,h", with the length h
 :param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
-:param labels: (m,) whole numbers, one for each face: creases are kept between different ones, and
+:param face_labels: (m,) whole numbers, one for each face: creases are kept between different ones, and
     the result has them as ``labels``
 :param region: the faces to be remeshed, as a mask, (m,) bool, or by number: `n` is then the number of
     their vertices, those on their border included. The other faces, their vertices and the edges

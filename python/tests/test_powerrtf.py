@@ -59,15 +59,15 @@ def test_an_edge_length_or_a_share_of_the_vertices_gives_n():
 
 def test_edge_lengths_may_be_wanted_somewhere():
     points, faces = sphere(24)
-    even = powerrtf.remesh(points, faces, sizing=np.full(len(points), 0.2))
+    even = powerrtf.remesh(points, faces, size_field=np.full(len(points), 0.2))
     assert abs(even.report.edge_length_median / 0.2 - 1) < 0.02
-    coarse = powerrtf.remesh(points, faces, sizing=np.full(len(points), 0.2), size_factor=1.5)
+    coarse = powerrtf.remesh(points, faces, size_field=np.full(len(points), 0.2), size_factor=1.5)
     assert len(coarse.vertices) < 0.5 * len(even.vertices)
     refined = powerrtf.remesh(points, faces, edge_length=0.2, refine=["sphere:0,0,1,0.3,0.05"],
                               density="uniform")
     assert refined.report.edge_length_min < 0.05 and not refined.missed_guarantees
-    with pytest.raises(ValueError, match="sizing has 3 entries"):
-        powerrtf.remesh(points, faces, sizing=[1., 2, 3])
+    with pytest.raises(ValueError, match="size_field has 3 entries"):
+        powerrtf.remesh(points, faces, size_field=[1., 2, 3])
     with pytest.raises(ValueError, match="is neither sphere:x,y,z,r,h nor"):
         powerrtf.remesh(points, faces, 100, refine=["cone:1"])
 
@@ -75,7 +75,7 @@ def test_edge_lengths_may_be_wanted_somewhere():
 def test_labels_come_out_with_their_areas():
     points, faces = sphere(24)
     labels = np.where(points[faces].mean(axis=1)[:, 2] > 0, 7, -2)
-    mesh = powerrtf.remesh(points, faces, 800, labels=labels)
+    mesh = powerrtf.remesh(points, faces, 800, face_labels=labels)
 
     def area(points, faces):
         a, b, c = np.moveaxis(points[faces], 1, 0)
@@ -85,13 +85,13 @@ def test_labels_come_out_with_their_areas():
                    / area(points, faces[labels == label]) - 1) < 0.01
     assert mesh.report.crease_edges > 0 and set(mesh.labels) == {7, -2}
     assert powerrtf.remesh(points, faces, 100).labels is None
-    with pytest.raises(ValueError, match="labels has 2 entries"):
-        powerrtf.remesh(points, faces, 100, labels=[1, 2])
+    with pytest.raises(ValueError, match="face_labels has 2 entries"):
+        powerrtf.remesh(points, faces, 100, face_labels=[1, 2])
 
 
 def test_labels_leave_the_sources_for_a_transfer(monkeypatch):
     labels = (POINTS[FACES].mean(axis=1)[:, 2] > 0).astype(np.int16)
-    mesh = powerrtf.remesh(POINTS, FACES, 300, labels=labels)
+    mesh = powerrtf.remesh(POINTS, FACES, 300, face_labels=labels)
     monkeypatch.delattr(powerrtf._core, "sources")
     assert mesh.labels.dtype == np.int16 and np.array_equal(mesh.transfer(labels, of="faces"), mesh.labels)
     assert np.abs(mesh.transfer(POINTS) - mesh.vertices).max() < 0.05
@@ -101,7 +101,7 @@ def test_labels_leave_the_sources_for_a_transfer(monkeypatch):
 def test_what_is_no_region_stays_bit_for_bit(real):
     points, faces = sphere(16, real)
     inside = points[faces].mean(axis=1)[:, 2] > 0.2
-    mesh = powerrtf.remesh(points, faces, 200, region=inside, labels=np.arange(len(faces)) // 50)
+    mesh = powerrtf.remesh(points, faces, 200, region=inside, face_labels=np.arange(len(faces)) // 50)
     kept = np.count_nonzero(~inside)
     assert mesh.missed_guarantees == [] and mesh.vertices.dtype == real
     assert (mesh.vertices[mesh.faces[:kept]] == points[faces[~inside]]).all()
@@ -112,7 +112,7 @@ def test_what_is_no_region_stays_bit_for_bit(real):
     edges = np.sort(np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]]))
     assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
     by_number = powerrtf.remesh(points, faces, 200, region=np.flatnonzero(inside),
-                                labels=np.arange(len(faces)) // 50)
+                                face_labels=np.arange(len(faces)) // 50)
     assert (by_number.vertices == mesh.vertices).all()
 
 
