@@ -308,6 +308,9 @@ void set_fields(const po::variables_map& values, Program_options& o)
     o.region_value = text.substr(equal + 1);
     if (o.writes_patches) throw Usage_error("--patches: what --region leaves as it is has none");
   }
+  if (o.keeps_texture && o.remeshing.symmetry != CGAL::PowerRTF::Symmetry::none)
+    throw Usage_error("--texture and --symmetry exclude each other: the seams of a texture have no "
+                      "mirror images");
   if (!o.size_field.empty() && !o.density_field.empty())
     throw Usage_error("--size-field and --density-field exclude each other");
   if (o.remeshing.size_factor > 0 && o.size_field.empty())

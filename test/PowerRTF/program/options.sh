@@ -25,6 +25,7 @@ run 2 "'x'" 'not a number' -- torus.off out.off --edge-length x%
 run 2 "'0'" 'above 0' -- torus.off out.off -n 0%
 run 1 'torus.off' 'edge_length asks for' -- torus.off out.off --edge-length 1e-9
 run 2 'exclude each other' -- torus.off out.off --size-field a --density-field b
+run 2 'exclude each other' -- torus.off out.obj -n 100 --texture --symmetry x
 run 2 'no --size-field' -- torus.off out.off --size-factor 2
 run 2 'name is empty' -- torus.off out.off --size-field ''
 for region in '' sphere sphere: sphere:1,2,3,4 sphere:1,2,3,4,5,6 sphere:1,2,3,4,5, sphere:1,2,3,4,x box:1,2,3,4,5 \
