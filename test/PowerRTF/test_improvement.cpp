@@ -209,6 +209,21 @@ TEST_CASE("a tree of the surface can be shared")
   CHECK(mesh.triangles == other.triangles);
 }
 
+TEST_CASE("the facets that carry points may be known, of some or wrongly")
+{
+  const Case c = make_case(shapes::torus(60, 30, 1, 0.4), 300, 2);
+  const Facet_tree tree(c.surface.points, c.surface.triangles);
+  const Extracted_mesh other = improved(c);
+  std::vector<int> carriers;
+  for (std::size_t v = 0; v < c.raw.points.size() / 2; ++v)
+    carriers.push_back(v % 5 == 0 ? 0 : tree.nearest(c.raw.points[v]).facet);
+  Extracted_mesh mesh = c.raw;
+  CHECK(improve_mesh(c.surface, tree, mesh, CGAL::Sequential_tag(), Dislocations::annihilate,
+                     carriers));
+  CHECK(mesh.points == other.points);
+  CHECK(mesh.triangles == other.triangles);
+}
+
 TEST_CASE("deterministic, and the same at any scale")
 {
   const shapes::Soup soup = shapes::ellipsoid(1, 0.8, 0.5, 3);

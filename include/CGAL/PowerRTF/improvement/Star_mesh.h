@@ -47,7 +47,7 @@ public:
   /// Stands for all that has happened to a vertex and its neighbors.
   using State = std::uint64_t;
 
-  /// `carriers`: for each point of `mesh` the facet that it probably lies on; or empty.
+  /// `carriers`: for the first points of `mesh`, or none, the facets that they probably lie on.
   /// `concurrency`: of the loops over all of it.
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
@@ -73,8 +73,9 @@ public:
     for_each_chunk(concurrency, int(n), 256, [&](int begin, int end) {
       for (int v = begin; v < end; ++v) {
         const Vec3d& p = mesh.points[v];
-        const auto place = carriers.empty() ? projector.nearest(p, v > begin ? m_facets[v - 1] : -1)
-                                            : projector.on_facet(p, carriers[v], reach);
+        const auto place = std::size_t(v) < carriers.size()
+                               ? projector.on_facet(p, carriers[v], reach)
+                               : projector.nearest(p, v > begin ? m_facets[v - 1] : -1);
         m_facets[v] = place.facet;
         m.normals[v] = place.normal;
         m_movable[v] = is_interior(Vertex(v));

@@ -26,8 +26,8 @@ class Facet_tree;
 ///
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
-/// `dislocations`: those that are kept cost roundness, not time. `carriers`: for each point of
-/// `mesh` the facet that it probably lies on, which saves time; or empty.
+/// `dislocations`: those that are kept cost roundness, not time. `carriers`: for the first
+/// points of `mesh`, or none, the facets that they probably lie on, which saves time.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
