@@ -207,6 +207,21 @@ TEST_CASE("neighbors of more cells than are brought to the host at a time are mu
   CHECK(mutual > 0.99 * pairs); // tangent planes differ a little
 }
 
+TEST_CASE("corners and points on creases alone have no cells")
+{
+  Case c = cases()[5];
+  for (const std::size_t n : {8, 20}) {
+    CAPTURE(n);
+    c.options.number_of_samples = n;
+    const Start start(c);
+    Cuda_engine<float> engine(start.patches->surface(), c.options);
+    engine.set_samples(start.samples, start.patches->features());
+    CHECK(engine.cells().empty());
+    CHECK(engine.neighbors().size() == 0);
+    CHECK(engine.sites().size() > n);
+  }
+}
+
 TEST_CASE("distances are those that the CPU finds")
 {
   const Case c = cases()[0];

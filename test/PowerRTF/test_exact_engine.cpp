@@ -125,6 +125,33 @@ TEST_CASE("creases, borders and several components")
       options);
 }
 
+TEST_CASE("corners and points on creases alone have no cells")
+{
+  Remeshing_options options;
+  options.density = Density::uniform;
+  options.max_iterations = 3;
+  for (const std::size_t n : {8, 20}) {
+    CAPTURE(n);
+    options.number_of_samples = n;
+    Fast fast(with_density(shapes::box(5), options), options);
+    Exact exact(with_density(shapes::box(5), options), options);
+    Remeshing_default_visitor visitor;
+    for (const bool is_extracted : {false, true}) {
+      CAPTURE(is_extracted);
+      if (is_extracted) {
+        CHECK(fast.extract(visitor).triangles.size() == 2 * n - 4);
+        CHECK(exact.extract(visitor).triangles.size() == 2 * n - 4);
+      } else {
+        REQUIRE(fast.optimize(visitor));
+        REQUIRE(exact.optimize(visitor));
+      }
+      CHECK(fast.cells().empty());
+      CHECK(exact.cells().empty());
+      CHECK(fast.sites().size() > n);
+    }
+  }
+}
+
 TEST_CASE("the comparison sees what is wrong")
 {
   double cos_angle;

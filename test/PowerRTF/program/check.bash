@@ -45,6 +45,12 @@ run() {
   fi
 }
 
+# cube: a cube as OFF, of quadrangles
+cube() {
+  printf '%s\n' OFF '8 6 0' '0 0 0' '1 0 0' '0 1 0' '1 1 0' '0 0 1' '1 0 1' '0 1 1' '1 1 1' \
+    '4 0 2 3 1' '4 4 5 7 6' '4 0 1 5 4' '4 2 6 7 3' '4 0 4 6 2' '4 1 3 7 5'
+}
+
 # torus [N]: a torus as OFF, N x N/2 quadrangles cut in two
 torus() {
   awk -v n="${1:-40}" 'BEGIN {

@@ -168,6 +168,12 @@ expect 'binary samples have their size' \
 corners=$(sed '1,/end_header/d' c.ply | awk 'NF > 3 { sum += $1 } END { print sum }')
 expect 'binary cells have their size' \
   [ "$(sed '1,/end_header/d' b.ply | wc -c)" -eq $((corners * (24 + 4) + 200 * (1 + 24 + 8))) ]
+cube >cube.off
+for traits in cpu exact; do
+  run 0 -- cube.off out.off -n 8 --traits $traits --cells c.ply --html page.html --check --ascii
+  expect "corners alone have no cells ($traits)" grep -q '^element vertex 0$' c.ply
+  expect "the page has them, too ($traits)" grep -q '"cells":{"points":"","sides":""}' page.html
+done
 echo untouched >out.off
 run 0 -- torus.off out.off --no-mesh "${fast[@]}" --samples-out s.ply --report r.json
 expect '--no-mesh leaves the output' [ "$(cat out.off)" = untouched ]

@@ -57,7 +57,7 @@ public:
   void update(Backend& backend, const Sites_view<Real>& view, int cells,
               const std::vector<Real>& radii)
   {
-    if (int(m_lists.size()) != cells)
+    if (int(m_lists.size()) != cells || int(m_then.size()) != view.size())
       clear(backend, view, cells); // the radii are guessed
     else if (m_is_out_of_date)
       make(backend, view, radii);
