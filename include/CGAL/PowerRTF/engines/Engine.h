@@ -89,13 +89,15 @@ public:
   std::vector<Cell_polygon> cells() override;
   Neighbor_cycles neighbors() override;
   void release_memory() override;
-  bool find_distances(const Surface_view<double>& facets, int n, const Vec3d* points,
-                      double* squared_distances) override
+  Find_distances distance_finder() override
   {
-    if constexpr (Backend::is_host) // where it is done by groups
-      return false;
+    if constexpr (Backend::is_host)
+      return {};
     else
-      return internal::facet_distances(m_backend, facets, n, points, squared_distances);
+      return
+          [this](const Surface_view<double>& facets, int n, const Vec3d* points, double* squared) {
+            return internal::facet_distances(m_backend, facets, n, points, squared);
+          };
   }
   double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }
   Device_report device_report() override

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
+#include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
@@ -101,9 +102,9 @@ public:
   virtual std::vector<Cell_polygon> cells() = 0;
   virtual Neighbor_cycles neighbors() = 0;
   virtual void release_memory() = 0;
-  /// As `Find_distances`.
-  virtual bool find_distances(const Surface_view<double>& facets, int n, const Vec3d* points,
-                              double* squared_distances) = 0;
+  /// Finds distances where the engine works, or empty: on the host, where it is done by groups. The
+  /// engine has to live as long as the result.
+  virtual Find_distances distance_finder() = 0;
   virtual double epsilon() const = 0;
   virtual Device_report device_report() = 0;
 };

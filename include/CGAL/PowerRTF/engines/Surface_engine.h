@@ -48,9 +48,12 @@ public:
   std::vector<Cell_polygon> cells() { return m_engine->cells(); }
   Neighbor_cycles neighbors() { return m_engine->neighbors(); }
   void release_memory() { m_engine->release_memory(); }
-  /// Finds distances where the engine works; it has to live as long as the result. Empty: there
-  /// were no samples for it to work on.
-  Find_distances distance_finder();
+  /// Finds distances where the engine works; it has to live as long as the result. Empty: it works
+  /// on the host, or there were no samples for it to work on.
+  Find_distances distance_finder()
+  {
+    return m_engine ? m_engine->distance_finder() : Find_distances();
+  }
   double epsilon() const { return m_engine->epsilon(); }
   Device_report device_report() const { return m_engine->device_report(); }
   const Facet_tree& facet_tree();

@@ -75,14 +75,6 @@ CGAL_POWER_RTF_INLINE Make_lattice_field Surface_engine_base::lattice_field_make
   };
 }
 
-CGAL_POWER_RTF_INLINE Find_distances Surface_engine_base::distance_finder()
-{
-  if (!m_engine) return {};
-  return [this](const Surface_view<double>& facets, int n, const Vec3d* points, double* squared) {
-    return m_engine->find_distances(facets, n, points, squared);
-  };
-}
-
 CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
                                                             const Feature_samples& features)
 {
