@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "html_page.h"
 
+#include "Base64.h"
 #include "page_text.h"
 #include "traits.h"
 
@@ -11,7 +12,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <ostream>
 #include <string_view>
 #include <vector>
@@ -26,21 +26,7 @@ template <class Number>
 std::string base64(const std::vector<Number>& numbers)
 {
   static_assert(sizeof(Number) == 4, "what the page's typed arrays have");
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<unsigned char> bytes(4 * numbers.size());
-  if (!bytes.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t rest = bytes.size() - i;
-    const unsigned block = unsigned(bytes[i]) << 16 | (rest > 1 ? bytes[i + 1] : 0u) << 8 |
-                           (rest > 2 ? bytes[i + 2] : 0u);
-    text += digits[block >> 18];
-    text += digits[block >> 12 & 63];
-    text += rest > 1 ? digits[block >> 6 & 63] : '=';
-    text += rest > 2 ? digits[block & 63] : '=';
-  }
-  return text;
+  return to_base64({reinterpret_cast<const char*>(numbers.data()), 4 * numbers.size()});
 }
 
 /// Of each point the distance to the tree's facets, in the input's unit, and the facet.
