@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dataset.h"
 
+#include "Bytes.h"
 #include "Text.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <ostream>
 #include <string_view>
 #include <type_traits>
@@ -67,19 +67,11 @@ public:
       add_bytes<sizeof(x)>(static_cast<std::uint64_t>(x));
     else
       add_bytes<sizeof(x)>(
-          bits_of<std::conditional_t<sizeof(x) == 4, std::uint32_t, std::uint64_t>>(x));
+          bit_cast<std::conditional_t<sizeof(x) == 4, std::uint32_t, std::uint64_t>>(x));
   }
   void end() {}
 
 private:
-  template <class Bits, class Number>
-  static Bits bits_of(Number x)
-  {
-    Bits bits;
-    static_assert(sizeof(bits) == sizeof(x));
-    std::memcpy(&bits, &x, sizeof(x));
-    return bits;
-  }
   template <std::size_t count>
   void add_bytes(std::uint64_t bits)
   {

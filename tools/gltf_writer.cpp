@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Base64.h"
+#include "Bytes.h"
 #include "gltf_file.h"
 #include "gltf_mesh.h"
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <ostream>
 #include <tuple>
@@ -34,9 +34,7 @@ void append(std::string& bytes, std::uint64_t bits, int count)
 
 void append(std::string& bytes, float x)
 {
-  std::uint32_t bits;
-  std::memcpy(&bits, &x, sizeof(x));
-  append(bytes, bits, 4);
+  append(bytes, bit_cast<std::uint32_t>(x), 4);
 }
 
 /// The normal at each corner, the mean of those of the facets around its vertex that make less than
