@@ -30,7 +30,7 @@ const Mesh_property* find_property(const std::vector<Mesh_property>& properties,
 
 bool is_color(const std::string& name)
 {
-  return name == "red" || name == "green" || name == "blue" || name == "alpha";
+  return std::find(color_channels.begin(), color_channels.end(), name) != color_channels.end();
 }
 
 std::string in_words(const std::string& name, bool of_vertices)

@@ -9,6 +9,7 @@
 #include "Texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -88,6 +89,8 @@ struct Mesh_properties {
 /// The property of that name, or null.
 const Mesh_property* find_property(const std::vector<Mesh_property>& properties,
                                    const std::string& name);
+
+inline constexpr std::array<const char*, 4> color_channels = {"red", "green", "blue", "alpha"};
 
 /// Whether that is the name of a channel of a color.
 bool is_color(const std::string& name);

@@ -12,7 +12,6 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -67,26 +66,26 @@ private:
   std::vector<double> m_values;
 };
 
-inline constexpr const char* color_channels[] = {"red", "green", "blue"};
-
 /// The colors of vertices in OBJ: three numbers from 0 to 1 after the coordinates.
 class Obj_colors {
 public:
+  static constexpr std::size_t channels = 3;
+
   /// Reads what follows the coordinates of the next vertex, a color or a weight.
   void read(Tokenizer& tokens)
   {
     ++m_vertices;
     std::vector<double> numbers;
     while (tokens.next_in_line()) numbers.push_back(tokens.number());
-    if (numbers.size() != m_channels.size()) return;
-    for (std::size_t k = 0; k < numbers.size(); ++k) m_channels[k].push_back(255 * numbers[k]);
+    if (numbers.size() != channels) return;
+    for (std::size_t k = 0; k < channels; ++k) m_channels[k].push_back(255 * numbers[k]);
   }
   /// As the channels of one byte that other formats have.
   void add_to(Polygon_mesh& mesh)
   {
     const std::size_t colored = m_channels[0].size();
     if (colored == m_vertices)
-      for (std::size_t k = 0; k < m_channels.size(); ++k)
+      for (std::size_t k = 0; k < channels; ++k)
         mesh.properties.vertices.push_back(
             {color_channels[k], Number_type::uint8, std::move(m_channels[k])});
     else if (colored > 0)
@@ -95,7 +94,7 @@ public:
 
 private:
   std::size_t m_vertices = 0;
-  std::array<std::vector<double>, std::size(color_channels)> m_channels;
+  std::array<std::vector<double>, channels> m_channels;
 };
 
 /// The index of a vertex in OBJ, from 0; -1: there is none. \param n how many there are so far

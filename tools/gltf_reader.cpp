@@ -170,9 +170,8 @@ private:
     else
       properties.texture = {};
     m_colors.resize(m_mesh.soup.points.size(), {1, 1, 1, 1});
-    constexpr const char* channels[] = {"red", "green", "blue", "alpha"};
-    for (std::size_t k = 0; k < std::min<std::size_t>(m_channels, 4); ++k) {
-      Mesh_property channel{channels[k], Number_type::uint8, {}};
+    for (std::size_t k = 0; k < std::min(m_channels, color_channels.size()); ++k) {
+      Mesh_property channel{color_channels[k], Number_type::uint8, {}};
       for (const auto& color : m_colors) channel.values.push_back(255 * color[k]);
       properties.vertices.push_back(std::move(channel));
     }

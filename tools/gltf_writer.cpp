@@ -32,10 +32,7 @@ void append(std::string& bytes, std::uint64_t bits, int count)
   for (int i = 0; i < count; ++i) bytes += static_cast<char>(bits >> 8 * i);
 }
 
-void append(std::string& bytes, float x)
-{
-  append(bytes, bit_cast<std::uint32_t>(x), 4);
-}
+void append(std::string& bytes, float x) { append(bytes, bit_cast<std::uint32_t>(x), 4); }
 
 /// The normal at each corner, the mean of those of the facets around its vertex that make less than
 /// 40 degrees with its own.
@@ -143,7 +140,7 @@ Json attributes(Gltf_output& output, const Vertices& vertices, const std::vector
   std::string positions, normals, coordinates, colors;
   Float3 least{HUGE_VALF, HUGE_VALF, HUGE_VALF}, largest{-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
   std::vector<const Mesh_property*> channels;
-  for (const char* const name : {"red", "green", "blue", "alpha"})
+  for (const char* const name : color_channels)
     if (const Mesh_property* const p = find_property(properties.vertices, name))
       channels.push_back(p);
   for (std::size_t i = 0; i < vertices.points.size(); ++i) {

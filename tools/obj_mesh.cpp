@@ -123,10 +123,10 @@ void write_obj(std::ostream& out, const std::vector<Vec3d>& points,
                const std::vector<Triangle>& triangles, const Mesh_properties& properties)
 {
   std::vector<const Mesh_property*> colors;
-  for (const char* const channel : color_channels)
-    if (const Mesh_property* const p = find_property(properties.vertices, channel))
+  for (std::size_t k = 0; k < Obj_colors::channels; ++k)
+    if (const Mesh_property* const p = find_property(properties.vertices, color_channels[k]))
       colors.push_back(p);
-  if (colors.size() != std::size(color_channels)) colors.clear();
+  if (colors.size() != Obj_colors::channels) colors.clear();
   for (const std::string& file : properties.material_files) out << "mtllib " << file << '\n';
   write_rows(out, points.size(), [&](Text& text, std::size_t i) {
     text << "v " << points[i];

@@ -144,11 +144,10 @@ private:
   static std::string name_of(const Vtk_array& array, std::size_t k, bool are_normals)
   {
     constexpr const char* normals[] = {"nx", "ny", "nz"};
-    constexpr const char* colors[] = {"red", "green", "blue", "alpha"};
     const std::size_t n = array.components;
     if (n == 1) return array.name;
     if (n == 3 && are_normals) return normals[k];
-    if ((n == 3 || n == 4) && array.type == Number_type::uint8) return colors[k];
+    if ((n == 3 || n == 4) && array.type == Number_type::uint8) return color_channels[k];
     return array.name + "_" + std::to_string(k);
   }
 
