@@ -31,12 +31,8 @@ namespace internal {
 /// Creases and border edges, smaller vertex first, sorted.
 inline std::vector<Edge> feature_edges(const Surface& surface)
 {
-  std::vector<Edge> edges = surface.creases;
-  const std::vector<int>& opposite = surface.adjacency.opposite;
-  for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
-    if (opposite[h] == Facet_adjacency::none)
-      edges.push_back(sorted_edge(halfedge_source(surface.triangles, h),
-                                  halfedge_target(surface.triangles, h)));
+  std::vector<Edge> edges = border_edges(surface.triangles, surface.adjacency);
+  edges.insert(edges.end(), surface.creases.begin(), surface.creases.end());
   sort_uniquely(edges);
   return edges;
 }

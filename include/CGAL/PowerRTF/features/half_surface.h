@@ -138,13 +138,7 @@ private:
   /// Those that are left of the creases; in the plane, those on the border that arises.
   void add_creases()
   {
-    std::vector<Edge> border;
-    const std::vector<int>& opposite = m_half.adjacency.opposite;
-    for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
-      if (opposite[h] == Facet_adjacency::none)
-        border.push_back(sorted_edge(halfedge_source(m_half.triangles, h),
-                                     halfedge_target(m_half.triangles, h)));
-    sort_uniquely(border);
+    const std::vector<Edge> border = border_edges(m_half.triangles, m_half.adjacency);
     for (const auto& [a, b] : m_whole.creases) {
       if (is_cut(a, b)) {
         m_half.creases.push_back(sorted_edge(name(m_heights[a] > 0 ? a : b), crossing(a, b)));

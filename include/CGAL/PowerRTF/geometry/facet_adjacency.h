@@ -109,6 +109,18 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
   return result;
 }
 
+/// The edges where no facet follows, smaller vertex first, sorted.
+inline std::vector<Edge> border_edges(const std::vector<Triangle>& triangles,
+                                      const Facet_adjacency& adjacency)
+{
+  std::vector<Edge> edges;
+  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h)
+    if (adjacency.opposite[h] == Facet_adjacency::none)
+      edges.push_back(sorted_edge(halfedge_source(triangles, h), halfedge_target(triangles, h)));
+  sort_uniquely(edges);
+  return edges;
+}
+
 /// The component of each facet: facets that share an edge have the same number. Numbered by
 /// the first facet of each component.
 /// \returns the numbers (#F) and the number of components
