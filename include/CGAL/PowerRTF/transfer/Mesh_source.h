@@ -105,8 +105,7 @@ void transfer_face_values(const OutputMesh& output, const SourceMap& sources, co
 /// target.
 ///
 /// \param sources readable: from the halfedges of `output` to `Mesh_source` of `input`, as the
-/// named
-///   parameter `corner_source_map` has set it
+///   named parameter `corner_source_map` has set it
 /// \param from readable: from the halfedges of `input` to values, see `interpolated()`
 /// \param to writable: from the halfedges of `output` to the same type
 template <class OutputMesh, class SourceMap, class InputMesh, class FromMap, class ToMap>

@@ -130,12 +130,13 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
   if constexpr (puts_sources || (puts_labels && has_labels)) {
     const Stage stage("transfer", report.seconds.transfer);
     elements.emplace(input);
-    sources = find_sources(soup_of_mesh(input, np_in), normalization, report.faces_as_input(),
-                           mesh.points, mesh.triangles, concurrency);
+    const auto soup = soup_of_mesh(input, np_in);
+    sources = find_sources(soup, normalization, report.faces_as_input(), mesh.points,
+                           mesh.triangles, concurrency);
     if constexpr (has_parameter<NamedParametersOut, corner_source_map_t>())
-      sources.corners = find_corner_sources(
-          soup_of_mesh(input, np_in), constrained_edges(input, np_in).value_or(std::vector<Edge>()),
-          normalization, mesh.points, mesh.triangles, sources, concurrency);
+      sources.corners =
+          find_corner_sources(soup, constrained_edges(input, np_in).value_or(std::vector<Edge>()),
+                              normalization, mesh.points, mesh.triangles, sources, concurrency);
   }
   const Stage stage("write", report.seconds.write);
   if constexpr (puts_labels && has_labels) {
