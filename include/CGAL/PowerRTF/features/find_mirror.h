@@ -48,8 +48,7 @@ public:
   /// Whether all lies in one plane across `axis`, as nearly as may be.
   bool is_flat(int axis) const
   {
-    Vec3d size = m_box.hi - m_box.lo;
-    return Mirror_plane::coordinate(size, axis) <= tolerance();
+    return Mirror_plane::coordinate(m_box.hi - m_box.lo, axis) <= tolerance();
   }
 
   /// The best plane across `axis`, unless `best` is as good.
@@ -57,8 +56,7 @@ public:
   {
     const Normalization& normalization = m_surface.normalization;
     const auto coordinate = [&](const Vec3d& point) {
-      Vec3d place = normalization.snapped(point);
-      return Mirror_plane::coordinate(place, axis);
+      return Mirror_plane::coordinate(normalization.snapped(point), axis);
     };
     const double middle = coordinate(0.5 * (m_box.lo + m_box.hi)),
                  origin = coordinate(normalization.to_inside({0, 0, 0}));
@@ -84,7 +82,7 @@ public:
   {
     const double unit = 1 / m_surface.normalization.scale;
     const Vec3d p = m_surface.normalization.to_outside(best.farthest);
-    Vec3d on_plane = m_surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
+    const Vec3d on_plane = m_surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
     std::ostringstream text;
     text << "the surface is not symmetric about ";
     if (!is_given) text << "any plane across an axis; the best is ";
@@ -173,7 +171,7 @@ inline Mirror_plane find_mirror(const Surface& surface, Symmetry wanted, double 
   }
   if (search.deviation(best) > search.tolerance())
     throw Invalid_input_error(search.reason(best, is_given));
-  Vec3d on_plane = surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
+  const Vec3d on_plane = surface.normalization.to_outside(best.plane.foot({0, 0, 0}));
   report.axis = "xyz"[best.plane.axis];
   report.at = Mirror_plane::coordinate(on_plane, best.plane.axis);
   report.deviation = search.deviation(best) / surface.normalization.scale;

@@ -14,9 +14,13 @@ struct Mirror_plane {
   double at; ///< the coordinate of all its points
 
   static double& coordinate(Vec3d& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+  static double coordinate(const Vec3d& p, int axis)
+  {
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  }
 
   /// How far `p` is above the plane.
-  double height(Vec3d p) const { return coordinate(p, axis) - at; }
+  double height(const Vec3d& p) const { return coordinate(p, axis) - at; }
   bool has(const Vec3d& p) const { return height(p) == 0; }
   Vec3d image(Vec3d p) const
   {
