@@ -192,9 +192,8 @@ private:
             "may be given several times")(
             "region", text("NAME=VALUE"),
             "remesh only the input's faces of which that property has that value (PLY, VTP), or "
-            "whose "
-            "material or group has that name (OBJ), N vertices in all; the others stay as they "
-            "are, with the border between")(
+            "whose material or group has that name (OBJ), N vertices in all; the others stay as "
+            "they are, with the border between")(
             "labels", text("NAME"),
             "a property of the input's faces, of whole numbers (PLY, VTP), or material or group "
             "(OBJ): "

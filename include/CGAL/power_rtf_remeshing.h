@@ -318,8 +318,7 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
 {
   static_assert(!PowerRTF::internal::has_output_parameter<NamedParametersIn>(),
                 "vertex_source_map, face_source_map and corner_source_map belong into the second "
-                "chain of named "
-                "parameters");
+                "chain of named parameters");
   static_assert(
       !PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
       "density_map, sizing_map, refinements, remeshing_options, repair and symmetry belong "
@@ -388,8 +387,8 @@ power_rtf_remeshing(const FaceRange& faces, PolygonMesh& mesh,
                     const NamedParameters& np = parameters::default_values())
 {
   static_assert(!PowerRTF::internal::has_output_parameter<NamedParameters>(),
-                "there are no maps of sources here: they would have the "
-                "descriptors of elements that are no more");
+                "there are no maps of sources here: they would have the descriptors of elements "
+                "that are no more");
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, PolygonMesh, NamedParameters>;
   using Point_map = typename GetVertexPointMap<PolygonMesh, NamedParameters>::type;
   using Point = typename boost::property_traits<Point_map>::value_type;
