@@ -7,6 +7,7 @@
 #include <thrust/iterator/counting_iterator.h>
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 namespace CGAL::PowerRTF::device {
@@ -51,6 +52,58 @@ void Cuda_backend::give_back_pinned(void* block, std::size_t bytes) noexcept
 {
   cudaStreamSynchronize(stream());
   m_context.pinned_memory().give_back(block, bytes);
+}
+
+char* Cuda_backend::stage(std::size_t part)
+{
+  if (!m_stages) m_stages.emplace(*this, 2 * stage_bytes);
+  return static_cast<char*>(m_stages->data()) + part % 2 * stage_bytes;
+}
+
+namespace {
+
+/// Copies in the host's memory.
+void copy_in_parallel(char* to, const char* from, std::size_t bytes)
+{
+  constexpr std::size_t piece = std::size_t(1) << 17;
+  internal::for_each_chunk(Cuda_backend::concurrency(), int((bytes + piece - 1) / piece), 1,
+                           [&](int k, int) {
+                             const std::size_t begin = k * piece;
+                             std::memcpy(to + begin, from + begin, std::min(piece, bytes - begin));
+                           });
+}
+
+} // namespace
+
+void Cuda_backend::upload_staged(void* to, const void* from, std::size_t bytes)
+{
+  for (std::size_t begin = 0; begin < bytes; begin += stage_bytes) {
+    const std::size_t size = std::min(stage_bytes, bytes - begin);
+    char* const part = stage(begin / stage_bytes);
+    copy_in_parallel(part, static_cast<const char*>(from) + begin, size);
+    synchronize(); // the part before
+    check(cudaMemcpyAsync(static_cast<char*>(to) + begin, part, size, cudaMemcpyHostToDevice,
+                          stream()),
+          "upload");
+  }
+  synchronize();
+}
+
+void Cuda_backend::download_staged(void* to, const void* from, std::size_t bytes)
+{
+  const auto start = [&](std::size_t begin) {
+    if (begin >= bytes) return;
+    check(cudaMemcpyAsync(stage(begin / stage_bytes), static_cast<const char*>(from) + begin,
+                          std::min(stage_bytes, bytes - begin), cudaMemcpyDeviceToHost, stream()),
+          "download");
+  };
+  start(0);
+  for (std::size_t begin = 0; begin < bytes; begin += stage_bytes) {
+    synchronize();
+    start(begin + stage_bytes);
+    copy_in_parallel(static_cast<char*>(to) + begin, stage(begin / stage_bytes),
+                     std::min(stage_bytes, bytes - begin));
+  }
 }
 
 double Cuda_backend::seconds() const

@@ -10,6 +10,9 @@
 #include "Device_context.h"
 #include "kernels.cuh"
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#include <CGAL/tags.h>
 
 #include <cuda_runtime.h>
 
@@ -18,6 +21,7 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -28,6 +32,8 @@ public:
   static constexpr bool is_host = false;
   static constexpr bool works_by_warps = true;
   static constexpr int max_resident = 300000; ///< threads that a GPU runs at once
+  /// Of what is done in the host's memory.
+  static internal::Concurrency concurrency() { return Parallel_if_available_tag(); }
 
   /// Device memory that is given back with it. Its contents are lost when it grows.
   template <class T>
@@ -125,13 +131,6 @@ public:
     check(cudaGetLastError(), "starting a kernel");
   }
 
-  /// Calls `f(i)` for i in [0, n) in the host's memory.
-  template <class F>
-  static void for_each_on_host(int n, F&& f)
-  {
-    for (int i = 0; i < n; ++i) f(i);
-  }
-
   /// Calls `f(i, lanes)` for i in [0, n): by eight lanes each when there are few items.
   template <class F>
   void for_each_by_lanes(int n, F f)
@@ -208,13 +207,16 @@ public:
   template <class T>
   void upload(T* to, const T* from, std::size_t n)
   {
-    check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyHostToDevice, stream()), "upload");
+    const std::size_t bytes = n * sizeof(T);
+    if (bytes > staged_bytes) return upload_staged(to, from, bytes);
+    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream()), "upload");
     synchronize();
   }
   template <class T>
   void download(T* to, const T* from, std::size_t n)
   {
     const std::size_t bytes = n * sizeof(T);
+    if (bytes > staged_bytes) return download_staged(to, from, bytes);
     const bool is_small = bytes <= pinned_bytes; // at once, without the runtime's own buffer
     check(cudaMemcpyAsync(is_small ? m_pinned.data() : static_cast<void*>(to), from, bytes,
                           cudaMemcpyDeviceToHost, stream()),
@@ -279,6 +281,13 @@ private:
   void* take_pinned(std::size_t bytes);
   void give_back_pinned(void* block, std::size_t bytes) noexcept;
 
+  /// All threads of the host copy an array through pinned memory, part by part, where the runtime
+  /// would have one do it; the bus has a part meanwhile.
+  void upload_staged(void* to, const void* from, std::size_t bytes);
+  void download_staged(void* to, const void* from, std::size_t bytes);
+  /// Room for a part, one of two in turn.
+  char* stage(std::size_t part);
+
   template <class F>
   int max_team_blocks() const
   {
@@ -303,8 +312,10 @@ private:
   Device_context& m_context;
   Borrowed_stream m_stream;
   std::size_t m_bytes = 0, m_most_bytes = 0;
-  static constexpr std::size_t pinned_bytes = 4096;
+  static constexpr std::size_t pinned_bytes = 4096, staged_bytes = std::size_t(1) << 20,
+                               stage_bytes = std::size_t(1) << 22;
   Pinned_block m_pinned;
+  std::optional<Pinned_block> m_stages; // once they are needed
   Buffer<double> m_partials;
   Buffer<unsigned> m_ticket;
   Sort_arrays m_sort;

@@ -23,6 +23,8 @@ public:
   static constexpr bool works_by_warps;
   /// Items up to which `run_resident_team()` is worth trying.
   static constexpr int max_resident;
+  /// Of loops in the host's memory beside those of the backend.
+  static CGAL::PowerRTF::internal::Concurrency concurrency();
 
   /// An array. It is default constructible and frees its memory; what it holds is lost when it
   /// grows.

@@ -8,6 +8,8 @@
 #include <CGAL/PowerRTF/engines/Engine.h>
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -73,14 +75,19 @@ void Engine<R, B, C>::sort(const Engine_samples& samples)
 {
   const int n = m_cells, m = m_size;
   internal::Unset_vector<Site<R>> sites(m);
-  m_backend.for_each_on_host(m, [&](int i) { sites[i] = {to_real<R>(samples.points[i]), R(0)}; });
+  internal::for_each_index(B::concurrency(), m, [&](int i) {
+    sites[i] = {to_real<R>(samples.points[i]), R(0)};
+  });
   m_backend.upload(m_sites.data(), sites.data(), m);
   Buffer<std::uint64_t> codes;
   Buffer<int> places;
   codes.allocate(m_backend, n);
   places.allocate(m_backend, n);
-  Box3<double> box{samples.points[0], samples.points[0]};
-  for (const Vec3d& p : samples.points) box.add(p);
+  const Vec3d& first = samples.points[0];
+  const Box3<double> box = internal::reduce(
+      B::concurrency(), m, Box3<double>{first, first},
+      [&](Box3<double>& b, int i) { b.add(samples.points[i]); },
+      [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
   find_hilbert_codes(m_backend, n, m_sites.data(), box, codes.data());
   m_backend.sort_order(n, codes.data(), places.data());
   std::vector<int> order(m);
@@ -90,7 +97,7 @@ void Engine<R, B, C>::sort(const Engine_samples& samples)
   internal::Unset_vector<int> facets(m), patches(m_has_patches ? m : 0);
   internal::Unset_vector<Vec3<R>> normals(m);
   internal::Unset_vector<R> density(m);
-  m_backend.for_each_on_host(m, [&](int i) {
+  internal::for_each_index(B::concurrency(), m, [&](int i) {
     const int k = order[i];
     sites[i] = {to_real<R>(samples.points[k]), R(0)};
     facets[i] = samples.facets[k];
@@ -158,7 +165,7 @@ Engine_samples Engine<R, B, C>::samples()
   }
   for (auto v : {&s.points, &s.normals}) v->resize(m_size);
   for (auto v : {&s.weights, &s.density}) v->resize(m_size);
-  m_backend.for_each_on_host(m_size, [&](int i) {
+  internal::for_each_index(B::concurrency(), m_size, [&](int i) {
     s.points[i] = to_double(sites[i].point);
     s.weights[i] = sites[i].weight;
     s.normals[i] = to_double(normals[i]);

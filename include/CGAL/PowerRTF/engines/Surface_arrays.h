@@ -7,12 +7,12 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
-#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <cstddef>
 #include <type_traits>
-#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -134,12 +134,9 @@ private:
   template <class T, class Item>
   static const T* upload_each(Backend& backend, Buffer<T>& buffer, const Item& item)
   {
-    std::vector<T> items;
-    items.reserve(buffer.size());
-    for (std::size_t i = 0; i < buffer.size(); ++i) {
-      internal::Cancellation::poll_now_and_then();
-      items.push_back(item(i));
-    }
+    internal::Unset_vector<T> items(buffer.size());
+    internal::for_each_index(Backend::concurrency(), static_cast<int>(items.size()),
+                             [&](int i) { items[i] = item(i); });
     return upload(backend, buffer, items.data());
   }
 

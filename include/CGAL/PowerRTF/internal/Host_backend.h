@@ -64,12 +64,6 @@ public:
   {
     internal::for_each_index<ConcurrencyTag>(n, f);
   }
-  /// The same over the host's memory.
-  template <class F>
-  void for_each_on_host(int n, F&& f)
-  {
-    for_each(n, [&](int i) { f(i); });
-  }
 
   /// Calls `f(i, lanes)` for i in [0, n), in any order; lanes would work on i together.
   template <class F>
