@@ -51,7 +51,7 @@ public:
   {
     Progress_part part(0.4);
     const std::vector<int> faulty =
-        find_where([this](int v) { return !is_whole(v) || !lies_well(v); });
+        select(ConcurrencyTag(), m_size, [this](int v) { return !is_whole(v) || !lies_well(v); });
     part.next(0.6);
     if (!close(faulty)) return false;
     part.next(0.7);
@@ -97,9 +97,8 @@ private:
   }
   void find_spacing()
   {
-    double shares = 0;
-    for (int v = 0; v < m_size; ++v)
-      shares += m_samples.density.empty() ? 1 : 1 / m_samples.density[v];
+    const double shares = sum<ConcurrencyTag>(
+        m_size, [&](int v) { return m_samples.density.empty() ? 1 : 1 / m_samples.density[v]; });
     m_unit = std::sqrt(m_surface.area / std::max(shares, 1.));
   }
 
@@ -107,17 +106,6 @@ private:
   double reach(int v) const
   {
     return first_reach * std::pow(growth, m_openings[v] - 1) * spacing(v);
-  }
-
-  template <class Is_wanted>
-  std::vector<int> find_where(const Is_wanted& is_wanted) const
-  {
-    std::vector<char> marks(m_size, 0);
-    for_each_index<ConcurrencyTag>(m_size, [&](int v) { marks[v] = is_wanted(v); });
-    std::vector<int> found;
-    for (int v = 0; v < m_size; ++v)
-      if (marks[v]) found.push_back(v);
-    return found;
   }
 
   // The triangles at a sample as they are now.
@@ -221,7 +209,7 @@ private:
       for (const int v : faulty) ++m_openings[v];
       if (!add_pieces(faulty)) return false;
       gather_made();
-      faulty = find_where([this](int v) { return !is_whole(v); });
+      faulty = select(ConcurrencyTag(), m_size, [this](int v) { return !is_whole(v); });
     }
     return faulty.empty();
   }
@@ -326,24 +314,24 @@ private:
       m_mesh.points[v] = m_surface.normalization.snapped(m_samples.points[v]);
     });
     constexpr int chunk = 1024;
-    std::vector<std::vector<Triangle>> parts((m_stars.cells() + chunk - 1) / chunk);
-    for_each_chunk<ConcurrencyTag>(m_stars.cells(), chunk, [&](int begin, int end) {
+    std::vector<std::vector<Triangle>> parts((m_size + chunk - 1) / chunk);
+    for_each_chunk<ConcurrencyTag>(m_size, chunk, [&](int begin, int end) {
       std::vector<Triangle>& part = parts[begin / chunk];
-      for (int v = begin; v < end; ++v) {
+      const auto made = [&](int v) { // the first that begins at v or later
+        return std::lower_bound(m_made_triangles.begin(), m_made_triangles.end(),
+                                Triangle{v, -1, -1});
+      };
+      part.assign(made(begin), made(end));
+      for (int v = begin; v < std::min(end, m_stars.cells()); ++v) {
         if (is_open(v)) continue;
-        const std::size_t first = part.size();
         m_stars.for_each_at(v, [&](const Fan_corner& c) {
           if (v < c[0] && v < c[1] && !is_open(c[0]) && !is_open(c[1]))
             part.push_back({v, c[0], c[1]});
         });
-        std::sort(part.begin() + first, part.end());
       }
+      std::sort(part.begin(), part.end());
     });
-    std::vector<Triangle> agreed;
-    for (const auto& part : parts) agreed.insert(agreed.end(), part.begin(), part.end());
-    m_mesh.triangles.resize(agreed.size() + m_made_triangles.size());
-    std::merge(agreed.begin(), agreed.end(), m_made_triangles.begin(), m_made_triangles.end(),
-               m_mesh.triangles.begin());
+    m_mesh.triangles = concatenated(ConcurrencyTag(), parts);
     m_mesh.feature_edges.clear();
     for (const Edge& e : m_features.edges)
       m_mesh.feature_edges.push_back(sorted_edge(m_stars.cells() + e[0], m_stars.cells() + e[1]));

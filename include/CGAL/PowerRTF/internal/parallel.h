@@ -115,19 +115,31 @@ void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t 
   v.resize(n, item);
 }
 
+/// The vectors one after the other.
+template <class T>
+std::vector<T> concatenated(Concurrency concurrency, const std::vector<std::vector<T>>& parts)
+{
+  std::vector<std::size_t> first(parts.size() + 1, 0);
+  for (std::size_t k = 0; k < parts.size(); ++k) first[k + 1] = first[k] + parts[k].size();
+  std::vector<T> all;
+  resize_in_parallel(concurrency, all, first.back());
+  for_each_chunk(concurrency, static_cast<int>(parts.size()), 1, [&](int k, int) {
+    std::copy(parts[k].begin(), parts[k].end(), all.begin() + first[k]);
+  });
+  return all;
+}
+
 /// The items i of [0, n) with `is_wanted(i)`, in order.
 template <class F>
 std::vector<int> select(Concurrency concurrency, int n, F&& is_wanted)
 {
-  constexpr int chunk = 4096;
+  const int chunk = std::clamp(n / 128, 256, 4096);
   std::vector<std::vector<int>> parts((n + chunk - 1) / chunk);
   for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
       if (is_wanted(i)) parts[begin / chunk].push_back(i);
   });
-  std::vector<int> all;
-  for (const std::vector<int>& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  return concatenated(concurrency, parts);
 }
 
 /// Folds `accumulate(partial, i)` over the indices of each chunk, then `join(total, partial)` over

@@ -60,7 +60,10 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   if (report.quality.q_min < round_quality || report.quality.theta_min < round_angle)
     report.thin = thin_parts(patches, mesh.points.size(), concurrency);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
-  const Edge_length_statistics lengths = edge_lengths(mesh.points, mesh.triangles, concurrency);
+  const Topology_statistics& t = report.topology;
+  const bool is_closed = t.oriented && t.border_edges == 0; // and so without non-manifold edges
+  const Edge_length_statistics lengths =
+      edge_lengths(mesh.points, mesh.triangles, concurrency, is_closed);
   report.edge_length = {unit * lengths.mean, unit * lengths.median, unit * lengths.min,
                         unit * lengths.max};
   const Box3<double> box = internal::bounding_box(surface.points, surface.triangles, concurrency);

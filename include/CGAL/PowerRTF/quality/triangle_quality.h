@@ -114,18 +114,29 @@ inline std::vector<Edge> edges_of(const std::vector<Triangle>& triangles,
 }
 
 /// Lengths of the edges of the `triangles`, in the unit of the `points`. All zero when there is no
-/// triangle.
+/// triangle. `is_closed`: each edge is there once in either direction.
 inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
                                            const std::vector<Triangle>& triangles,
-                                           internal::Concurrency concurrency = Sequential_tag())
+                                           internal::Concurrency concurrency = Sequential_tag(),
+                                           bool is_closed = false)
 {
-  const std::vector<Edge> edges = edges_of(triangles, concurrency);
-  if (edges.empty()) return {};
-  const int size = static_cast<int>(edges.size());
+  const auto ends = [&](int h) {
+    return Edge{halfedge_source(triangles, h), halfedge_target(triangles, h)};
+  };
+  std::vector<int> halfedges; // one of each edge
+  std::vector<Edge> edges;    // if these are not to be told so easily
+  if (is_closed)
+    halfedges = internal::select(concurrency, static_cast<int>(3 * triangles.size()),
+                                 [&](int h) { return ends(h)[0] < ends(h)[1]; });
+  else
+    edges = edges_of(triangles, concurrency);
+  const int size = static_cast<int>(is_closed ? halfedges.size() : edges.size());
+  if (size == 0) return {};
   std::vector<double> lengths;
   internal::resize_in_parallel(concurrency, lengths, size);
   internal::for_each_index(concurrency, size, [&](int e) {
-    lengths[e] = length(points[edges[e][1]] - points[edges[e][0]]);
+    const Edge edge = is_closed ? ends(halfedges[e]) : edges[e];
+    lengths[e] = length(points[edge[1]] - points[edge[0]]);
   });
   Edge_length_statistics result = internal::reduce(
       concurrency, size, Edge_length_statistics{0, 0, std::numeric_limits<double>::max(), 0},

@@ -87,7 +87,7 @@ public:
     make_nodes();
     Lattice_field<Backend> field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
     find_points(field);
-    add_points();
+    set_candidates([](int) { return false; });
     return described(field.view());
   }
 
@@ -192,15 +192,17 @@ private:
 
   void choose_points(Lattice_field_base& field)
   {
-    const Chosen_points chosen = field.points();
-    m_chosen = {};
-    m_chosen.nodes.reserve(chosen.nodes.size());
-    m_chosen.points.reserve(chosen.nodes.size());
-    for (std::size_t k = 0; k < chosen.nodes.size(); ++k) {
-      if (!has_lattice(chosen.nodes[k])) continue;
-      m_chosen.nodes.push_back(chosen.nodes[k]);
-      m_chosen.points.push_back(chosen.points[k]);
+    m_chosen = field.points();
+    const std::vector<int> kept =
+        internal::select(m_backend.concurrency(), static_cast<int>(m_chosen.nodes.size()),
+                         [&](int k) { return has_lattice(m_chosen.nodes[k]); });
+    if (kept.size() == m_chosen.nodes.size()) return;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      m_chosen.nodes[k] = m_chosen.nodes[kept[k]];
+      m_chosen.points[k] = m_chosen.points[kept[k]];
     }
+    m_chosen.nodes.resize(kept.size());
+    m_chosen.points.resize(kept.size());
   }
 
   bool has_lattice(int node) const
@@ -211,53 +213,77 @@ private:
   /// The lattice's points, and the nodes in its gaps.
   void add_candidates(Lattice_field_base& field)
   {
-    add_points();
     const std::vector<unsigned char> is_gap = field.gaps(m_chosen);
-    add_nodes([&](int i) { return !has_lattice(i) || is_gap[i]; });
+    set_candidates([&](int i) { return !has_lattice(i) || is_gap[i]; });
   }
 
-  void add_points()
+  /// Makes candidates of the lattice's points, then of the free nodes that are wanted.
+  template <class IsWanted>
+  void set_candidates(IsWanted is_wanted)
   {
-    m_candidates.resize(m_chosen.nodes.size());
+    const int points = static_cast<int>(m_chosen.nodes.size());
+    const std::vector<int> nodes = wanted_nodes(is_wanted);
+    m_candidates.resize(points + nodes.size());
     m_backend.for_each(static_cast<int>(m_candidates.size()), [&](int k) {
+      if (k >= points) {
+        m_candidates[k] = candidate(nodes[k - points]);
+        return;
+      }
       const Seen_point& p = m_chosen.points[k];
       m_candidates[k] = {to_double(p.point), m_chosen.nodes[k], p.distance};
     });
   }
 
-  /// Makes the free nodes that are wanted candidates.
   template <class IsWanted>
-  void add_nodes(IsWanted is_wanted)
+  std::vector<int> wanted_nodes(IsWanted is_wanted) const
   {
-    const Lattice_nodes& nodes = m_levels.front();
-    for (const int i : internal::select(m_backend.concurrency(), nodes.free, is_wanted))
-      m_candidates.push_back({to_double(nodes.points[i]), i, -1});
+    return internal::select(m_backend.concurrency(), m_levels.front().free, is_wanted);
+  }
+  Sample_candidate candidate(int node) const
+  {
+    return {to_double(m_levels.front().points[node]), node, -1};
   }
 
   /// The samples of each component from its candidates.
   Samples eliminate()
   {
     const Lattice_nodes& nodes = m_levels.front();
-    std::vector<std::vector<int>> candidates(m_shares.size()), sites(m_shares.size());
-    const auto add_candidates = [&](std::size_t begin) {
-      for (std::size_t k = begin; k < m_candidates.size(); ++k)
-        candidates[nodes.components[m_candidates[k].node]].push_back(static_cast<int>(k));
-    };
-    add_candidates(0);
-    const std::size_t before = m_candidates.size();
-    add_nodes([&](int i) { // no lattice fits
+    std::vector<std::vector<int>> candidates = candidates_of_components();
+    const std::vector<int> others = wanted_nodes([&](int i) { // no lattice fits
       const int c = nodes.components[i];
       return candidates[c].size() < m_shares[c].samples;
     });
-    add_candidates(before);
+    for (const int i : others) m_candidates.push_back(candidate(i));
+    if (!others.empty()) candidates = candidates_of_components();
+    std::vector<std::vector<int>> sites(m_shares.size());
     for (int i = nodes.free; i < nodes.size(); ++i) sites[nodes.components[i]].push_back(i);
-    std::vector<Sample_candidate> chosen;
-    for (std::size_t c = 0; c < m_shares.size(); ++c)
-      for (const int k : chosen_candidates(candidates[c], sites[c], m_shares[c].samples))
-        chosen.push_back(m_candidates[candidates[c][k]]);
-    m_off_lattice = std::count_if(chosen.begin(), chosen.end(),
-                                  [](const Sample_candidate& c) { return c.distance < 0; });
-    return on_surface(chosen);
+    std::vector<std::vector<Sample_candidate>> chosen(m_shares.size());
+    for (std::size_t c = 0; c < m_shares.size(); ++c) {
+      const std::vector<int> places =
+          chosen_candidates(candidates[c], sites[c], m_shares[c].samples);
+      chosen[c].resize(places.size());
+      m_backend.for_each(static_cast<int>(places.size()),
+                         [&](int k) { chosen[c][k] = m_candidates[candidates[c][places[k]]]; });
+    }
+    const auto all = internal::concatenated(m_backend.concurrency(), chosen);
+    m_off_lattice =
+        internal::select(m_backend.concurrency(), static_cast<int>(all.size()), [&](int k) {
+          return all[k].distance < 0;
+        }).size();
+    return on_surface(all);
+  }
+
+  std::vector<std::vector<int>> candidates_of_components() const
+  {
+    std::vector<std::vector<int>> candidates(m_shares.size());
+    if (m_shares.size() == 1) { // mostly
+      candidates[0].resize(m_candidates.size());
+      std::iota(candidates[0].begin(), candidates[0].end(), 0);
+      return candidates;
+    }
+    for (std::size_t k = 0; k < m_candidates.size(); ++k)
+      candidates[m_levels.front().components[m_candidates[k].node]].push_back(static_cast<int>(k));
+    return candidates;
   }
 
   /// The places of `n` of the candidates of a component.
@@ -277,7 +303,8 @@ private:
     return eliminate_samples(all, 0, n, sites.size(), m_backend.concurrency());
   }
 
-  Samples on_surface(const std::vector<Sample_candidate>& candidates) const
+  template <class Candidates>
+  Samples on_surface(const Candidates& candidates) const
   {
     internal::Unset_vector<Facet_place> places(candidates.size());
     m_backend.for_each(static_cast<int>(places.size()),
@@ -356,7 +383,7 @@ private:
   std::vector<Lattice_nodes> m_levels;                           // from fine to coarse
   std::vector<int> m_facets; // of the free nodes of the finest level
   Chosen_points m_chosen;    // of components with a lattice
-  std::vector<Sample_candidate> m_candidates;
+  internal::Unset_vector<Sample_candidate> m_candidates;
 };
 
 } // namespace CGAL::PowerRTF
