@@ -206,7 +206,7 @@ private:
     const typename Traits::Concurrency_tag concurrency;
     if (!m_whole) {
       PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
-                       concurrency, m_engine.distance_finder());
+                       concurrency, m_engine.distance_finder(), m_engine.close_face_finder());
     } else {
       const std::size_t of_half = mesh.points.size();
       mesh = PowerRTF::mirrored_mesh(std::move(mesh), m_surface, concurrency);
@@ -286,7 +286,8 @@ private:
       const Stage stage("improvement", m_report.seconds.improvement);
       PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
                              typename Traits::Concurrency_tag(), m_options.dislocations,
-                             m_surface.is_closed_up() ? std::vector<int>() : samples.facets);
+                             m_surface.is_closed_up() ? std::vector<int>() : samples.facets,
+                             m_engine.close_face_finder());
     }
     return mesh;
   }
@@ -326,7 +327,7 @@ private:
     }
     if (!by_cells) return PowerRTF::extract_by_insertion(surface, samples, features, seams);
     return PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
-        surface, samples, features, std::move(neighbors));
+        surface, samples, features, std::move(neighbors), nullptr, m_engine.close_face_finder());
   }
 
   template <class Visitor>

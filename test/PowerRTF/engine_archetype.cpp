@@ -31,6 +31,7 @@ public:
   std::vector<Cell_polygon> cells();
   void release_memory();
   Find_distances distance_finder();
+  Find_close_faces close_face_finder();
   Neighbor_cycles neighbors();
   double epsilon() const;
   const Facet_tree& facet_tree();

@@ -7,6 +7,7 @@
 #include "relative_distances.h"
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
+#include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
@@ -20,6 +21,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace engine_comparison;
@@ -247,6 +249,32 @@ TEST_CASE("distances are those that the CPU finds")
                          std::fabs(squared[i] - tree.nearest_anywhere(points[i]).squared_distance));
       CHECK(worst < 1e-15);
     }
+  }
+}
+
+TEST_CASE("faces that may intersect are those that the host's loops find")
+{
+  const Case c = cases()[0];
+  const Start start(c);
+  Cuda_engine<float> engine(start.patches->surface(), c.options);
+  engine.set_samples(start.samples, start.patches->features());
+  const Find_close_faces find = engine.close_face_finder();
+  for (const shapes::Soup& s : {c.soup, shapes::torus(400, 200, 0.6, 0.2),
+                                shapes::two_spheres(2, 1.3), shapes::two_spheres(5, 1.3)}) {
+    CAPTURE(s.triangles.size());
+    const auto sorted = [](Face_pairs pairs) {
+      for (auto& [f, g] : pairs)
+        if (f > g) std::swap(f, g);
+      std::sort(pairs.begin(), pairs.end());
+      return pairs;
+    };
+    Host_backend<CGAL::Parallel_if_available_tag> host;
+    Face_pairs pairs, expected;
+    const int vertices = int(s.points.size()), n = int(s.triangles.size());
+    REQUIRE(find(vertices, s.points.data(), n, s.triangles.front().data(), pairs));
+    REQUIRE(internal::close_faces(host, vertices, s.points.data(), n, s.triangles.front().data(),
+                                  expected));
+    CHECK(sorted(pairs) == sorted(expected));
   }
 }
 

@@ -55,7 +55,6 @@ public:
 
   std::size_t bytes() const { return m_most; }
   static std::size_t least_bytes() { return 0; }
-  static std::size_t sort_bytes(int) { return 0; }
 
 private:
   Count counted(std::size_t bytes)

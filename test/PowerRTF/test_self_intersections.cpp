@@ -4,7 +4,9 @@
 // Self-intersections against exact predicates and CGAL's own count.
 #include "mesh_of_shape.h"
 
+#include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
@@ -53,9 +55,24 @@ std::size_t cgal_self_intersections(const Soup& s)
   return pairs.size();
 }
 
+// The pairs that a backend does not prove to be apart.
+bool find_close(const Soup& s, Face_pairs& pairs)
+{
+  Host_backend<CGAL::Parallel_if_available_tag> backend;
+  return internal::close_faces(backend, int(s.points.size()), s.points.data(),
+                               int(s.triangles.size()), s.triangles.front().data(), pairs);
+}
+
+// With a backend's help or without.
 std::size_t self_intersections(const Soup& s)
 {
-  return CGAL::PowerRTF::self_intersections(s.points, s.triangles);
+  const Face_pairs pairs = intersecting_facets(s.points, s.triangles);
+  const Find_close_faces find = [&](int, const Vec3d*, int, const int*, Face_pairs& close) {
+    return find_close(s, close);
+  };
+  CHECK(intersecting_facets(s.points, s.triangles, CGAL::Parallel_if_available_tag(), find) ==
+        pairs);
+  return pairs.size();
 }
 
 } // namespace
@@ -111,8 +128,8 @@ TEST_CASE("self-intersections: what floating point proves is what exact predicat
                                 ? CGAL::do_intersect(triangle(p), Epick::Segment_3(q[2], q[0])) ||
                                       CGAL::do_intersect(triangle(q), Epick::Segment_3(p[0], p[1]))
                                 : CGAL::do_intersect(triangle(p), triangle(q));
-      const bool is_parted = share ? internal::Parting_plane(p, q, 2, 1).exists()
-                                   : internal::Parting_plane(p, q).exists();
+      const bool is_parted =
+          share ? internal::has_parting_plane(p, q, 2, 1) : internal::has_parting_plane(p, q);
       if (is_parted) CHECK_FALSE(expected);
       parted += is_parted;
       apart += !expected;
@@ -214,4 +231,33 @@ TEST_CASE("self-intersections: CGAL's own count")
   CHECK(self_intersections(spheres) > 0);
   CHECK(self_intersections(spheres) == cgal_self_intersections(spheres));
   CHECK(self_intersections(Soup()) == 0);
+}
+
+TEST_CASE("self-intersections: a backend proves nearly all pairs apart")
+{
+  for (const Soup& s : {shapes::torus(40, 20, 3, 1), shapes::plane_patch(30, 20),
+                        shapes::icosphere(4), shapes::scaled(shapes::icosphere(3), 1e6)}) {
+    Face_pairs pairs;
+    REQUIRE(find_close(s, pairs));
+    CHECK(pairs.empty());
+  }
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    Soup s = random_triangles(400, seed); // apart but for some
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+      s.points[i] += 0.1 * Vec3d{double(i / 3), 0, 0};
+    const std::size_t count = self_intersections(s);
+    Face_pairs pairs;
+    REQUIRE(find_close(s, pairs));
+    CHECK(count > 0);
+    CHECK(pairs.size() < count + 10);
+  }
+}
+
+TEST_CASE("self-intersections: a backend that finds too many pairs says so")
+{
+  Soup s = shapes::icosphere(2);
+  for (Vec3d& p : s.points) p = {p.x, 0, 0}; // no face has an area
+  Face_pairs pairs;
+  CHECK(!find_close(s, pairs));
+  CHECK(self_intersections(s) == s.triangles.size());
 }

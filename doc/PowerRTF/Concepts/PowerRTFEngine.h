@@ -93,6 +93,8 @@ public:
   /// What finds distances of points from facets where the engine works; or empty. Where it returns
   /// `false`, the caller finds them.
   CGAL::PowerRTF::Find_distances distance_finder();
+  /// The same of faces that may intersect.
+  CGAL::PowerRTF::Find_close_faces close_face_finder();
 
   /// The precision of the cells' numbers: the machine epsilon of `double`, or of `float`.
   double epsilon() const;

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
+#include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/engines/facet_distances.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
@@ -97,6 +98,16 @@ public:
       return
           [this](const Surface_view<double>& facets, int n, const Vec3d* points, double* squared) {
             return internal::facet_distances(m_backend, facets, n, points, squared);
+          };
+  }
+  Find_close_faces close_face_finder() override
+  {
+    if constexpr (Backend::is_host)
+      return {};
+    else
+      return
+          [this](int vertices, const Vec3d* points, int n, const int* corners, Face_pairs& pairs) {
+            return internal::close_faces(m_backend, vertices, points, n, corners, pairs);
           };
   }
   double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
+#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
@@ -105,6 +106,8 @@ public:
   /// Finds distances where the engine works, or empty: on the host, where it is done by groups. The
   /// engine has to live as long as the result.
   virtual Find_distances distance_finder() = 0;
+  /// The same for faces that may intersect.
+  virtual Find_close_faces close_face_finder() = 0;
   virtual double epsilon() const = 0;
   virtual Device_report device_report() = 0;
 };

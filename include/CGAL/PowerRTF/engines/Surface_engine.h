@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
@@ -53,6 +54,11 @@ public:
   Find_distances distance_finder()
   {
     return m_engine ? m_engine->distance_finder() : Find_distances();
+  }
+  /// The same for faces that may intersect.
+  Find_close_faces close_face_finder()
+  {
+    return m_engine ? m_engine->close_face_finder() : Find_close_faces();
   }
   double epsilon() const { return m_engine->epsilon(); }
   Device_report device_report() const { return m_engine->device_report(); }

@@ -35,8 +35,8 @@ class Mended_stars {
 public:
   /// Keeps references to all but `neighbors`; see `extract_from_cells()`.
   Mended_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
-               Neighbor_cycles&& neighbors)
-      : m_surface(surface), m_samples(samples), m_features(features),
+               Neighbor_cycles&& neighbors, const Find_close_faces& find)
+      : m_surface(surface), m_samples(samples), m_features(features), m_find(find),
         m_stars(std::move(neighbors), features), m_size(static_cast<int>(samples.size())),
         m_openings(samples.size(), 0), m_has_made(samples.size(), 0), m_on_curves(features.size()),
         m_is_on_border(are_on_border(surface, features))
@@ -354,8 +354,8 @@ private:
   {
     std::vector<int> found;
     const std::vector<Triangle>& triangles = m_mesh.triangles;
-    const Intersecting_pairs<Soup_triangles> finder({m_mesh.points, triangles}, ConcurrencyTag());
-    for (const auto& [t, u] : finder.find(boost::irange(0, static_cast<int>(triangles.size()))))
+    for (const auto& [t, u] :
+         intersecting_facets(m_mesh.points, triangles, ConcurrencyTag(), m_find))
       for (const int face : {t, u})
         found.insert(found.end(), triangles[face].begin(), triangles[face].end());
     sort_uniquely(found);
@@ -365,6 +365,7 @@ private:
   const Surface& m_surface;
   const Samples& m_samples;
   const Feature_samples& m_features;
+  const Find_close_faces& m_find;
   std::optional<Sample_places> m_places; // once they are needed
   Cell_stars<ConcurrencyTag> m_stars;
   int m_size;

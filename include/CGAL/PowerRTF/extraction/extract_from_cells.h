@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 
 #include <cstddef>
@@ -31,11 +32,13 @@ struct Cell_extraction_statistics {
 /// self-intersections; otherwise all is done by `extract_by_insertion()`.
 ///
 /// `neighbors`: of the cells of the samples that lie on no feature, as
-/// `PowerRTFEngine::neighbors()` has them. The result is the same for any number of threads.
+/// `PowerRTFEngine::neighbors()` has them. `find`: what finds intersections instead, where it does.
+/// The result is the same for any number of threads.
 template <class ConcurrencyTag>
 Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples,
                                   const Feature_samples& features, Neighbor_cycles&& neighbors,
-                                  Cell_extraction_statistics* statistics = nullptr);
+                                  Cell_extraction_statistics* statistics = nullptr,
+                                  const Find_close_faces& find = {});
 
 } // namespace CGAL::PowerRTF
 

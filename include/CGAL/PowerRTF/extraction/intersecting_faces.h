@@ -7,7 +7,9 @@
 #define CGAL_POWER_RTF_EXTRACTION_INTERSECTING_FACES_H
 
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
+#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/intersecting_pairs.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <algorithm>
 #include <array>
@@ -82,11 +84,16 @@ public:
   using Mesh = Working_mesh::Mesh;
 
   explicit Intersection_finder(const Working_mesh& mesh, Concurrency concurrency = Sequential_tag())
-      : Intersecting_pairs(Face_triangles(mesh), concurrency), m_mesh(mesh.mesh)
+      : Intersecting_pairs(Face_triangles(mesh), concurrency), m_working(mesh), m_mesh(mesh.mesh),
+        m_concurrency(concurrency)
   {}
 
-  /// All of them, sorted.
-  std::vector<Face_pair> all() const { return find(m_mesh.faces()); }
+  /// All of them, sorted. `close_faces`: what finds most of the others instead, where it does.
+  std::vector<Face_pair> all(const Find_close_faces& close_faces = {}) const
+  {
+    Face_pairs close;
+    return close_faces && find_close(close_faces, close) ? find_among(close) : find(m_mesh.faces());
+  }
 
   /// Those of `pairs`, all that there were before the faces with `has_changed[f]` changed, as they
   /// are now, sorted.
@@ -106,7 +113,28 @@ public:
   }
 
 private:
+  bool find_close(const Find_close_faces& close_faces, Face_pairs& pairs) const
+  {
+    const std::vector<int> faces = select(m_concurrency, int(m_mesh.num_faces()), [this](int f) {
+      return !m_mesh.is_removed(Working_mesh::Face(f));
+    });
+    Unset_vector<Vec3d> points(m_mesh.num_vertices());
+    for_each_index(m_concurrency, int(points.size()),
+                   [&](int v) { points[v] = m_working.point(Working_mesh::Vertex(v)); });
+    Unset_vector<int> corners(3 * faces.size());
+    for_each_index(m_concurrency, int(faces.size()), [&](int k) {
+      const auto at = m_working.corners(Working_mesh::Face(faces[k]));
+      std::copy(at.begin(), at.end(), &corners[3 * k]);
+    });
+    if (!close_faces(int(points.size()), points.data(), int(faces.size()), corners.data(), pairs))
+      return false;
+    for (auto& [f, g] : pairs) f = faces[f], g = faces[g];
+    return true;
+  }
+
+  const Working_mesh& m_working;
   const Mesh& m_mesh;
+  Concurrency m_concurrency;
 };
 
 } // namespace CGAL::PowerRTF::internal

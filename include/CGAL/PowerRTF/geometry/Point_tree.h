@@ -119,20 +119,6 @@ struct Point_tree_view {
   }
 };
 
-/// Computes the node `k` of a level; the levels are done in ascending order.
-template <class Real>
-struct Fit_point_node {
-  Packed_tree_layout tree;
-  int level;
-  const Vec3<Real>* points;
-  Box3<double>* boxes;
-  Child_boxes* nodes;
-  CGAL_POWER_RTF_HD void operator()(int k) const
-  {
-    fit_child_boxes(tree, level, k, Box_of_point<Real>{points}, boxes, nodes);
-  }
-};
-
 /// Owns what is behind a `Point_tree_view`, but for the points.
 template <class Backend, class Real>
 class Point_tree {
@@ -143,9 +129,7 @@ public:
     typename Backend::template Buffer<Box3<double>> boxes;
     boxes.allocate(backend, m_tree.nodes());
     m_nodes.allocate(backend, m_tree.nodes());
-    for (int level = 0; level < m_tree.levels; ++level)
-      backend.for_each(m_tree.nodes(level),
-                       Fit_point_node<Real>{m_tree, level, m_points, boxes.data(), m_nodes.data()});
+    fit_tree(backend, m_tree, Box_of_point<Real>{m_points}, boxes.data(), m_nodes.data());
   }
 
   Point_tree_view<Real> view() const { return {m_points, m_tree, m_nodes.data()}; }

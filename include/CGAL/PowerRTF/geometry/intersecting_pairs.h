@@ -75,6 +75,23 @@ public:
     return pairs;
   }
 
+  /// Those of `pairs`, sorted. \pre all others are known to be none
+  template <class Pairs>
+  std::vector<Pair> find_among(const Pairs& pairs) const
+  {
+    const auto is_flat = [this](Face f) {
+      return has_no_area(m_triangles.points(m_triangles.corners(f)));
+    };
+    std::vector<Pair> found;
+    for (const auto& [i, j] : pairs) {
+      const Face f(i), g(j);
+      if (f == g ? is_flat(f) : !is_flat(f) && !is_flat(g) && intersect(f, g))
+        found.push_back(std::minmax(f, g));
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
 private:
   Triangles m_triangles;
   Concurrency m_concurrency;

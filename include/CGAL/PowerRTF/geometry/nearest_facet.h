@@ -204,6 +204,29 @@ CGAL_POWER_RTF_HD inline void fit_child_boxes(const Packed_tree_layout& tree, in
   for (int c = end - begin; c < Child_boxes::size; ++c) nodes[node].set(c, boxes[node]); // unused
 }
 
+/// The same as a loop's body.
+template <class Box_of>
+struct Fit_child_boxes {
+  Packed_tree_layout tree;
+  int level;
+  Box_of box_of;
+  Box3<double>* boxes;
+  Child_boxes* nodes;
+  CGAL_POWER_RTF_HD void operator()(int k) const
+  {
+    fit_child_boxes(tree, level, k, box_of, boxes, nodes);
+  }
+};
+
+/// Fits all nodes where a backend works.
+template <class Backend, class Box_of>
+void fit_tree(Backend& backend, const Packed_tree_layout& tree, const Box_of& box_of,
+              Box3<double>* boxes, Child_boxes* nodes)
+{
+  for (int level = 0; level < tree.levels; ++level)
+    backend.for_each(tree.nodes(level), Fit_child_boxes<Box_of>{tree, level, box_of, boxes, nodes});
+}
+
 /// The nodes of a tree whose item `k` lies in the box `box_of(k)`.
 template <class Box_of>
 std::vector<Child_boxes> child_boxes(const Packed_tree_layout& tree, const Box_of& box_of)

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -27,13 +28,14 @@ class Facet_tree;
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
 /// `dislocations`: those that are kept cost roundness, not time. `carriers`: for the first
-/// points of `mesh`, or none, the facets that they probably lie on, which saves time.
+/// points of `mesh`, or none, the facets that they probably lie on, which saves time. `find`: what
+/// finds intersections instead, where it does.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                   internal::Concurrency concurrency = Sequential_tag(),
                   Dislocations dislocations = Dislocations::annihilate,
-                  const std::vector<int>& carriers = {});
+                  const std::vector<int>& carriers = {}, const Find_close_faces& find = {});
 
 /// The same with a tree of its own.
 bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,

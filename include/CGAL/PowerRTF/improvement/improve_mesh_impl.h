@@ -59,9 +59,9 @@ public:
   /// \throw Invalid_input_error if `mesh` is not an oriented 2-manifold
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                 Concurrency concurrency, Dislocations dislocations,
-                const std::vector<int>& carriers)
+                const std::vector<int>& carriers, const Find_close_faces& find)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_carriers(carriers),
-        m_concurrency(concurrency), m_dislocations(dislocations),
+        m_find(find), m_concurrency(concurrency), m_dislocations(dislocations),
         m_locked(mesh.points.size(), false),
         m_stars(std::in_place, mesh, m_projector, carriers, concurrency), m_tracker(*m_stars),
         m_flat(surface, Flat_patches::level_sine, concurrency),
@@ -203,7 +203,7 @@ private:
     };
     for (const Face f : find_too_far(stars))
       if (!is_locked(f)) broken.push_back(f);
-    for (const auto& [f, g] : Intersection_finder(stars.working(), stars.concurrency()).all())
+    for (const auto& [f, g] : Intersection_finder(stars.working(), stars.concurrency()).all(m_find))
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
     return broken;
   }
@@ -236,6 +236,7 @@ private:
   Surface_projector m_projector;
   Extracted_mesh& m_mesh; // as it was extracted, until it is improved
   const std::vector<int>& m_carriers;
+  const Find_close_faces& m_find;
   Concurrency m_concurrency;
   Dislocations m_dislocations;
   std::vector<char> m_locked;
@@ -249,12 +250,14 @@ private:
 
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
                                         Extracted_mesh& mesh, internal::Concurrency concurrency,
-                                        Dislocations dislocations, const std::vector<int>& carriers)
+                                        Dislocations dislocations, const std::vector<int>& carriers,
+                                        const Find_close_faces& find)
 {
   if (mesh.triangles.empty()) return true;
   try {
     internal::Progress_part part(0.12);
-    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, carriers);
+    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, carriers,
+                                     find);
     part.next(0.98);
     improver.run();
     mesh.sort_triangles(concurrency);

@@ -40,7 +40,7 @@ inline std::size_t lost_feature_edges(const Extracted_mesh& mesh,
 CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches,
                                   const Facet_tree& tree, const Extracted_mesh& mesh,
                                   Remeshing_report& report, internal::Concurrency concurrency,
-                                  const Find_distances& find)
+                                  const Find_distances& find, const Find_close_faces& find_close)
 {
   constexpr double round_quality = 0.6, round_angle = 30; // degrees
   internal::Progress_part part(0.1);
@@ -51,7 +51,8 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   report.feature_edges = mesh.feature_edges.size();
   report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
   part.next(0.5);
-  report.self_intersections = self_intersections(mesh.points, mesh.triangles, concurrency);
+  report.self_intersections =
+      self_intersections(mesh.points, mesh.triangles, concurrency, find_close);
   if (report.self_intersections > 0)
     report.input_self_intersections =
         self_intersections(surface.points, surface.triangles, concurrency);

@@ -1,0 +1,155 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Proofs in floating point, for host and device, that two triangles do not meet in more than the
+// corners that they share. What they leave open is for exact predicates.
+#ifndef CGAL_POWER_RTF_GEOMETRY_PARTING_PLANE_H
+#define CGAL_POWER_RTF_GEOMETRY_PARTING_PLANE_H
+
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
+#include <CGAL/PowerRTF/geometry/vector.h>
+
+#include <cmath>
+
+namespace CGAL::PowerRTF::internal {
+
+/// Proves that a plane parts two triangles, so that they meet in nothing, or in nothing but the
+/// corner that both have, through which the plane goes. A few planes are tried: enough for nearly
+/// all pairs, also in one plane, where exact predicates are slow.
+class Parting_plane {
+public:
+  using Corners = Vec3d[3];
+
+  /// \param i, j the numbers of the shared corner, or -1
+  CGAL_POWER_RTF_HD Parting_plane(const Corners& p, const Corners& q, int i = -1, int j = -1)
+      : m_i(i), m_j(j)
+  {
+    const Vec3d origin = p[i < 0 ? 0 : i];
+    for (int k = 0; k < 3; ++k) {
+      m_p[k] = p[k] - origin;
+      m_q[k] = q[k] - origin;
+      m_reach = larger(m_reach, larger(size(m_p[k]), size(m_q[k])));
+    }
+  }
+
+  CGAL_POWER_RTF_HD bool exists() const
+  {
+    const Vec3d c = m_p[0] + m_p[1] + m_p[2], d = m_q[0] + m_q[1] + m_q[2];
+    if (m_i < 0) return parts(d - c) || is_along(m_p) || is_along(m_q);
+    return parts(d - c) || parts(normalized(d) - normalized(c)) || is_between_edges();
+  }
+
+private:
+  CGAL_POWER_RTF_HD static double size(const Vec3d& x)
+  {
+    return larger(std::fabs(x.x), larger(std::fabs(x.y), std::fabs(x.z)));
+  }
+  CGAL_POWER_RTF_HD static Vec3d normal(const Corners& t)
+  {
+    return cross(t[1] - t[0], t[2] - t[0]);
+  }
+
+  // A triangle's own plane, or one upright on it along an edge.
+  CGAL_POWER_RTF_HD bool is_along(const Corners& t) const
+  {
+    const Vec3d n = normal(t);
+    if (parts(n)) return true;
+    for (int k = 0; k < 3; ++k)
+      if (parts(cross(n, t[(k + 1) % 3] - t[k]))) return true;
+    return false;
+  }
+
+  // One through the shared corner, half-way between an edge of the one and an edge of the other.
+  CGAL_POWER_RTF_HD bool is_between_edges() const
+  {
+    const Vec3d n = normal(m_p);
+    for (int k = 1; k < 3; ++k)
+      for (int l = 1; l < 3; ++l)
+        if (parts(cross(n, normalized(m_p[(m_i + k) % 3]) + normalized(m_q[(m_j + l) % 3]))))
+          return true;
+    return false;
+  }
+
+  // Planes that are upright on `d`. Whatever rounding has made of it, it is a direction: only the
+  // heights along it are uncertain.
+  CGAL_POWER_RTF_HD bool parts(const Vec3d& d) const
+  {
+    const double error = 1e-15 * m_reach * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
+    if (!(error > 1e-290)) return false; // underflow
+    const Range p = range(m_p, m_i, d), q = range(m_q, m_j, d);
+    if (m_i < 0) return p.high + error < q.low - error || q.high + error < p.low - error;
+    return (p.high < -error && q.low > error) || (q.high < -error && p.low > error);
+  }
+
+  struct Range {
+    double low, high;
+  };
+  // Of the heights, without the shared corner's, which is 0.
+  CGAL_POWER_RTF_HD static Range range(const Corners& t, int shared, const Vec3d& d)
+  {
+    const int first = shared == 0 ? 1 : 0;
+    Range r{dot(t[first], d), dot(t[first], d)};
+    for (int k = first + 1; k < 3; ++k) {
+      if (k == shared) continue;
+      const double height = dot(t[k], d);
+      r.low = smaller(r.low, height);
+      r.high = larger(r.high, height);
+    }
+    return r;
+  }
+
+  int m_i, m_j;
+  Corners m_p, m_q; // from the shared corner, or from one of them
+  double m_reach = 0;
+};
+
+/// Corners of a face, and their numbers.
+struct Numbered_face {
+  Vec3d points[3];
+  int vertices[3];
+};
+
+constexpr double clear_share = 1e-14; ///< of a product of lengths: 90 roundings
+
+/// Proves that the corners are not collinear.
+CGAL_POWER_RTF_HD inline bool clearly_has_area(const Numbered_face& f)
+{
+  const Vec3d a = f.points[1] - f.points[0], b = f.points[2] - f.points[0];
+  const double product = squared_length(a) * squared_length(b);
+  return product > 1e-290 && squared_length(cross(a, b)) > clear_share * clear_share * product;
+}
+
+/// Proves that two faces with a common edge, of which `a` and `b` are the other corners seen from
+/// its source, are not in one plane on the same side of it.
+CGAL_POWER_RTF_HD inline bool clearly_unfolded(const Vec3d& edge, const Vec3d& a, const Vec3d& b)
+{
+  const Vec3d m = cross(edge, a), n = cross(edge, b);
+  const double volume = length(edge) * length(a) * length(b), error = clear_share * volume;
+  if (!(error * length(edge) > 1e-290)) return false; // underflow
+  return dot(m, n) < -error * length(edge) || std::fabs(dot(a, n)) > error;
+}
+
+/// Proves that two faces meet in nothing but the corners and the edge that they share.
+CGAL_POWER_RTF_HD inline bool are_clearly_apart(const Numbered_face& f, const Numbered_face& g)
+{
+  int shared = 0, i = -1, j = -1; // the last pair of corners with the same vertex
+  int rest_f = 3, rest_g = 3;     // sums of the numbers of the corners that are not shared
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l)
+      if (f.vertices[k] == g.vertices[l]) {
+        ++shared;
+        i = k;
+        j = l;
+        rest_f -= k;
+        rest_g -= l;
+      }
+  if (shared < 2) return Parting_plane(f.points, g.points, i, j).exists();
+  if (shared > 2) return false;
+  const Vec3d origin = f.points[(rest_f + 1) % 3];
+  return clearly_unfolded(f.points[(rest_f + 2) % 3] - origin, f.points[rest_f] - origin,
+                          g.points[rest_g] - origin);
+}
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_GEOMETRY_PARTING_PLANE_H
