@@ -44,46 +44,76 @@ private:
   using Face = Working_mesh::Face;
   using Parameters = Improvement_parameters::Dislocations;
 
+  // A vertex with five edges: the meetings of its dislocations, each as the flips that lead there,
+  // and all vertices that these may move, or depend on.
+  struct Candidate {
+    Vertex five;
+    std::vector<std::vector<Edge>> meetings;
+    std::vector<Vertex> zone;
+  };
+
+  Candidate candidate(Vertex five, int length) const
+  {
+    Candidate c{five, find_meetings(five, length), {}};
+    for (const std::vector<Edge>& flips : c.meetings) {
+      const std::vector<Vertex> near = vertices_near(flips, Parameters::rings + 1);
+      c.zone.insert(c.zone.end(), near.begin(), near.end());
+    }
+    return c;
+  }
+
   // Pairs that are `length` flips apart. Those whose surroundings do not touch meet at once.
   std::size_t run(int length)
   {
-    std::vector<int> fives = select(m.concurrency(), int(m.size()), [&](int v) {
-      return excess(Vertex(v)) == -1 && !find_meetings(Vertex(v), length).empty();
-    });
+    const std::vector<int> fives =
+        select(m.concurrency(), int(m.size()), [&](int v) { return excess(Vertex(v)) == -1; });
+    std::vector<Candidate> left(fives.size());
+    for_each_chunk(m.concurrency(), int(left.size()), 1,
+                   [&](int k, int) { left[k] = candidate(Vertex(fives[k]), length); });
     std::size_t meetings = 0;
-    while (!fives.empty()) {
+    while (!left.empty()) {
       Cancellation::poll();
-      const std::vector<int> chosen = take_independent(fives, length);
-      meetings += reduce(
-          m.concurrency(), int(chosen.size()), std::size_t(0),
-          [&](std::size_t& sum, int k) { sum += annihilate(Vertex(chosen[k]), length); },
-          [](std::size_t& sum, std::size_t part) { sum += part; }, 1);
+      const std::vector<Candidate> chosen = take_independent(left);
+      std::vector<char> has_met(chosen.size());
+      for_each_chunk(m.concurrency(), int(chosen.size()), 1,
+                     [&](int k, int) { has_met[k] = annihilate(chosen[k]); });
+      meetings += std::count(has_met.begin(), has_met.end(), true);
+      m_is_taken.assign(m.size(), false);
+      for (std::size_t k = 0; k < chosen.size(); ++k)
+        if (has_met[k]) take(chosen[k]);
+      for_each_chunk(m.concurrency(), int(left.size()), 1, [&](int k, int) {
+        if (!is_free(left[k])) left[k] = candidate(left[k].five, length);
+      });
     }
     return meetings;
   }
 
-  // Takes those out of `fives` whose surroundings touch none of those taken before, and all that
-  // have no meeting any more.
-  std::vector<int> take_independent(std::vector<int>& fives, int length)
+  void take(const Candidate& c)
   {
-    std::vector<std::vector<Vertex>> zones(fives.size());
-    for_each_chunk(m.concurrency(), int(fives.size()), 1, [&](int k, int) {
-      for (const std::vector<Edge>& flips : find_meetings(Vertex(fives[k]), length)) {
-        const std::vector<Vertex> zone = vertices_near(flips, Parameters::rings + 1);
-        zones[k].insert(zones[k].end(), zone.begin(), zone.end());
-      }
-    });
+    for (const Vertex v : c.zone) m_is_taken[v] = true;
+  }
+  // Whether its zone touches none that is taken.
+  bool is_free(const Candidate& c) const
+  {
+    return std::none_of(c.zone.begin(), c.zone.end(), [this](Vertex v) { return m_is_taken[v]; });
+  }
+
+  // Takes those out whose zones touch none of those taken before, and all that have no meeting any
+  // more.
+  std::vector<Candidate> take_independent(std::vector<Candidate>& candidates)
+  {
     m_is_taken.assign(m.size(), false);
-    std::vector<int> chosen, left;
-    for (std::size_t k = 0; k < fives.size(); ++k) {
-      if (zones[k].empty()) continue;
-      const bool is_free = std::none_of(zones[k].begin(), zones[k].end(),
-                                        [this](Vertex v) { return m_is_taken[v]; });
-      (is_free ? chosen : left).push_back(fives[k]);
-      if (is_free)
-        for (const Vertex v : zones[k]) m_is_taken[v] = true;
+    std::vector<Candidate> chosen, left;
+    for (Candidate& c : candidates) {
+      if (c.meetings.empty()) continue;
+      if (is_free(c)) {
+        take(c);
+        chosen.push_back(std::move(c));
+      } else {
+        left.push_back(std::move(c));
+      }
     }
-    fives.swap(left);
+    candidates.swap(left);
     return chosen;
   }
 
@@ -93,12 +123,11 @@ private:
   // Edges above six; 0 where the mesh is not free, as on features and borders.
   int excess(Vertex v) const { return m.is_movable(v) ? degree(v) - 6 : 0; }
 
-  // Makes a dislocation at `five` meet one that is `length` flips away.
-  bool annihilate(Vertex five, int length)
+  // Makes one of the meetings happen.
+  bool annihilate(const Candidate& c)
   {
-    for (const std::vector<Edge>& flips : find_meetings(five, length))
-      if (flip_if_better(flips)) return true;
-    return false;
+    return std::any_of(c.meetings.begin(), c.meetings.end(),
+                       [this](const std::vector<Edge>& flips) { return flip_if_better(flips); });
   }
 
   // All chains of `length` flips after which the dislocations at `five` meet another.
