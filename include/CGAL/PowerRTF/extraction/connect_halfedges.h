@@ -10,11 +10,14 @@
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <CGAL/Surface_mesh.h>
-
 #include <vector>
 
-namespace CGAL::PowerRTF::internal {
+namespace CGAL {
+
+template <class Point>
+class Surface_mesh;
+
+namespace PowerRTF::internal {
 
 /// Makes `triangles`, on vertices below `vertices`, the faces of an empty mesh; its points are not
 /// set. The halfedges of edge e are 2 e, of the first of its triangles, and 2 e + 1; the edges
@@ -72,6 +75,7 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
   return true;
 }
 
-} // namespace CGAL::PowerRTF::internal
+} // namespace PowerRTF::internal
+} // namespace CGAL
 
 #endif // CGAL_POWER_RTF_EXTRACTION_CONNECT_HALFEDGES_H

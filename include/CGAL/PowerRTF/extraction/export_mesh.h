@@ -6,6 +6,9 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXPORT_MESH_H
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
+#include <CGAL/PowerRTF/extraction/connect_halfedges.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -91,6 +94,51 @@ bool add_polygons(const std::vector<Vec3d>& points,
   return true;
 }
 
+/// The same of the triangles of `mesh`, in the coordinates of the input, where that is faster than
+/// one by one: not here.
+template <class OutputMesh, class PointMap>
+bool add_triangles(const Extracted_mesh&, const Normalization&, OutputMesh&, const PointMap&,
+                   Exported_mesh<OutputMesh>&, Concurrency)
+{
+  return false;
+}
+template <class MeshPoint, class PointMap>
+bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalization,
+                   CGAL::Surface_mesh<MeshPoint>& output, const PointMap& point_map,
+                   Exported_mesh<CGAL::Surface_mesh<MeshPoint>>& exported, Concurrency concurrency)
+{
+  using Mesh = CGAL::Surface_mesh<MeshPoint>;
+  using Vertex = typename Mesh::Vertex_index;
+  using Face = typename Mesh::Face_index;
+  using Point = typename boost::property_traits<PointMap>::value_type;
+  const int points = static_cast<int>(mesh.points.size()),
+            faces = static_cast<int>(mesh.triangles.size());
+  std::vector<int> name(points, 0); // 1 for those that are used; then: how many of them are before
+  for_each_index(concurrency, faces, [&](int f) {
+    for (const int v : mesh.triangles[f]) atomic_store(&name[v], 1);
+  });
+  exported.points = select(concurrency, points, [&](int v) { return name[v] == 1; });
+  exclusive_scan(concurrency, points, name.data());
+  std::vector<Triangle> triangles(mesh.triangles.size());
+  for_each_index(concurrency, faces, [&](int f) {
+    for (int k = 0; k < 3; ++k) triangles[f][k] = name[mesh.triangles[f][k]];
+  });
+  const int vertices = static_cast<int>(exported.points.size());
+  if (!connect_halfedges(output, triangles, vertices, concurrency)) return false;
+  exported.vertices.reserve(vertices);
+  for (int v = 0; v < vertices; ++v) {
+    exported.vertices.push_back(Vertex(v));
+    put(point_map, Vertex(v),
+        from_vec3d<Point>(normalization.to_outside(mesh.points[exported.points[v]])));
+  }
+  exported.faces.reserve(faces);
+  for (int f = 0; f < faces; ++f) { // begins at its first corner, as `Euler::add_face()` has it
+    output.set_halfedge(Face(f), output.prev(output.halfedge(Face(f))));
+    exported.faces.push_back(Face(f));
+  }
+  return true;
+}
+
 /// Names for the vertices of copied points the points of `mesh` that they are copies of.
 /// `polygons`: the triangles of `mesh`, in their order.
 template <class OutputMesh>
@@ -116,6 +164,7 @@ void name_originals(const Extracted_mesh& mesh, const std::vector<Vec3d>& points
 /// \tparam OutputMesh a model of `MutableFaceGraph`
 /// \param np may contain `vertex_point_map` (default: the output's own), whose points are
 ///   constructible from three coordinates
+/// \param concurrency of what is done beside the calls of the maps; the result is the same for all
 /// \returns which vertices and faces these are
 ///
 /// A halfedge structure holds 2-manifolds only. Where the triangles form none (those of
@@ -123,12 +172,17 @@ void name_originals(const Extracted_mesh& mesh, const std::vector<Vec3d>& points
 template <class OutputMesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
 Exported_mesh<OutputMesh> export_mesh(const Extracted_mesh& mesh,
                                       const Normalization& normalization, OutputMesh& output,
-                                      const NamedParameters& np = NamedParameters())
+                                      const NamedParameters& np = NamedParameters(),
+                                      internal::Concurrency concurrency = Sequential_tag())
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
   auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
                                     get_property_map(CGAL::vertex_point, output));
+  Exported_mesh<OutputMesh> exported;
+  internal::remove_all_elements(output);
+  if (internal::add_triangles(mesh, normalization, output, point_map, exported, concurrency))
+    return exported;
   std::vector<Vec3d> points;
   points.reserve(mesh.points.size());
   for (const Vec3d& p : mesh.points) points.push_back(normalization.to_outside(p));
@@ -136,9 +190,6 @@ Exported_mesh<OutputMesh> export_mesh(const Extracted_mesh& mesh,
   polygons.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
     polygons.push_back({std::size_t(t[0]), std::size_t(t[1]), std::size_t(t[2])});
-
-  Exported_mesh<OutputMesh> exported;
-  internal::remove_all_elements(output);
   if (internal::add_polygons(points, polygons, output, point_map, exported)) return exported;
   internal::remove_all_elements(output);
   Polygon_mesh_processing::orient_polygon_soup(points, polygons);

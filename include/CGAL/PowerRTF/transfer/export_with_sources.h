@@ -141,11 +141,11 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
   const Stage stage("write", report.seconds.write);
   if constexpr (puts_labels && has_labels) {
     const auto labels = label_values(input, np_in);
-    const auto exported = export_mesh(mesh, normalization, output, np_out);
+    const auto exported = export_mesh(mesh, normalization, output, np_out, concurrency);
     put_sources(sources, *elements, exported, mesh.triangles, output, np_out);
     put_labels(exported, np_out, [&](std::size_t f) { return labels[sources.faces[f].face]; });
   } else {
-    const auto exported = export_mesh(mesh, normalization, output, np_out);
+    const auto exported = export_mesh(mesh, normalization, output, np_out, concurrency);
     if constexpr (puts_sources)
       put_sources(sources, *elements, exported, mesh.triangles, output, np_out);
     if constexpr (puts_labels)
