@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 The PowerRTF authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What power_rtf_remesh makes of --max-distance and --edge-length.
+
+resolution.py FOLDER ...            on the models there of MODELS
+resolution.py --jobs 16 FOLDER ...  16 runs at a time
+
+--relative-max-distance: the number of samples that it chooses, against the fewest that do, by runs
+with a factor of .5 to 1 of that number, in steps of 2 %; the distance that the judge finds.
+--relative-edge-length: the median edge against the length that was asked for. Results:
+resolution.md in the folder --results. The exit code is 1 where a distance is larger than asked, else
+0.
+"""
+
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from common import BUILD, ROOT, build, made_by, markdown  # noqa: E402
+from models import Models  # noqa: E402
+
+MODELS = ("Kitten", "Homer", "Fertility", "Rocker", "Elk", "Bunny", "Armadillo", "Fandisk")
+DISTANCES = (0.01, 0.003, 0.001)  # of the diagonal
+LENGTHS = (0.04, 0.02, 0.01)
+FACTORS = [0.5 + 0.02 * k for k in range(25)]
+TEXT = """# Distances and lengths that are asked for
+
+Distances: `--relative-max-distance X` chooses n, its certified bound of the distance both ways, and what \
+the judge finds in the file, in % of the diagonal; the fewest samples of runs with .5 n to .98 n, in steps \
+of 2 % of n, of which the largest distance that the report tells is no larger than asked; and n over it.
+Those runs may be lucky: the next larger numbers may do or not, as the last column says, the share of them \
+that do of all from the fewest on.
+
+"""
+
+
+def run(options, model, *arguments, judged=False):
+    """The report, and the judge's where it is asked for."""
+    with tempfile.TemporaryDirectory() as folder:
+        mesh, report = pathlib.Path(folder, "mesh.off"), pathlib.Path(folder, "report.json")
+        process = subprocess.run(
+            [options.program, model, mesh, *map(str, arguments), "--density", options.density,
+             "--report", report, "--threads", "1", "--quiet"],
+            capture_output=True, text=True, check=False)
+        if process.returncode not in (0, 3):
+            sys.exit(process.stderr)
+        result = json.loads(report.read_text(encoding="utf-8"))
+        if judged:
+            process = subprocess.run([options.judge, model, mesh], capture_output=True, text=True,
+                                     check=True)
+            result["judged"] = json.loads(process.stdout)
+        return result
+
+
+def distance_row(options, pool, name, model, distance):
+    report = run(options, model, "--relative-max-distance", distance, judged=True)
+    n = report["vertices"]
+    numbers = [round(factor * n) for factor in FACTORS]
+    runs = pool.map(lambda m: run(options, model, "--samples", m), numbers)
+    does = [r["distance_max"] <= 100 * distance for r in runs]
+    fewest = numbers[does.index(True)] if any(does) else n
+    after = does[does.index(True):] if any(does) else [True]
+    found = report["judged"]["distance_max"]
+    is_met = not report["missed_guarantees"] and found <= 100 * distance
+    row = [name, f"{100 * distance:g}", n, f"{report['distance_bound']:.4f}", f"{found:.4f}",
+           "yes" if is_met else "no", fewest, f"{n / fewest:.2f}", f"{sum(after) / len(after):.2f}"]
+    print(*row, flush=True)
+    return row, is_met
+
+
+def length_row(options, name, model, length):
+    report = run(options, model, "--relative-edge-length", length)
+    ratio = report["edge_length_median"] / (length * report["diagonal"])
+    row = [name, f"{100 * length:g}", report["vertices"], f"{ratio:.4f}"]
+    print(*row, flush=True)
+    return row
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", metavar="FOLDER", help="of models")
+    parser.add_argument("--density", choices=["uniform", "curvature"], default="uniform")
+    parser.add_argument("--jobs", type=int, default=1, help="runs at a time (1)")
+    parser.add_argument("--results", default=str(ROOT / "build/resolution"), metavar="FOLDER",
+                        help="of resolution.md (build/resolution)")
+    parser.add_argument("--programs", metavar="FOLDER",
+                        help="of power_rtf_remesh and judge; default: built here")
+    options = parser.parse_args()
+    if not options.programs:
+        build(["power_rtf_remesh", "judge"])
+        options.programs = BUILD / "bin"
+    options.program = pathlib.Path(options.programs, "power_rtf_remesh").resolve()
+    options.judge = pathlib.Path(options.programs, "judge").resolve()
+    return options
+
+
+def main():
+    options = parse_arguments()
+    results = pathlib.Path(options.results)
+    models = Models(options.folders, results / "models")
+    there = [(name, models.get(name)) for name in MODELS if models.get(name)]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool, \
+            concurrent.futures.ThreadPoolExecutor(len(there) * len(DISTANCES)) as rows:
+        distances = list(rows.map(lambda row: distance_row(options, pool, *row),
+                                  [(*m, d) for m in there for d in DISTANCES]))
+        lengths = list(pool.map(lambda row: length_row(options, *row),
+                                [(*m, length) for m in there for length in LENGTHS]))
+    text = TEXT + markdown(["model", "asked", "n", "bound", "judge", "kept", "fewest", "n / fewest",
+                            "of more"], [row for row, _ in distances])
+    text += "\nLengths: `--relative-edge-length X`, in % of the diagonal; the median edge over it.\n\n"
+    text += markdown(["model", "asked", "n", "median / asked"], lengths)
+    text += "\n" + made_by(__file__, [os.path.basename(argument.rstrip("/"))
+                                      for argument in sys.argv[1:]]) + "\n"
+    results.mkdir(parents=True, exist_ok=True)
+    (results / "resolution.md").write_text(text, encoding="utf-8")
+    return 0 if all(is_met for _, is_met in distances) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
