@@ -43,9 +43,9 @@ TEST_CASE("triangle badness")
     const double q =
         2 * std::sqrt(3.) * std::sin(apex * degree) / ((2 + base) * std::max(1., base));
     const double smallest = std::min(apex, 90 - apex / 2), largest = std::max(apex, 90 - apex / 2);
-    const double expected = 4 * std::pow(std::max(0., 0.77 - q), 2) +
-                            4 * std::pow(std::max(0., 41.5 - smallest) / 60, 2) +
-                            8 * std::pow(std::max(0., largest - 86) / 60, 2);
+    const double expected = 4 * std::pow(std::max(0., 0.78 - q), 2) +
+                            4 * std::pow(std::max(0., 43.1 - smallest) / 60, 2) +
+                            8 * std::pow(std::max(0., largest - 83.2) / 60, 2);
     const Vec3d c{std::cos(apex * degree), std::sin(apex * degree), 0};
     CHECK(triangle_badness(a, b, c).badness == doctest::Approx(expected).epsilon(0.05));
   }

@@ -207,3 +207,18 @@ TEST_CASE("modes: RTF without weights, CCCPD with exactly equal capacities")
   check_guarantees(printed);
   CHECK(printed.capacity.inside_interval < 1);
 }
+
+TEST_CASE("angles on smooth shapes are between 42 and 84 degrees")
+{
+  for (const Soup& soup : {torus(), ellipsoid(), shapes::icosphere(4)})
+    for (const Density density : {Density::uniform, Density::curvature})
+      for (unsigned seed = 0; seed < 3; ++seed) {
+        Remeshing_options options;
+        options.density = density;
+        options.random_seed = seed;
+        const Quality_statistics quality = remesh(soup, 1500, options).report.quality;
+        CHECK(quality.theta_min >= 42);
+        CHECK(quality.theta_max <= 84);
+        CHECK(quality.q_min > 0.76);
+      }
+}

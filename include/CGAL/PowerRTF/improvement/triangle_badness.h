@@ -18,22 +18,23 @@ struct Triangle_badness {
   double badness = 0;            ///< 0 for a triangle that is good enough
   double inverse_mean_ratio = 1; ///< 1: equilateral
 
-  static constexpr double tolerable = 0.0012; ///< Q .753, or 40.5 degrees, or 86.7 degrees
+  static constexpr double tolerable = 0.0012; ///< Q .763, or 42.06 degrees, or 83.93 degrees
 
   /// What the search lowers: badness first, then the shape of all.
   double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }
 };
 
-/// 4 (.77 - Q)+^2 + 4 ((41.5 - theta_min) / 60)+^2 + 8 ((theta_max - 86) / 60)+^2, Q as in
+/// 4 (.78 - Q)+^2 + 4 ((43.1 - theta_min) / 60)+^2 + 8 ((theta_max - 83.2) / 60)+^2, Q as in
 /// triangle_quality.h, angles in degrees. They come, within some percent and without trigonometric
-/// functions, from tan(41.5 - theta_min) and cot 86 - cot theta_max: atan(x)^2 is nearly
-/// x^2 / (1 + 0.64 x^2) up to tan 41.5.
+/// functions, from tan(43.1 - theta_min) and cot 83.2 - cot theta_max: atan(x)^2 is nearly
+/// x^2 / (1 + 0.64 x^2) up to tan 43.1; of the largest angle, up to 170, x^2 / (1 + 0.42 x^2)
+/// serves.
 inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
-  constexpr double least_quality = 0.77, quality_weight = 4;
-  constexpr double cot_smallest = 1.130294386361753, smallest_weight = 3.648; // 41.5 degrees
-  constexpr double cot_largest = 0.06992681194351034, largest_weight = 7.295; // 86 degrees
-  constexpr double surely_good = 1.09; // the least of those with an angle of 41.5 degrees: 1.0901
+  constexpr double least_quality = 0.78, quality_weight = 4;
+  constexpr double cot_smallest = 1.0686233026146528, smallest_weight = 3.648; // 43.1 degrees
+  constexpr double cot_largest = 0.11924278068055229, largest_weight = 7.295;  // 83.2 degrees
+  constexpr double surely_good = 1.072; // the least of those with an angle of 43.1 degrees: 1.0730
   Triangle_badness result;
   const Vec3d ab = b - a, ac = c - a;
   const double squared_double_area = squared_length(cross(ab, ac));
@@ -57,7 +58,7 @@ inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const V
   const double largest_excess = cot_largest * quadruple_area - (sum - 2 * longest);
   if (largest_excess > 0) {
     const double x2 = largest_excess * largest_excess;
-    result.badness += largest_weight * x2 / (4 * squared_double_area + 0.45 * x2);
+    result.badness += largest_weight * x2 / (4 * squared_double_area + 0.42 * x2);
   }
   // the square of the perimeter is at most 3 sum: most triangles need no more
   if (12 * squared_double_area < 3 * least_quality * least_quality * sum * longest) {
