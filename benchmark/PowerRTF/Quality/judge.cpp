@@ -43,12 +43,25 @@ bool read(const std::string& file, Soup& soup)
   return !soup.triangles.empty();
 }
 
+/// The upper bound of the distance both ways, in per cent of the diagonal of `box`, the input's.
+double distance_bound(Soup input, Soup output, const Box3<double>& box)
+{
+  const Vec3d middle = 0.5 * (box.lo + box.hi);
+  const double scale = 1 / length(box.hi - box.lo); // the bound's boxes are those of a unit box
+  for (Soup* soup : {&input, &output})
+    for (Vec3d& p : soup->points) p = scale * (p - middle);
+  return surface_distance(input.points, input.triangles, Facet_tree(input.points, input.triangles),
+                          output.points, output.triangles, CGAL::Sequential_tag(), true)
+      .bound;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
-  if (argc != 3) {
-    std::cerr << "judge INPUT OUTPUT\n";
+  const bool is_bound_wanted = argc == 4 && std::string(argv[3]) == "--bound";
+  if (argc != 3 && !is_bound_wanted) {
+    std::cerr << "judge INPUT OUTPUT [--bound]\n";
     return EXIT_FAILURE;
   }
   Soup input, output;
@@ -83,6 +96,8 @@ int main(int argc, char** argv)
             << ", \"edge_length_min\": " << edges.min << ", \"edge_length_max\": " << edges.max
             << ", \"distance_rms\": " << d.rms << ", \"distance_mean\": " << d.mean
             << ", \"distance_max\": " << d.max
-            << ", \"absolute_distance_max\": " << absolute_distance_max << "}\n";
+            << ", \"absolute_distance_max\": " << absolute_distance_max;
+  if (is_bound_wanted) std::cout << ", \"distance_bound\": " << distance_bound(input, output, box);
+  std::cout << "}\n";
   return EXIT_SUCCESS;
 }

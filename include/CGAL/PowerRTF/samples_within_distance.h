@@ -20,18 +20,20 @@ namespace CGAL::PowerRTF {
 namespace internal {
 
 /// The smallest n up to `most` with `ratio(n) <= 1`, to a tenth, where `ratio` falls about as 1 /
-/// n; `most` if there is none. The search begins with `first`.
+/// n, if it falls; `most` if there is none. The search begins with `first`. `last`: gets the ratio
+/// for what is returned.
 template <class Ratio>
-std::size_t smallest_number(double first, double most, const Ratio& ratio)
+double smallest_of_falling(double first, double most, const Ratio& ratio, double& last)
 {
   constexpr double near_enough = 1.1, step = 1.04, least = 4, farthest = 4;
-  most = std::floor(most);
-  double failed = least - 1, met = std::numeric_limits<double>::infinity();
+  double failed = least - 1, met = std::numeric_limits<double>::infinity(), at_met = 0;
   for (double n = std::round(std::clamp(first, least, most));;) {
     const double r = ratio(static_cast<std::size_t>(n));
     (r <= 1 ? met : failed) = n;
-    if (failed == most) return static_cast<std::size_t>(most);
-    if (met <= near_enough * failed || met == failed + 1) return static_cast<std::size_t>(met);
+    if (r <= 1) at_met = r;
+    last = failed == most ? r : at_met;
+    if (failed == most) return most;
+    if (met <= near_enough * failed || met == failed + 1) return met;
     // A little more than it should be, and between what has been tried.
     const double next = std::round(n * step * std::clamp(r, 1 / farthest, farthest));
     const double low = std::max(failed + 1, std::ceil(step * failed)),
@@ -40,10 +42,29 @@ std::size_t smallest_number(double first, double most, const Ratio& ratio)
   }
 }
 
+/// The same where `ratio` scatters about what it should be, by some tenths: from there on down,
+/// until four numbers in a row, each 6 % smaller, do not do, or one is hopeless.
+template <class Ratio>
+std::size_t smallest_number(double first, double most, const Ratio& ratio)
+{
+  constexpr double step = 1.06, hopeless = 1.4, least = 4;
+  constexpr int patience = 4;
+  most = std::floor(most);
+  double r = 0, met = smallest_of_falling(first, most, ratio, r);
+  int failures = 0;
+  for (double n = std::floor(met / step); n >= least && r < hopeless && failures < patience;
+       n = std::floor(n / step)) {
+    r = ratio(static_cast<std::size_t>(n));
+    failures = r <= 1 ? 0 : failures + 1;
+    if (r <= 1) met = n;
+  }
+  return static_cast<std::size_t>(met);
+}
+
 } // namespace internal
 
 /// The number of samples of which a run gives a mesh no farther from the input than
-/// `options.max_distance` or `options.relative_max_distance`, to a tenth the smallest such number;
+/// `options.max_distance` or `options.relative_max_distance`, about the smallest such number;
 /// where none does, the largest that was tried: ten times the input's vertices, or as many as are
 /// needed on a sphere.
 ///
