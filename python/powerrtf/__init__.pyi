@@ -80,6 +80,7 @@ class Options:
     intersections: str | None = None
     wrap_radius: float | None = None
     symmetry: str | None = None
+    region_border: str | None = None
     density_power: float | None = None
     gradation: float | None = None
     density_smoothing: float | None = None
@@ -149,6 +150,7 @@ def remesh(
     intersections: str = "keep",
     wrap_radius: float = 0.0,
     symmetry: str = "none",
+    region_border: str = "keep",
     density_power: float = 1.0,
     gradation: float = 0.1,
     density_smoothing: float = 3.0,

@@ -85,6 +85,8 @@ def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_ed
         if patches:
             raise InvalidInputError("patches is about whole meshes: what region leaves has none")
         fields["region"] = _region(region, count)
+    elif options.get("region_border", "keep") != "keep":
+        raise InvalidInputError("region_border is about the border of a region, but there is none")
     given = (vertices, corners, sizes, fields, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
@@ -170,7 +172,8 @@ what the result lacks, if it does.
 :param region: the faces to be remeshed, as a mask, (m,) bool, or by number: `n` is then the number of
     their vertices, those on their border included. The other faces, their vertices and the edges
     between stay as they are and come first in the result (polygons in triangles); the report is
-    about the new ones
+    about the new ones. With ``region_border="remesh"`` the edges between get the region's spacing, and
+    those faces beside them that change come last
 :param patches: whether the result has ``patches``: for each face the number of its patch between
     creases and borders
 :param threads: 0: all. The result is the same for any number

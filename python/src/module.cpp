@@ -18,7 +18,7 @@
 #include "report_json.h"
 #include "traits.h"
 
-#include <CGAL/PowerRTF/input/Soup_region.h>
+#include <CGAL/PowerRTF/Remeshed_region.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
@@ -46,12 +46,14 @@ using nb::literals::operator""_a;
 struct Input {
   Polygon_soup soup;
   Surface_fields fields;
-  std::optional<internal::Soup_region> region; ///< none: all is remeshed
+  std::optional<internal::Remeshed_region> region; ///< none: all is remeshed
   bool wants_patches = false;
 
   /// What is remeshed, and what is said about places there.
-  Polygon_soup& remeshed_soup() { return region ? region->soup : soup; }
-  const Surface_fields& remeshed_fields() const { return region ? region->fields : fields; }
+  Polygon_soup& remeshed_soup() { return region ? region->soup() : soup; }
+  const Surface_fields& remeshed_fields() const { return region ? region->fields() : fields; }
+  /// What the result comes from.
+  const Polygon_soup& source_soup() const { return region ? region->own().soup : soup; }
   /// Whether the sources of the result are needed: for its labels, or of what stays.
   bool wants_sources() const { return !fields.labels.empty() || region; }
 };
@@ -76,7 +78,8 @@ struct Given_fields {
 };
 
 Input input_of(const Real_array& points, const Index_array& faces,
-               const std::optional<Index_array>& sizes, const Given_fields& given)
+               const std::optional<Index_array>& sizes, const Given_fields& given,
+               const Remeshing_options& options)
 {
   Input input;
   input.soup = soup_of_arrays(points, faces, sizes);
@@ -94,7 +97,7 @@ Input input_of(const Real_array& points, const Index_array& faces,
   if (given.region) {
     std::vector<char> is_inside(input.soup.first.size() - 1, 0);
     for_each_index(*given.region, [&](std::size_t, auto face) { is_inside[face] = 1; });
-    input.region.emplace(input.soup, is_inside, fields);
+    input.region.emplace(input.soup, is_inside, fields, options, tools::Concurrency());
   }
   return input;
 }
@@ -110,9 +113,13 @@ struct Result {
 void join(const Input& input, const Normalization& normalization, Result& result,
           Remeshing_report& report)
 {
-  internal::Joined_mesh joined(input.soup, *input.region, result.mesh, normalization);
-  joined.judge(input.soup, *input.region, report, tools::Concurrency());
-  result.sources = joined.sources(*input.region, *result.sources);
+  input.region->complete(result.mesh, normalization);
+  input.region->complete_sources(result.mesh, normalization, *result.sources);
+  const internal::Soup_region& region = input.region->replaced();
+  internal::Joined_mesh joined(input.soup, region, result.mesh, normalization);
+  joined.judge(input.soup, region, report, tools::Concurrency());
+  report.changed_faces = input.region->changed_faces();
+  result.sources = joined.sources(region, *result.sources);
   result.mesh.points = std::move(joined.points);
   result.mesh.triangles = std::move(joined.triangles);
 }
@@ -130,12 +137,11 @@ Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visito
     result.sites = sites_of(remesher);
   }
   run.report = remesher.report();
-  if (input.wants_sources() && !run.report.cancelled)
-    result.sources = find_sources(input.remeshed_soup(), remesher.surface().normalization,
-                                  run.report.faces_as_input(), result.mesh.points,
-                                  result.mesh.triangles, tools::Concurrency());
-  if (input.wants_patches) result.patches = remesher.patches(result.mesh);
   const Normalization& normalization = remesher.surface().normalization;
+  if (input.wants_patches) result.patches = remesher.patches(result.mesh);
+  if (input.wants_sources() && !run.report.cancelled)
+    result.sources = find_sources(input.source_soup(), normalization, run.report.faces_as_input(),
+                                  result.mesh.points, result.mesh.triangles, tools::Concurrency());
   if (input.region && !run.report.cancelled)
     join(input, normalization, result, run.report);
   else
@@ -214,7 +220,7 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   Result result;
   {
     const nb::gil_scoped_release release;
-    Input input = input_of(points, faces, sizes, given);
+    Input input = input_of(points, faces, sizes, given, run.options.remeshing);
     result = remesh_with_traits(run, input, visitor);
   }
   visitor.rethrow();
@@ -240,7 +246,7 @@ nb::bytes html_page(const Real_array& points, const Index_array& faces,
   std::ostringstream page;
   {
     const nb::gil_scoped_release release;
-    Input input = input_of(points, faces, sizes, given);
+    Input input = input_of(points, faces, sizes, given, Remeshing_options());
     Remeshing_report repairs;
     const Surface surface = prepare_surface(std::move(input.soup), input.fields, remeshing, repairs,
                                             tools::Concurrency());
