@@ -3,7 +3,7 @@
 #include "input_fields.h"
 
 #include "Tokenizer.h"
-#include "obj_materials.h"
+#include "materials.h"
 
 #include <CGAL/PowerRTF/input/near_borders.h>
 
@@ -120,15 +120,6 @@ const std::vector<Edge>& checked_lines(const Polygon_mesh& mesh)
   return mesh.lines;
 }
 
-/// The name of a file that `from`, a file, knows as `name`, for `to`, another file.
-std::string seen_from(const std::string& to, const std::string& from, const std::string& name)
-{
-  namespace fs = std::filesystem;
-  const auto folder = [](const std::string& file) { return fs::absolute(file).parent_path(); };
-  if (fs::path(name).is_absolute() || folder(from) == folder(to)) return name;
-  return (folder(from) / name).lexically_relative(folder(to)).generic_string();
-}
-
 /// The seams of the texture: the edges where the coordinates jump or the material is another.
 /// \throws Invalid_input_error the texture coordinates cannot be used
 std::vector<Edge> seams_of(const Polygon_mesh& mesh)
@@ -226,13 +217,13 @@ std::vector<char> region_of(const Program_options& options, const Polygon_mesh& 
 void choose_names(const Program_options& options, Polygon_mesh& mesh)
 {
   if (options.keeps_lines) mesh.attributes.erase("lines");
+  std::vector<Mesh_property>& faces = mesh.properties.faces;
   if (options.keeps_texture)
     mesh.attributes.erase("texture coordinates");
   else
     mesh.properties.texture = {};
-
-  std::vector<Mesh_property>& faces = mesh.properties.faces;
   const auto is_unwanted = [&](const Mesh_property& p) {
+    if (p.name == "texnumber") return !options.keeps_texture;
     return !p.names.empty() && p.name != options.labels && p.name != options.region_name &&
            (p.name != "material" || !options.keeps_texture);
   };
@@ -241,23 +232,20 @@ void choose_names(const Program_options& options, Polygon_mesh& mesh)
     if (p.names.empty()) continue;
     mesh.attributes.erase(p.name + "s");
     const Format output = format_of(options.output);
-    if (!holds_texture(output) || (is_gltf(output) && p.name != "material"))
+    const std::vector<std::string>& files = mesh.properties.texture_files; // of images, as in PLY
+    const bool are_files = !files.empty() && p.name == "material";
+    if (!(holds_names(output) || are_files) || (is_gltf(output) && p.name != "material"))
       mesh.attributes.insert("names of " + p.name + "s");
   }
-  Mesh_properties& properties = mesh.properties;
-  const Mesh_property* const material = find_property(faces, "material");
-  if (!material) {
-    properties.material_files.clear();
-    properties.gltf_materials = {};
-  } else if (is_gltf(format_of(options.output)) && !properties.material_files.empty()) {
-    std::vector<std::string> files;
-    for (const std::string& file : properties.material_files)
-      files.push_back((std::filesystem::path(options.input).parent_path() / file).string());
-    properties.gltf_materials = read_materials(files, material->names);
-    if (!properties.gltf_materials.json.empty()) properties.material_files.clear();
-  }
-  for (std::string& file : mesh.properties.material_files)
-    file = seen_from(options.output, options.input, file);
+  if (!choose_look(options.input, options.output, mesh.properties))
+    mesh.attributes.insert("the look of materials");
+  const bool has_numbers = find_property(faces, "texnumber") != nullptr;
+  faces.erase(std::remove_if(faces.begin(), faces.end(),
+                             [&](const Mesh_property& p) { // the same is there as texnumber
+                               return has_numbers && p.name == "material" && !p.names.empty() &&
+                                      p.name != options.labels;
+                             }),
+              faces.end());
 }
 
 Refinement parse_refinement(const std::string& text)

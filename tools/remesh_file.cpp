@@ -131,6 +131,7 @@ Input load(Run& run)
   }
   const Format output = format_of(run.options.output);
   choose_names(run.options, mesh);
+  for (const Side_file& file : mesh.properties.side_files) check_writable(file.name);
   mesh.attributes.merge(not_held_by(output, mesh.properties));
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   mesh.properties = run.options.write_mesh ? held_by(output, mesh.properties) : Mesh_properties();
@@ -268,6 +269,8 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
     outputs.add(options.output, [&](std::ostream& out) {
       write_mesh(out, format_of(options.output), options.encoding, points, triangles, values);
     });
+  for (const Side_file& file : values.side_files)
+    outputs.add(file.name, [&](std::ostream& out) { out << file.bytes; });
   outputs.add(options.provenance_file, [&](std::ostream& out) {
     write_sources(out, format_of(options.provenance_file), options.encoding, points, triangles,
                   sources);

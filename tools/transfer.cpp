@@ -100,6 +100,8 @@ Mesh_properties transferred(const Polygon_mesh& mesh, const Sources& sources)
   if (!input.texture.empty()) result.texture = of_corners(input.texture, mesh.soup, sources);
   result.material_files = input.material_files;
   result.gltf_materials = input.gltf_materials;
+  result.texture_files = input.texture_files;
+  result.side_files = input.side_files;
   return result;
 }
 
