@@ -120,17 +120,40 @@ const std::vector<Edge>& checked_lines(const Polygon_mesh& mesh)
   return mesh.lines;
 }
 
-/// The seams of the texture: the edges where the coordinates jump or the material is another.
 /// \throws Invalid_input_error the texture coordinates cannot be used
 std::vector<Edge> seams_of(const Polygon_mesh& mesh)
 {
   if (!mesh.texture_error.empty())
     throw Invalid_input_error("its texture coordinates cannot be used: " + mesh.texture_error);
-  const CGAL::PowerRTF::Polygon_soup& soup = mesh.soup;
-  const Texture& texture = mesh.properties.texture;
+  return texture_seams(mesh.soup, mesh.properties.texture,
+                       find_property(mesh.properties.faces, "material"));
+}
+
+} // namespace
+
+std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name)
+{
+  const std::vector<Mesh_property>& properties = mesh.properties.vertices;
+  const auto checked = [&](std::vector<double> values, const std::string& where) {
+    for (const int v : mesh.soup.corners)
+      if (!(values[v] > 0) || !std::isfinite(values[v]))
+        throw Invalid_input_error(where + ": the value of vertex " + std::to_string(v) +
+                                  " (numbered from 0) is not a positive, finite number");
+    return values;
+  };
+  if (const Mesh_property* const found = find_property(properties, name))
+    return checked(found->values, "its property " + printable(name));
+  if (std::filesystem::is_regular_file(name))
+    return checked(numbers_of_file(name, mesh.soup.points.size()), name);
+  throw Invalid_input_error("its vertices have no property " + printable(name) +
+                            ", and there is no such file; " + names_of(properties));
+}
+
+std::vector<Edge> texture_seams(const CGAL::PowerRTF::Polygon_soup& soup, const Texture& texture,
+                                const Mesh_property* material)
+{
   if (texture.empty()) return {};
   using Place = std::array<double, 3>; // material, u, v
-  const Mesh_property* const material = find_property(mesh.properties.faces, "material");
   const auto place = [&](std::size_t face, int corner) {
     const double name = material ? material->values[face] : 0;
     const int c = texture.corners[corner];
@@ -163,26 +186,6 @@ std::vector<Edge> seams_of(const Polygon_mesh& mesh)
     if (sides[i].edge == sides[i - 1].edge && sides[i].texture != sides[i - 1].texture)
       seams.push_back(sides[i].points);
   return seams;
-}
-
-} // namespace
-
-std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name)
-{
-  const std::vector<Mesh_property>& properties = mesh.properties.vertices;
-  const auto checked = [&](std::vector<double> values, const std::string& where) {
-    for (const int v : mesh.soup.corners)
-      if (!(values[v] > 0) || !std::isfinite(values[v]))
-        throw Invalid_input_error(where + ": the value of vertex " + std::to_string(v) +
-                                  " (numbered from 0) is not a positive, finite number");
-    return values;
-  };
-  if (const Mesh_property* const found = find_property(properties, name))
-    return checked(found->values, "its property " + printable(name));
-  if (std::filesystem::is_regular_file(name))
-    return checked(numbers_of_file(name, mesh.soup.points.size()), name);
-  throw Invalid_input_error("its vertices have no property " + printable(name) +
-                            ", and there is no such file; " + names_of(properties));
 }
 
 Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh)

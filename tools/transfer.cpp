@@ -48,11 +48,9 @@ Texture of_corners(const Texture& texture, const CGAL::PowerRTF::Polygon_soup& s
   Texture result;
   for (const auto& triangle : sources.corners)
     for (const Source& s : triangle) {
-      const auto begin = soup.corners.begin() + soup.first[s.face],
-                 end = soup.corners.begin() + soup.first[s.face + 1];
       std::array<int, 3> c;
       for (int i = 0; i < 3; ++i)
-        c[i] = texture.corners[std::find(begin, end, s.vertices[i]) - soup.corners.begin()];
+        c[i] = texture.corners[corner_number(soup, s.face, s.vertices[i])];
       if (*std::min_element(c.begin(), c.end()) < 0) {
         result.corners.push_back(-1);
         continue;
@@ -88,6 +86,13 @@ void normalize(std::vector<Mesh_property>& properties)
 }
 
 } // namespace
+
+int corner_number(const CGAL::PowerRTF::Polygon_soup& soup, int face, int vertex)
+{
+  const auto begin = soup.corners.begin();
+  return static_cast<int>(
+      std::find(begin + soup.first[face], begin + soup.first[face + 1], vertex) - begin);
+}
 
 Mesh_properties transferred(const Polygon_mesh& mesh, const Sources& sources)
 {

@@ -39,6 +39,7 @@ class Mesh:
     vertices: Any
     faces: Any
     labels: Any
+    uv: Any
     patches: NDArray[np.int32] | None
     report: Report
     def __iter__(self) -> Iterator[Any]: ...
@@ -127,6 +128,7 @@ def remesh(
     constrained_edges: Any = None,
     face_labels: Any = None,
     region: Any = None,
+    uv: Any = None,
     patches: bool = False,
     threads: int = 0,
     progress: Callable[[float, str], Any] | bool | None = None,

@@ -22,6 +22,7 @@
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
+#include <CGAL/PowerRTF/transfer/find_corner_sources.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <nanobind/stl/optional.h>
@@ -47,15 +48,16 @@ struct Input {
   Polygon_soup soup;
   Surface_fields fields;
   std::optional<internal::Remeshed_region> region; ///< none: all is remeshed
-  bool wants_patches = false;
+  bool wants_patches = false, has_seams = false;
 
   /// What is remeshed, and what is said about places there.
   Polygon_soup& remeshed_soup() { return region ? region->soup() : soup; }
   const Surface_fields& remeshed_fields() const { return region ? region->fields() : fields; }
   /// What the result comes from.
   const Polygon_soup& source_soup() const { return region ? region->own().soup : soup; }
-  /// Whether the sources of the result are needed: for its labels, or of what stays.
-  bool wants_sources() const { return !fields.labels.empty() || region; }
+  const Surface_fields& source_fields() const { return region ? region->own().fields : fields; }
+  /// Whether the sources of the result are needed: for its labels, its corners, or of what stays.
+  bool wants_sources() const { return !fields.labels.empty() || has_seams || region; }
 };
 
 /// What a dictionary of fields has: arrays or None, and regions as the program has them.
@@ -63,6 +65,7 @@ struct Given_fields {
   std::optional<Real_array> density, sizing;
   std::optional<Index_array> constrained_edges, labels;
   std::optional<Index_array> region; ///< faces
+  std::optional<Real_array> uv;      ///< of all corners
   std::vector<std::string> refine;
   bool patches; ///< whether the result's are wanted
 
@@ -72,6 +75,7 @@ struct Given_fields {
         constrained_edges(nb::cast<std::optional<Index_array>>(fields["constrained_edges"])),
         labels(nb::cast<std::optional<Index_array>>(fields["labels"])),
         region(nb::cast<std::optional<Index_array>>(fields["region"])),
+        uv(nb::cast<std::optional<Real_array>>(fields["uv"])),
         refine(nb::cast<std::vector<std::string>>(fields["refine"])),
         patches(nb::cast<bool>(fields["patches"]))
   {}
@@ -92,6 +96,16 @@ Input input_of(const Real_array& points, const Index_array& faces,
   if (given.labels)
     for_each_index(*given.labels,
                    [&](std::size_t, auto label) { fields.labels.push_back(int(label)); });
+  if (given.uv) {
+    tools::Texture texture;
+    texture.coordinates.resize(given.uv->shape(0));
+    for_each_real(*given.uv,
+                  [&](std::size_t i, double x) { texture.coordinates[i / 2][i % 2] = x; });
+    for (std::size_t c = 0; c < texture.coordinates.size(); ++c)
+      texture.corners.push_back(static_cast<int>(c));
+    fields.lines = tools::texture_seams(input.soup, texture);
+    input.has_seams = true;
+  }
   for (const std::string& region : given.refine)
     fields.refinements.push_back(tools::parse_refinement(region));
   if (given.region) {
@@ -142,6 +156,10 @@ Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visito
   if (input.wants_sources() && !run.report.cancelled)
     result.sources = find_sources(input.source_soup(), normalization, run.report.faces_as_input(),
                                   result.mesh.points, result.mesh.triangles, tools::Concurrency());
+  if (result.sources && input.has_seams)
+    result.sources->corners = find_corner_sources(
+        input.source_soup(), input.source_fields().lines, normalization, result.mesh.points,
+        result.mesh.triangles, *result.sources, tools::Concurrency());
   if (input.region && !run.report.cancelled)
     join(input, normalization, result, run.report);
   else
@@ -218,9 +236,10 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   Python_visitor visitor(progress);
   const Given_fields given(fields);
   Result result;
+  Input input;
   {
     const nb::gil_scoped_release release;
-    Input input = input_of(points, faces, sizes, given, run.options.remeshing);
+    input = input_of(points, faces, sizes, given, run.options.remeshing);
     result = remesh_with_traits(run, input, visitor);
   }
   visitor.rethrow();
@@ -228,10 +247,10 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   tools::write_json(report, run);
   nb::object vertices = is_single ? to_array<float>(std::move(result.mesh.points))
                                   : to_array<double>(std::move(result.mesh.points));
-  return nb::make_tuple(vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
-                        to_python(std::move(result.sites)),
-                        to_array<int>(std::move(result.patches)),
-                        result.sources ? nb::object(to_python(*result.sources)) : nb::none());
+  return nb::make_tuple(
+      vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
+      to_python(std::move(result.sites)), to_array<int>(std::move(result.patches)),
+      result.sources ? nb::object(to_python(*result.sources, input.soup)) : nb::none());
 }
 
 /// The page of a run, of what went in and what came out. \param sites those of the run
