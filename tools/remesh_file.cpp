@@ -14,6 +14,7 @@
 #include "transfer.h"
 
 #include <CGAL/PowerRTF/Remeshed_region.h>
+#include <CGAL/PowerRTF/cells/mirror_images.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/output_grid.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
@@ -258,7 +259,8 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
   outputs.add(options.html_file, [&](std::ostream& out) {
     std::ostringstream report;
     write_json(report, run);
-    write_html(out, remesher.surface(), mesh, remesher.cells(), report.str());
+    write_html(out, remesher.surface(), mesh, with_images(remesher.cells(), remesher.mirror()),
+               report.str());
   });
   Mesh_properties values = transferred(input, sources);
   if (options.writes_patches) set_patches(remesher.patches(mesh), values);
@@ -276,12 +278,15 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
                   sources);
   });
   outputs.add(options.cells_file, [&](std::ostream& out) {
-    write_cells(out, format_of(options.cells_file), options.encoding, remesher.cells(),
-                normalization);
+    write_cells(out, format_of(options.cells_file), options.encoding,
+                with_images(remesher.cells(), remesher.mirror()), normalization,
+                remesher.mirror() ? remesher.options().number_of_samples : 0);
   });
   outputs.add(options.samples_file, [&](std::ostream& out) {
-    write_samples(out, format_of(options.samples_file), options.encoding, remesher.samples(),
-                  normalization);
+    const std::size_t with_cells =
+        remesher.options().number_of_samples - remesher.features().size();
+    write_samples(out, format_of(options.samples_file), options.encoding,
+                  with_images(remesher.samples(), with_cells, remesher.mirror()), normalization);
   });
   outputs.add(options.fields_file, [&](std::ostream& out) {
     write_fields(out, remesher.lattice_fields(), normalization);

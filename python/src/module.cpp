@@ -273,7 +273,7 @@ nb::bytes html_page(const Real_array& points, const Index_array& faces,
     mesh.points = points_of_array(vertices);
     for (Vec3d& p : mesh.points) p = surface.normalization.to_inside(p);
     mesh.triangles = triangles_of_array(triangles);
-    std::vector<Cell_polygon> cells = cells_of_sites<tools::Concurrency>(placed.in);
+    std::vector<Cell_polygon> cells = whole_cells<tools::Concurrency>(placed);
     for (Cell_polygon& cell : cells)
       for (Vec3d& p : cell.vertices)
         p = surface.normalization.to_inside(placed.normalization.to_outside(p));

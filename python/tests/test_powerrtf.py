@@ -146,6 +146,10 @@ def test_a_symmetric_result_is_its_own_mirror_image(real):
     images = mesh.vertices.astype(np.float64) * [1, 1, -1] + [0, 0, 2 * plane["at"]]
     assert {tuple(p) for p in images} == {tuple(p) for p in mesh.vertices.astype(np.float64)}
     assert (images[:, 2] == mesh.vertices[:, 2]).sum() == plane["vertices"]
+    cells = mesh.cells()
+    above = [cell[:, 2].mean() > plane["at"] for cell in cells]
+    assert len(cells) == 301 - plane["vertices"] and sum(above) == len(cells) // 2
+    assert abs(cells.area[above].sum() - cells.area[np.invert(above)].sum()) < 1e-9
 
 
 def test_what_is_not_symmetric_is_refused():
