@@ -24,7 +24,7 @@ parted >parted.ply
 
 # kept FILE.ply: the corners of its faces of part 5, with all digits and their heat
 kept() {
-  awk 'NF == 4 { for (k = 1; k <= 4; ++k) v[n] = v[n] sprintf("%.17g ", $k); ++n }
+  awk 'BEGIN { n = 0 } NF == 4 { for (k = 1; k <= 4; ++k) v[n] = v[n] sprintf("%.17g ", $k); ++n }
        NF == 5 && $1 == 3 && $5 == 5 { print v[$2], v[$3], v[$4] }' "$1" | LC_ALL=C sort
 }
 # shape FILE.ply: vertices, faces, edges of one face, of more than two

@@ -150,6 +150,16 @@ TEST_CASE("the border gets the region's spacing, finer and coarser")
   }
 }
 
+TEST_CASE("the spacing is that along a border whose edges go to and fro")
+{
+  for (const double sign : {-1., 1.}) { // of these lines one runs along the diagonals
+    const auto is_inside = [sign](const Vec3d& p) { return p.y > 0.5 + sign * (p.x - 0.5); };
+    const Remeshed r(make_mesh(shapes::plane_patch(24, 24)), is_inside,
+                     Resolution::edge_length(0.2));
+    CHECK(r.border_length() == Approx(0.2).epsilon(0.2));
+  }
+}
+
 TEST_CASE("where all is flat, the changed faces fill the same place, and corners stay")
 {
   const auto is_inside = [](const Vec3d& p) {
@@ -271,7 +281,7 @@ TEST_CASE("a vertex goes only where faces neither fold nor meet")
     soup.end_polygon();
   }
   const auto contracts = [&] {
-    return internal::Border_pieces(soup, places, {1, 1, 1, 1, 1}).contract(0, 1, 0.7);
+    return internal::Border_pieces(soup, places, {1, 1, 1, 1, 1}, {1, 1, 1, 1}).contract(0, 1, 0.7);
   };
   CHECK(contracts());
   soup.points[2] = {0.9, 1, 0};

@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/features/Border_pieces.h>
 #include <CGAL/PowerRTF/features/curve_samples.h>
 #include <CGAL/PowerRTF/features/feature_curves.h>
+#include <CGAL/PowerRTF/geometry/Edge_graph.h>
 #include <CGAL/PowerRTF/input/Soup_region.h>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ public:
                 double feature_angle)
       : m_whole(whole), m_fields(fields), m_places(places_of_points(whole)),
         m_cos_sharp(std::cos(feature_angle * std::acos(-1.) / 180)),
-        m_pieces(whole, m_places, marks_of_border(region))
+        m_pieces(whole, m_places, marks_of_border(region), marks_of_rest(region))
   {}
 
   /// The points of the border, each standing for all at its place.
@@ -54,12 +55,17 @@ public:
   {
     Surface curve_surface;
     for (const int v : m_vertices) curve_surface.points.push_back(m_whole.points[v]);
-    for (const double l : lengths) curve_surface.vertex_density.push_back(1 / (l * l));
     for (const auto& [a, b] : m_edges) curve_surface.creases.push_back({rank(a), rank(b)});
+    const Edge_graph graph(curve_surface.creases, m_vertices.size());
+    for (int v = 0; v < static_cast<int>(lengths.size()); ++v) {
+      const double l = lengths[v] * detour(graph, curve_surface.points, v, lengths[v]);
+      curve_surface.vertex_density.push_back(1 / (l * l));
+    }
     mark_corners(curve_surface.contacts);
     const double mean =
         std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
-    const std::vector<Feature_curve> curves = feature_curves(curve_surface, 0.5 * mean);
+    // Over a length, so that the teeth of a border along edges of a mesh are no corners.
+    const std::vector<Feature_curve> curves = feature_curves(curve_surface, mean);
     const Curve_samples samples = Curve_sampler(curve_surface, curves).run(1);
     insert(samples.places, is_single);
     for (const Feature_curve& curve : curves) contract_along(chain_of(curve), curve.has_corners);
@@ -83,6 +89,13 @@ private:
     return marks;
   }
 
+  std::vector<char> marks_of_rest(const Soup_region& region) const
+  {
+    std::vector<char> marks(m_whole.first.size() - 1, 0);
+    for (const int k : region.others) marks[k] = 1;
+    return marks;
+  }
+
   bool is_border(const Edge& e) const
   {
     return std::binary_search(m_edges.begin(), m_edges.end(), e);
@@ -92,6 +105,19 @@ private:
   {
     return static_cast<int>(std::lower_bound(m_vertices.begin(), m_vertices.end(), v) -
                             m_vertices.begin());
+  }
+
+  /// How much longer than its chord a piece of the border of length `l` around `v` is, if edges
+  /// there are shorter than that: along edges of a mesh it is no straight line.
+  static double detour(const Edge_graph& graph, const std::vector<Vec3d>& points, int v, double l)
+  {
+    constexpr double longest = 3;
+    if (graph.degree(v) != 2) return 1;
+    for (const int e : graph.at(v))
+      if (length(points[graph.other_end(e, v)] - points[v]) > l) return 1;
+    const auto [a, to_a] = point_ahead(graph, points, v, graph.at(v)[0], l / 2);
+    const auto [b, to_b] = point_ahead(graph, points, v, graph.at(v)[1], l / 2);
+    return (std::min)((to_a + to_b) / length(b - a), longest);
   }
 
   /// Vertices of the border to which something leads that is kept, and those where the surface is

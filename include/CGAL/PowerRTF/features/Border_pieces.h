@@ -75,9 +75,11 @@ public:
 
   /// \param places by point of `soup`, the one that stands for it; all vertices here are such
   /// \param is_touched by point, of those that stand for others: whether its polygons are taken
+  /// \param stays by polygon: whether its triangles stay, so that their shape matters
   Border_pieces(const Polygon_soup& soup, const std::vector<int>& places,
-                const std::vector<char>& is_touched)
-      : points(soup.points), m_at(soup.points.size()), m_is_changed(soup.first.size() - 1, 0)
+                const std::vector<char>& is_touched, std::vector<char> stays)
+      : points(soup.points), m_at(soup.points.size()), m_is_changed(soup.first.size() - 1, 0),
+        m_stays(std::move(stays))
   {
     std::vector<Triangle> triangles;
     for (std::size_t k = 0; k + 1 < soup.first.size(); ++k) {
@@ -123,12 +125,12 @@ public:
   }
 
   /// Moves vertex `v` along an edge into `u`, unless the surface would not stay a 2-manifold with
-  /// the same topology there, a triangle turn by more than an angle with this cosine, or become
-  /// slimmer than all of these were and than ten times as long as high.
+  /// the same topology there, a triangle turn by more than an angle with this cosine, or one that
+  /// stays become slimmer than all of these were and than ten times as long as high.
   /// \returns whether that is done
   bool contract(int v, int u, double cos_turn)
   {
-    constexpr double fair = 0.1;
+    constexpr double fair = 0.1, least_fatness = 1e-4;
     std::vector<int> left, wings; // pieces that stay; the third corners of the others
     std::map<int, std::vector<int>> link;
     double slimmest = fair;
@@ -142,14 +144,16 @@ public:
         left.push_back(p);
       else
         wings.push_back(a == u ? b : a);
-      slimmest = (std::min)(slimmest, triangle_fatness(points[v], points[a], points[b]));
+      if (m_stays[m_pieces[p].polygon])
+        slimmest = (std::min)(slimmest, triangle_fatness(points[v], points[a], points[b]));
     }
     if (!is_cycle(link) || wings.size() != 2 || wings[0] == wings[1]) return false;
     for (const int p : m_at[u])
       for (const int w : m_pieces[p].corners)
         if (w != v && w != u && w != wings[0] && w != wings[1] && link.count(w)) return false;
     for (const int p : left)
-      if (!may_become(m_pieces[p].corners, replaced(m_pieces[p].corners, v, u), cos_turn, slimmest))
+      if (!may_become(m_pieces[p].corners, replaced(m_pieces[p].corners, v, u), cos_turn,
+                      m_stays[m_pieces[p].polygon] ? slimmest : least_fatness))
         return false;
     const std::vector<int> all = m_at[v];
     for (const int p : all) {
@@ -212,6 +216,7 @@ private:
   std::vector<Piece> m_pieces;
   std::vector<std::vector<int>> m_at; // by vertex: pieces
   std::vector<char> m_is_changed;     // by polygon
+  std::vector<char> m_stays;          // the same
 };
 
 } // namespace CGAL::PowerRTF::internal
