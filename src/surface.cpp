@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Part of PowerRTF::core: from a polygon soup to the surface, its patches and its samples.
+#include <CGAL/PowerRTF/change_border_impl.h>
 #include <CGAL/PowerRTF/engines/Surface_engine_impl.h>
 #include <CGAL/PowerRTF/features/Surface_patches_impl.h>
 #include <CGAL/PowerRTF/input/clean_surface_impl.h>

@@ -35,7 +35,9 @@ bool holds_numbers(Format format)
   return holds_cells(format) || format == Format::vtu || format == Format::msh;
 }
 
-bool holds_texture(Format format) { return format == Format::obj || is_gltf(format); }
+bool holds_texture(Format format) { return holds_names(format) || format == Format::ply; }
+
+bool holds_names(Format format) { return format == Format::obj || is_gltf(format); }
 
 bool is_gltf(Format format) { return format == Format::gltf || format == Format::glb; }
 

@@ -26,8 +26,11 @@ bool is_read(Format format);
 /// Whether a format holds any numbers of vertices and faces: PLY, VTP, VTU and MSH do.
 bool holds_numbers(Format format);
 
-/// Whether a format holds texture coordinates of corners, and names of materials: OBJ and glTF do.
+/// Whether a format holds texture coordinates of corners: OBJ, glTF and PLY do.
 bool holds_texture(Format format);
+
+/// Whether a format holds names of materials: OBJ and glTF do.
+bool holds_names(Format format);
 
 /// Whether it is glTF, as text or binary.
 bool is_gltf(Format format);

@@ -45,7 +45,7 @@ std::string in_words(const std::string& name, bool of_vertices)
                                                               {"texture_u", "texture coordinates"},
                                                               {"texture_v", "texture coordinates"},
                                                               {"texcoord", "texture coordinates"},
-                                                              {"texnumber", "texture coordinates"}};
+                                                              {"texnumber", "numbers of textures"}};
   if (is_color(name)) return "colors";
   const auto known = meanings.find(name);
   if (known != meanings.end()) return known->second;
@@ -54,14 +54,16 @@ std::string in_words(const std::string& name, bool of_vertices)
 
 Mesh_properties held_by(Format format, const Mesh_properties& properties)
 {
-  Mesh_properties held;
-  for (const Mesh_property& p : properties.vertices)
-    if (is_held(format, p, true)) held.vertices.push_back(p);
-  for (const Mesh_property& p : properties.faces)
-    if (is_held(format, p, false)) held.faces.push_back(p);
-  if (holds_texture(format)) held.texture = properties.texture;
-  held.material_files = properties.material_files;
-  held.gltf_materials = properties.gltf_materials;
+  Mesh_properties held = properties;
+  const auto drop = [format](std::vector<Mesh_property>& from, bool of_vertices) {
+    from.erase(
+        std::remove_if(from.begin(), from.end(),
+                       [&](const Mesh_property& p) { return !is_held(format, p, of_vertices); }),
+        from.end());
+  };
+  drop(held.vertices, true);
+  drop(held.faces, false);
+  if (!holds_texture(format)) held.texture = {};
   return held;
 }
 
@@ -73,9 +75,6 @@ std::set<std::string> not_held_by(Format format, const Mesh_properties& properti
   for (const Mesh_property& p : properties.faces)
     if (!is_held(format, p, false)) words.insert(in_words(p.name, false));
   if (!properties.texture.empty() && !holds_texture(format)) words.insert("texture coordinates");
-  if ((is_gltf(format) && !properties.material_files.empty()) ||
-      (format == Format::obj && !properties.gltf_materials.json.empty()))
-    words.insert("the look of materials");
   return words;
 }
 

@@ -76,12 +76,19 @@ struct Gltf_materials {
   std::vector<std::string> images{};
 };
 
+/// A file that is written with a mesh.
+struct Side_file {
+  std::string name, bytes;
+};
+
 struct Mesh_properties {
   std::vector<Mesh_property> vertices, faces;
   Texture texture{};
-  /// OBJ: the files that say what the materials look like, as the file names them.
-  std::vector<std::string> material_files{};
+  // What the materials look like, in one of three ways:
+  std::vector<std::string> material_files{}; ///< OBJ: the files that say it, as the file names them
   Gltf_materials gltf_materials{};
+  std::vector<std::string> texture_files{}; ///< PLY: images, by the number `texnumber`
+  std::vector<Side_file> side_files{};      ///< of an output
 
   bool empty() const { return vertices.empty() && faces.empty() && texture.empty(); }
 };
@@ -99,7 +106,7 @@ bool is_color(const std::string& name);
 std::string in_words(const std::string& name, bool of_vertices);
 
 /// Those that files of a format hold: PLY, VTP, VTU and MSH all numbers, OBJ and glTF the colors of
-/// vertices, names of faces (glTF: of materials only), and textures.
+/// vertices and names of faces (glTF: of materials only); OBJ, glTF and PLY textures.
 Mesh_properties held_by(Format format, const Mesh_properties& properties);
 
 /// The others, in words.

@@ -27,8 +27,11 @@ double outside_square(const Normalization& normalization)
 } // namespace
 
 void write_cells(std::ostream& out, Format format, Encoding encoding,
-                 const std::vector<Cell_polygon>& cells, const Normalization& normalization)
+                 const std::vector<Cell_polygon>& cells, const Normalization& normalization,
+                 std::size_t half)
 {
+  const std::size_t images = half > 0 ? cells.size() / 2 : cells.size(); // where they begin
+
   const double square = outside_square(normalization);
   Dataset data;
   Field sample{"sample", {}, {}}, status{"status", {}, {}}, weight{"weight", {}, {}},
@@ -40,7 +43,7 @@ void write_cells(std::ostream& out, Format format, Encoding encoding,
     std::iota(polygon.begin(), polygon.end(), static_cast<int>(data.points.size()));
     for (const auto& p : cell.vertices) data.points.push_back(normalization.to_outside(p));
     data.polygons.add(polygon);
-    sample.integers.push_back(static_cast<int>(i));
+    sample.integers.push_back(static_cast<int>(i < images ? i : i - images + half));
     status.integers.push_back(static_cast<int>(cell.status));
     weight.values.push_back(square * cell.weight);
     mass.values.push_back(square * cell.mass);

@@ -107,6 +107,28 @@ void ply_fields(Row& row, const std::vector<Field>& fields, std::size_t i)
   }
 }
 
+/// Whether floats hold the coordinates as they are.
+bool has_float_coordinates(const Texture& texture)
+{
+  return std::all_of(texture.coordinates.begin(), texture.coordinates.end(),
+                     [](const auto& uv) { return float(uv[0]) == uv[0] && float(uv[1]) == uv[1]; });
+}
+
+/// The texture coordinates of a polygon, one corner after the other; none, if a corner has none.
+/// \param first its first corner
+template <class Row>
+void ply_texture(Row& row, const Texture& texture, bool are_floats, std::size_t first,
+                 std::size_t size)
+{
+  const auto begin = texture.corners.begin() + static_cast<std::ptrdiff_t>(first),
+             end = begin + static_cast<std::ptrdiff_t>(size);
+  const bool has_all = std::find(begin, end, -1) == end;
+  row.add(static_cast<std::uint8_t>(has_all ? 2 * size : 0));
+  for (auto corner = begin; has_all && corner != end; ++corner)
+    for (const double x : texture.coordinates[*corner])
+      are_floats ? row.add(static_cast<float>(x)) : row.add(x);
+}
+
 /// Whether a byte holds the number of vertices of every polygon.
 bool has_small_polygons(const Dataset& data)
 {
@@ -118,13 +140,18 @@ bool has_small_polygons(const Dataset& data)
 void ply_header(Streamed_text& text, const Dataset& data, Encoding encoding)
 {
   text << "ply\nformat " << (encoding == Encoding::text ? "ascii" : "binary_little_endian")
-       << " 1.0\nelement vertex " << data.points.size()
+       << " 1.0\n";
+  for (const std::string& file : data.texture_files) text << "comment TextureFile " << file << "\n";
+  text << "element vertex " << data.points.size()
        << "\nproperty double x\nproperty double y\nproperty double z\n";
   if (!data.normals.empty()) text << "property double nx\nproperty double ny\nproperty double nz\n";
   ply_properties(text, data.point_fields);
   if (!data.polygons.empty()) {
     text << "element face " << data.polygons.size() << "\nproperty list "
          << (has_small_polygons(data) ? "uchar" : "int") << " int vertex_indices\n";
+    if (data.texture)
+      text << "property list uchar " << (has_float_coordinates(*data.texture) ? "float" : "double")
+           << " texcoord\n";
     ply_properties(text, data.cell_fields);
   }
   text << "end_header\n";
@@ -144,12 +171,15 @@ void ply_body(std::ostream& out, const Dataset& data)
     ply_fields(row, data.point_fields, i);
     row.end();
   });
+  const bool has_float_texture = data.texture && has_float_coordinates(*data.texture);
   write_rows(out, data.polygons.size(), [&](Text& text, std::size_t i) {
     Row row(text);
     const Index_lists::List polygon = data.polygons[i];
     small_polygons ? row.add(static_cast<std::uint8_t>(polygon.size()))
                    : row.add(static_cast<int>(polygon.size()));
     for (const int v : polygon) row.add(v);
+    if (data.texture)
+      ply_texture(row, *data.texture, has_float_texture, data.polygons.first(i), polygon.size());
     ply_fields(row, data.cell_fields, i);
     row.end();
   });

@@ -59,6 +59,8 @@ public:
   }
   std::size_t size() const { return m_ends.size() - 1; }
   bool empty() const { return size() == 0; }
+  /// The index of the first entry of a list among all.
+  std::size_t first(std::size_t i) const { return m_ends[i]; }
   List operator[](std::size_t i) const
   {
     return {m_indices.data() + m_ends[i], m_indices.data() + m_ends[i + 1]};
@@ -75,7 +77,9 @@ struct Dataset {
   Index_lists polygons;                       ///< of `points`
   Index_lists dots, lines;                    ///< likewise; VTP only
   std::vector<Field> point_fields;
-  std::vector<Field> cell_fields; ///< of the dots, the lines and the polygons, in this order
+  std::vector<Field> cell_fields;   ///< of the dots, the lines and the polygons, in this order
+  const Texture* texture = nullptr; ///< of the corners of the polygons, PLY only; or none
+  std::vector<std::string> texture_files{}; ///< PLY only
 };
 
 /// The same as fields.

@@ -71,7 +71,7 @@ double number_of(std::string_view bytes, const Component& c)
 
 } // namespace
 
-std::string bytes_of_file(const std::string& folder, const std::string& uri)
+std::string name_of_uri(const std::string& uri)
 {
   std::string name;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -85,7 +85,12 @@ std::string bytes_of_file(const std::string& folder, const std::string& uri)
       name += uri[i];
     }
   }
-  const std::filesystem::path file = std::filesystem::path(folder) / name;
+  return name;
+}
+
+std::string bytes_of_file(const std::string& folder, const std::string& uri)
+{
+  const std::filesystem::path file = std::filesystem::path(folder) / name_of_uri(uri);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return {};
   std::ifstream in(file, std::ios::binary);

@@ -52,7 +52,10 @@ private:
   std::vector<std::string> m_buffers;
 };
 
-/// The bytes of a file that is named by a URI, whose %20 is a blank; none, if it cannot be read.
+/// The file that a URI names: %20 is a blank.
+std::string name_of_uri(const std::string& uri);
+
+/// The bytes of a file that is named by a URI; none, if it cannot be read.
 std::string bytes_of_file(const std::string& folder, const std::string& uri);
 
 /// The bytes of the file that `image` names by its URI, which becomes its type; nothing, and the

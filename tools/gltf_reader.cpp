@@ -200,9 +200,8 @@ private:
     if (kept.contains("images"))
       for (Json& image : kept["images"]) {
         const std::size_t view = gltf_number(image, "bufferView", none);
-        std::string bytes =
-            view == none ? image_of_file(m_file.folder(), image) : std::string(m_file.view(view));
-        if (bytes.empty()) continue;
+        if (view == none) continue; // a file
+        std::string bytes(m_file.view(view));
         image["bufferView"] = look.images.size();
         look.images.push_back(std::move(bytes));
       }

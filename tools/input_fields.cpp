@@ -3,7 +3,7 @@
 #include "input_fields.h"
 
 #include "Tokenizer.h"
-#include "obj_materials.h"
+#include "materials.h"
 
 #include <CGAL/PowerRTF/input/near_borders.h>
 
@@ -120,26 +120,40 @@ const std::vector<Edge>& checked_lines(const Polygon_mesh& mesh)
   return mesh.lines;
 }
 
-/// The name of a file that `from`, a file, knows as `name`, for `to`, another file.
-std::string seen_from(const std::string& to, const std::string& from, const std::string& name)
-{
-  namespace fs = std::filesystem;
-  const auto folder = [](const std::string& file) { return fs::absolute(file).parent_path(); };
-  if (fs::path(name).is_absolute() || folder(from) == folder(to)) return name;
-  return (folder(from) / name).lexically_relative(folder(to)).generic_string();
-}
-
-/// The seams of the texture: the edges where the coordinates jump or the material is another.
 /// \throws Invalid_input_error the texture coordinates cannot be used
 std::vector<Edge> seams_of(const Polygon_mesh& mesh)
 {
   if (!mesh.texture_error.empty())
     throw Invalid_input_error("its texture coordinates cannot be used: " + mesh.texture_error);
-  const CGAL::PowerRTF::Polygon_soup& soup = mesh.soup;
-  const Texture& texture = mesh.properties.texture;
+  return texture_seams(mesh.soup, mesh.properties.texture,
+                       find_property(mesh.properties.faces, "material"));
+}
+
+} // namespace
+
+std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name)
+{
+  const std::vector<Mesh_property>& properties = mesh.properties.vertices;
+  const auto checked = [&](std::vector<double> values, const std::string& where) {
+    for (const int v : mesh.soup.corners)
+      if (!(values[v] > 0) || !std::isfinite(values[v]))
+        throw Invalid_input_error(where + ": the value of vertex " + std::to_string(v) +
+                                  " (numbered from 0) is not a positive, finite number");
+    return values;
+  };
+  if (const Mesh_property* const found = find_property(properties, name))
+    return checked(found->values, "its property " + printable(name));
+  if (std::filesystem::is_regular_file(name))
+    return checked(numbers_of_file(name, mesh.soup.points.size()), name);
+  throw Invalid_input_error("its vertices have no property " + printable(name) +
+                            ", and there is no such file; " + names_of(properties));
+}
+
+std::vector<Edge> texture_seams(const CGAL::PowerRTF::Polygon_soup& soup, const Texture& texture,
+                                const Mesh_property* material)
+{
   if (texture.empty()) return {};
   using Place = std::array<double, 3>; // material, u, v
-  const Mesh_property* const material = find_property(mesh.properties.faces, "material");
   const auto place = [&](std::size_t face, int corner) {
     const double name = material ? material->values[face] : 0;
     const int c = texture.corners[corner];
@@ -174,26 +188,6 @@ std::vector<Edge> seams_of(const Polygon_mesh& mesh)
   return seams;
 }
 
-} // namespace
-
-std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name)
-{
-  const std::vector<Mesh_property>& properties = mesh.properties.vertices;
-  const auto checked = [&](std::vector<double> values, const std::string& where) {
-    for (const int v : mesh.soup.corners)
-      if (!(values[v] > 0) || !std::isfinite(values[v]))
-        throw Invalid_input_error(where + ": the value of vertex " + std::to_string(v) +
-                                  " (numbered from 0) is not a positive, finite number");
-    return values;
-  };
-  if (const Mesh_property* const found = find_property(properties, name))
-    return checked(found->values, "its property " + printable(name));
-  if (std::filesystem::is_regular_file(name))
-    return checked(numbers_of_file(name, mesh.soup.points.size()), name);
-  throw Invalid_input_error("its vertices have no property " + printable(name) +
-                            ", and there is no such file; " + names_of(properties));
-}
-
 Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mesh)
 {
   Surface_fields fields;
@@ -226,13 +220,13 @@ std::vector<char> region_of(const Program_options& options, const Polygon_mesh& 
 void choose_names(const Program_options& options, Polygon_mesh& mesh)
 {
   if (options.keeps_lines) mesh.attributes.erase("lines");
+  std::vector<Mesh_property>& faces = mesh.properties.faces;
   if (options.keeps_texture)
     mesh.attributes.erase("texture coordinates");
   else
     mesh.properties.texture = {};
-
-  std::vector<Mesh_property>& faces = mesh.properties.faces;
   const auto is_unwanted = [&](const Mesh_property& p) {
+    if (p.name == "texnumber") return !options.keeps_texture;
     return !p.names.empty() && p.name != options.labels && p.name != options.region_name &&
            (p.name != "material" || !options.keeps_texture);
   };
@@ -241,23 +235,20 @@ void choose_names(const Program_options& options, Polygon_mesh& mesh)
     if (p.names.empty()) continue;
     mesh.attributes.erase(p.name + "s");
     const Format output = format_of(options.output);
-    if (!holds_texture(output) || (is_gltf(output) && p.name != "material"))
+    const std::vector<std::string>& files = mesh.properties.texture_files; // of images, as in PLY
+    const bool are_files = !files.empty() && p.name == "material";
+    if (!(holds_names(output) || are_files) || (is_gltf(output) && p.name != "material"))
       mesh.attributes.insert("names of " + p.name + "s");
   }
-  Mesh_properties& properties = mesh.properties;
-  const Mesh_property* const material = find_property(faces, "material");
-  if (!material) {
-    properties.material_files.clear();
-    properties.gltf_materials = {};
-  } else if (is_gltf(format_of(options.output)) && !properties.material_files.empty()) {
-    std::vector<std::string> files;
-    for (const std::string& file : properties.material_files)
-      files.push_back((std::filesystem::path(options.input).parent_path() / file).string());
-    properties.gltf_materials = read_materials(files, material->names);
-    if (!properties.gltf_materials.json.empty()) properties.material_files.clear();
-  }
-  for (std::string& file : mesh.properties.material_files)
-    file = seen_from(options.output, options.input, file);
+  if (!choose_look(options.input, options.output, mesh.properties))
+    mesh.attributes.insert("the look of materials");
+  const bool has_numbers = find_property(faces, "texnumber") != nullptr;
+  faces.erase(std::remove_if(faces.begin(), faces.end(),
+                             [&](const Mesh_property& p) { // the same is there as texnumber
+                               return has_numbers && p.name == "material" && !p.names.empty() &&
+                                      p.name != options.labels;
+                             }),
+              faces.end());
 }
 
 Refinement parse_refinement(const std::string& text)

@@ -20,6 +20,12 @@ namespace tools {
 ///   vertex; a facet's corner has a value that is not positive and finite
 std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name);
 
+/// The seams of a texture: the edges where its coordinates jump, or the material is another.
+/// \param material a property of the facets; null: all have one
+std::vector<CGAL::PowerRTF::Edge> texture_seams(const CGAL::PowerRTF::Polygon_soup& soup,
+                                                const Texture& texture,
+                                                const Mesh_property* material = nullptr);
+
 /// The fields, regions and creases that the options name, of `mesh`.
 /// \throws Invalid_input_error as `vertex_values()`; a label is no whole number; a line
 ///   runs along no edge of a facet; texture coordinates cannot be used

@@ -162,6 +162,8 @@ void write_mesh(std::ostream& out, Format format, Encoding encoding,
     data.cell_fields = fields_of(properties.faces);
     data.polygons.reserve(triangles.size(), 3 * triangles.size());
     for (const Triangle& t : triangles) data.polygons.add(t);
+    if (!properties.texture.empty()) data.texture = &properties.texture;
+    data.texture_files = properties.texture_files;
     return format == Format::ply   ? write_ply(out, data, encoding)
            : format == Format::vtp ? write_vtp(out, data)
                                    : write_vtu(out, data);

@@ -306,6 +306,8 @@ void set_fields(const po::variables_map& values, Program_options& o)
     o.region_name = text.substr(0, equal);
     o.region_value = text.substr(equal + 1);
     if (o.writes_patches) throw Usage_error("--patches: what --region leaves as it is has none");
+  } else if (o.remeshing.region_border != CGAL::PowerRTF::Region_border::keep) {
+    throw Usage_error("--region-border: there is no --region");
   }
   if (o.keeps_texture && o.remeshing.symmetry != CGAL::PowerRTF::Symmetry::none)
     throw Usage_error("--texture and --symmetry exclude each other: the seams of a texture have no "

@@ -15,6 +15,8 @@ Role role_of(const Element& element, const Property& property)
   const std::string& name = property.name;
   if (element.is_face() && property.length && (name == "vertex_indices" || name == "vertex_index"))
     return Role::corners;
+  if (element.is_face() && property.length && is_real(property.type) && name == "texcoord")
+    return Role::texture;
   if (property.length || (!element.is_vertex() && !element.is_face())) return Role::none;
   if (element.is_vertex() && name == "x") return Role::x;
   if (element.is_vertex() && name == "y") return Role::y;
@@ -39,7 +41,9 @@ public:
         add_element();
       else if (keyword == "property")
         add_property();
-      else if (keyword != "comment" && keyword != "obj_info")
+      else if (keyword == "comment")
+        read_comment();
+      else if (keyword != "obj_info")
         m_tokens.reject("is not known in the header of a PLY file");
     }
     check();
@@ -61,6 +65,13 @@ private:
   {
     if (!m_tokens.next_in_line()) throw Invalid_input_error(m_tokens.at() + what + " is missing");
     return m_tokens.token();
+  }
+
+  /// "TextureFile" and a name, as MeshLab writes it, or anything else.
+  void read_comment()
+  {
+    if (!m_tokens.next_in_line() || m_tokens.token() != "TextureFile") return;
+    m_header.texture_files.push_back(rest_of_line(m_tokens));
   }
 
   Body body()
@@ -133,7 +144,7 @@ private:
   }
 
   /// Takes the role from values that vertices or facets do not all have, or have twice, and from
-  /// texture coordinates: where they jump, linear interpolation is wrong.
+  /// texture coordinates but for those of corners: where they jump, linear interpolation is wrong.
   void drop_values()
   {
     const auto is_alone = [this](const Element& element) {
@@ -171,7 +182,7 @@ std::set<std::string> attributes(const Header& header)
       continue;
     }
     for (const Property& p : e.properties) {
-      if (p.role != Role::none) continue;
+      if (p.role != Role::none && p.role != Role::texture) continue;
       found.insert(in_words(p.name, e.is_vertex()));
     }
   }

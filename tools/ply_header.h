@@ -18,7 +18,7 @@ namespace tools::ply {
 enum class Body { text, little_endian, big_endian };
 using Type = Number_type;
 /// What a property is read as.
-enum class Role { none, value, corners, x, y, z };
+enum class Role { none, value, corners, texture, x, y, z };
 
 struct Property {
   std::string name;
@@ -44,6 +44,7 @@ struct Element {
 
 struct Header {
   std::optional<Body> body;
+  std::vector<std::string> texture_files; ///< of comments
   std::vector<Element> elements;
 };
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -120,8 +121,8 @@ template <class Values>
 class Body_reader {
 public:
   Body_reader(Values values, Polygon_mesh& mesh)
-      : m_values(std::move(values)), m_soup(mesh.soup), m_properties(mesh.properties),
-        m_bytes(m_values.bytes_left())
+      : m_values(std::move(values)), m_mesh(mesh), m_soup(mesh.soup), m_properties(mesh.properties),
+        m_texture(mesh.properties.texture), m_bytes(m_values.bytes_left())
   {}
 
   void read(const Element& element)
@@ -153,7 +154,7 @@ private:
   };
   /// What the items consist of, if their lists are as long as those of the first.
   struct Layout {
-    std::vector<Place> lengths, corners, values;
+    std::vector<Place> lengths, corners, texture, values;
     std::array<Place, 3> xyz{};
     std::size_t size = 0; ///< of an item, in bytes
   };
@@ -181,6 +182,8 @@ private:
         const Place place{result.size, p.type};
         if (p.role == Role::corners)
           result.corners.push_back(place);
+        else if (p.role == Role::texture)
+          result.texture.push_back(place);
         else if (p.role == Role::value)
           result.values.push_back(place);
         else if (p.role != Role::none)
@@ -200,7 +203,8 @@ private:
     const Layout item = layout_of_first(element);
     const std::size_t sides = item.corners.size(), first = m_soup.corners.size();
     if (element.count > m_values.bytes_left() / item.size || element.count > most ||
-        first + element.count * sides > most)
+        first + element.count * sides > most ||
+        (!item.texture.empty() && item.texture.size() != 2 * sides))
       return false;
     const int n = static_cast<int>(element.count);
     const auto at = [&](int i, const Place& p) { return value(i * item.size + p.offset, p.type); };
@@ -228,6 +232,7 @@ private:
           m_soup.corners[end - sides + k] = corner(at(i, item.corners[k]).whole_number());
         m_soup.first[begin + i] = static_cast<int>(end);
       });
+      if (!item.texture.empty()) read_even_texture(element, item, at);
     }
     for (std::size_t k = 0; k < item.values.size(); ++k) {
       std::vector<double>& values = properties_of(element)[k].values;
@@ -236,6 +241,45 @@ private:
     }
     m_values = m_values.after(n * item.size);
     return true;
+  }
+
+  /// The texture coordinates of facets with as many corners each. \param at `at(i, p)` is what
+  /// stands at place p of item i
+  template <class At>
+  void read_even_texture(const Element& element, const Layout& item, const At& at)
+  {
+    constexpr CGAL::Parallel_if_available_tag concurrency;
+    const int corners = static_cast<int>(element.count * item.corners.size()),
+              sides = static_cast<int>(item.corners.size()),
+              first = static_cast<int>(m_soup.corners.size()) - corners,
+              old = static_cast<int>(m_texture.coordinates.size());
+    m_texture.corners.resize(first, -1);
+    m_texture.corners.resize(m_soup.corners.size());
+    m_texture.coordinates.resize(old + corners);
+    for_each_index(concurrency, corners, [&](int c) {
+      const auto x = [&](int k) {
+        return at(c / sides, item.texture[2 * (c % sides) + k]).number();
+      };
+      m_texture.corners[first + c] = old + c;
+      m_texture.coordinates[old + c] = {x(0), x(1)};
+    });
+  }
+
+  /// The texture coordinates of the last facet, which have been read. \param item from 0
+  void end_texture(std::size_t item)
+  {
+    const std::size_t sides = m_soup.corners.size() - m_soup.first[m_soup.first.size() - 2];
+    const bool has_all = m_numbers.size() == 2 * sides;
+    if (!has_all && !m_numbers.empty() && m_mesh.texture_error.empty())
+      m_mesh.texture_error = "facet " + std::to_string(item + 1) + " has " +
+                             std::to_string(m_numbers.size()) + " numbers for " +
+                             std::to_string(sides) + " corners";
+    m_texture.corners.resize(m_soup.corners.size() - sides, -1);
+    for (std::size_t k = 0; k < sides; ++k) {
+      m_texture.corners.push_back(has_all ? static_cast<int>(m_texture.coordinates.size()) : -1);
+      if (has_all) m_texture.coordinates.push_back({m_numbers[2 * k], m_numbers[2 * k + 1]});
+    }
+    m_numbers.clear();
   }
 
   void read_item(const Element& element, std::size_t item)
@@ -263,6 +307,7 @@ private:
       }
     }
     if (element.is_vertex()) m_soup.points.push_back({xyz[0], xyz[1], xyz[2]});
+    if (element.is_face() && element.has(Role::texture)) end_texture(item);
   }
 
   template <class Expect>
@@ -272,9 +317,12 @@ private:
     expect(length <= m_values.bytes_left() / Values::size(property.type));
     for (std::size_t k = 0; k < length; ++k) {
       expect(m_values.next(property.type));
-      m_soup.corners.push_back(corner(m_values.whole_number()));
+      if (property.role == Role::texture)
+        m_numbers.push_back(m_values.value());
+      else
+        m_soup.corners.push_back(corner(m_values.whole_number()));
     }
-    m_soup.end_polygon();
+    if (property.role == Role::corners) m_soup.end_polygon();
   }
 
   std::vector<Mesh_property>& properties_of(const Element& element)
@@ -283,8 +331,11 @@ private:
   }
 
   Values m_values;
+  Polygon_mesh& m_mesh;
   CGAL::PowerRTF::Polygon_soup& m_soup;
   Mesh_properties& m_properties;
+  Texture& m_texture;
+  std::vector<double> m_numbers; // the texture coordinates of a facet
   std::size_t m_bytes;
 };
 
@@ -293,6 +344,38 @@ void read_body(Values values, const Header& header, Polygon_mesh& mesh)
 {
   Body_reader<Values> reader(std::move(values), mesh);
   for (const Element& element : header.elements) reader.read(element);
+}
+
+/// Checks the texture coordinates, and makes a material of each texture.
+void finish_texture(const std::vector<std::string>& files, Polygon_mesh& mesh)
+{
+  Texture& texture = mesh.properties.texture;
+  if (texture.coordinates.empty()) texture = {};
+  if (texture.empty() && mesh.texture_error.empty()) return;
+  texture.corners.resize(mesh.soup.corners.size(), -1);
+  const auto is_finite = [](const auto& x) { return std::isfinite(x[0]) && std::isfinite(x[1]); };
+  if (!std::all_of(texture.coordinates.begin(), texture.coordinates.end(), is_finite))
+    mesh.texture_error = "they are not finite";
+  if (!mesh.texture_error.empty()) texture = {};
+  std::vector<Mesh_property>& faces = mesh.properties.faces;
+  if (files.empty() || find_property(faces, "material")) return;
+  Mesh_property material{"material", Number_type::int32, {}, files};
+  if (const Mesh_property* const numbers = find_property(faces, "texnumber")) {
+    material.values = numbers->values;
+    faces.erase(faces.begin() + (numbers - faces.data()));
+  } else {
+    material.values.assign(mesh.soup.first.size() - 1, 0);
+  }
+  const double count = static_cast<double>(files.size());
+  bool has_others = false;
+  for (double& x : material.values) {
+    if (x >= 0 && x < count && x == std::floor(x)) continue;
+    x = count;
+    has_others = true;
+  }
+  if (has_others) material.names.emplace_back("none");
+  mesh.properties.texture_files = files;
+  faces.push_back(std::move(material));
 }
 
 } // namespace
@@ -309,6 +392,7 @@ Polygon_mesh parse_ply(std::string_view data)
   else // after the end of the line
     read_body(Binary_values(tokens.rest().substr(tokens.rest().empty() ? 0 : 1), *header.body),
               header, mesh);
+  finish_texture(header.texture_files, mesh);
   return mesh;
 }
 

@@ -13,9 +13,10 @@
 #include "traits.h"
 #include "transfer.h"
 
+#include <CGAL/PowerRTF/Remeshed_region.h>
+#include <CGAL/PowerRTF/cells/mirror_images.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/output_grid.h>
-#include <CGAL/PowerRTF/input/Soup_region.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
@@ -34,7 +35,7 @@ namespace {
 
 using namespace CGAL::PowerRTF;
 using internal::Joined_mesh;
-using internal::Soup_region;
+using internal::Remeshed_region;
 using internal::Stage;
 using internal::Stopwatch;
 
@@ -103,11 +104,14 @@ void check_precision(Surface& surface, const Program_options& options)
 struct Input {
   Polygon_mesh mesh; ///< with the properties that the output will have
   Surface_fields fields;
-  std::optional<Soup_region> region; ///< none: all is remeshed
+  std::optional<Remeshed_region> region; ///< none: all is remeshed
 
   /// What is remeshed, and what is said about places there.
-  Polygon_soup& remeshed_soup() { return region ? region->soup : mesh.soup; }
-  const Surface_fields& remeshed_fields() const { return region ? region->fields : fields; }
+  Polygon_soup& remeshed_soup() { return region ? region->soup() : mesh.soup; }
+  const Surface_fields& remeshed_fields() const { return region ? region->fields() : fields; }
+  /// What the result comes from, and what is said about places there.
+  const Polygon_soup& source_soup() const { return region ? region->own().soup : mesh.soup; }
+  const Surface_fields& source_fields() const { return region ? region->own().fields : fields; }
 };
 
 /// `run` receives the seconds and what is lost.
@@ -122,11 +126,13 @@ Input load(Run& run)
     about_input(run.options, [&] {
       input.fields = fields_of(run.options, mesh);
       if (!run.options.region_name.empty())
-        input.region.emplace(mesh.soup, region_of(run.options, mesh), input.fields);
+        input.region.emplace(mesh.soup, region_of(run.options, mesh), input.fields,
+                             run.options.remeshing, Concurrency());
     });
   }
   const Format output = format_of(run.options.output);
   choose_names(run.options, mesh);
+  for (const Side_file& file : mesh.properties.side_files) check_writable(file.name);
   mesh.attributes.merge(not_held_by(output, mesh.properties));
   run.not_carried_over.assign(mesh.attributes.begin(), mesh.attributes.end());
   mesh.properties = run.options.write_mesh ? held_by(output, mesh.properties) : Mesh_properties();
@@ -205,16 +211,16 @@ bool has_sources(const Polygon_mesh& input, const Program_options& options)
 }
 
 /// Where the vertices of `mesh`, in the unit box, come from.
-Sources find_sources(Input& input, const Normalization& normalization, const Extracted_mesh& mesh,
-                     Run& run)
+Sources find_sources(const Input& input, const Normalization& normalization,
+                     const Extracted_mesh& mesh, Run& run)
 {
   if (!has_sources(input.mesh, run.options)) return {};
   const Stage stage("transfer", run.report.seconds.transfer);
-  const Polygon_soup& soup = input.remeshed_soup();
+  const Polygon_soup& soup = input.source_soup();
   Sources sources = find_sources(soup, normalization, run.report.faces_as_input(), mesh.points,
                                  mesh.triangles, Concurrency());
   if (!input.mesh.properties.texture.empty())
-    sources.corners = find_corner_sources(soup, input.remeshed_fields().lines, normalization,
+    sources.corners = find_corner_sources(soup, input.source_fields().lines, normalization,
                                           mesh.points, mesh.triangles, sources, Concurrency());
   return sources;
 }
@@ -225,8 +231,10 @@ Joined_mesh join(const Input& input, const Normalization& normalization, const E
                  Run& run)
 {
   const Stage stage("transfer", run.report.seconds.transfer);
-  Joined_mesh joined(input.mesh.soup, *input.region, mesh, normalization);
-  joined.judge(input.mesh.soup, *input.region, run.report, Concurrency());
+  const internal::Soup_region& region = input.region->replaced();
+  Joined_mesh joined(input.mesh.soup, region, mesh, normalization);
+  joined.judge(input.mesh.soup, region, run.report, Concurrency());
+  run.report.changed_faces = input.region->changed_faces();
   if (!writes_floats(run.options)) return joined;
   for (const int v : joined.input_points) {
     const Vec3d& p = input.mesh.soup.points[v];
@@ -251,7 +259,8 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
   outputs.add(options.html_file, [&](std::ostream& out) {
     std::ostringstream report;
     write_json(report, run);
-    write_html(out, remesher.surface(), mesh, remesher.cells(), report.str());
+    write_html(out, remesher.surface(), mesh, with_images(remesher.cells(), remesher.mirror()),
+               report.str());
   });
   Mesh_properties values = transferred(input, sources);
   if (options.writes_patches) set_patches(remesher.patches(mesh), values);
@@ -262,17 +271,22 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
     outputs.add(options.output, [&](std::ostream& out) {
       write_mesh(out, format_of(options.output), options.encoding, points, triangles, values);
     });
+  for (const Side_file& file : values.side_files)
+    outputs.add(file.name, [&](std::ostream& out) { out << file.bytes; });
   outputs.add(options.provenance_file, [&](std::ostream& out) {
     write_sources(out, format_of(options.provenance_file), options.encoding, points, triangles,
                   sources);
   });
   outputs.add(options.cells_file, [&](std::ostream& out) {
-    write_cells(out, format_of(options.cells_file), options.encoding, remesher.cells(),
-                normalization);
+    write_cells(out, format_of(options.cells_file), options.encoding,
+                with_images(remesher.cells(), remesher.mirror()), normalization,
+                remesher.mirror() ? remesher.options().number_of_samples : 0);
   });
   outputs.add(options.samples_file, [&](std::ostream& out) {
-    write_samples(out, format_of(options.samples_file), options.encoding, remesher.samples(),
-                  normalization);
+    const std::size_t with_cells =
+        remesher.options().number_of_samples - remesher.features().size();
+    write_samples(out, format_of(options.samples_file), options.encoding,
+                  with_images(remesher.samples(), with_cells, remesher.mirror()), normalization);
   });
   outputs.add(options.fields_file, [&](std::ostream& out) {
     write_fields(out, remesher.lattice_fields(), normalization);
@@ -292,11 +306,16 @@ void make_results(Run& run, Input& input, Surface surface, Outputs& outputs)
   Extracted_mesh mesh = make_mesh(remesher, run);
   run.report = remesher.report();
   const Normalization& normalization = remesher.surface().normalization;
-  Sources sources = find_sources(input, normalization, mesh, run);
   std::optional<Joined_mesh> joined;
+  Sources sources = find_sources(input, normalization, mesh, run);
   if (input.region && options.write_mesh) {
-    joined = join(input, normalization, mesh, run);
-    if (has_sources(input.mesh, options)) sources = joined->sources(*input.region, sources);
+    Extracted_mesh part = mesh;
+    input.region->complete(part, normalization);
+    joined = join(input, normalization, part, run);
+    if (has_sources(input.mesh, options)) {
+      input.region->complete_sources(part, normalization, sources);
+      sources = joined->sources(input.region->replaced(), sources);
+    }
   }
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
   const Stage stage("write", run.report.seconds.write);

@@ -147,9 +147,10 @@ void add_mesh(Json& json, const Run& run)
     json["input_sheets"] = r.input_topology.sheets;
     json["input_junctions"] = r.input_topology.junctions;
   }
-  if (r.kept_faces > 0) {
+  if (r.kept_faces > 0 || r.changed_faces > 0) {
     json["kept_vertices"] = r.kept_vertices;
     json["kept_faces"] = r.kept_faces;
+    json["changed_faces"] = r.changed_faces;
   }
   json["self_intersections"] = r.self_intersections;
   json["feature_samples"] = r.feature_samples;

@@ -63,6 +63,7 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
     row(out, "deviation from symmetry", "", figure(r.symmetry.deviation));
   }
   if (r.kept_faces > 0) row(out, "triangles kept around the region", std::to_string(r.kept_faces));
+  if (r.changed_faces > 0) row(out, "triangles changed beside it", std::to_string(r.changed_faces));
   row(out, "self-intersections", std::to_string(r.self_intersections));
   if (r.feature_edges > 0)
     row(out, "creases and borders",

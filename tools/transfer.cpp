@@ -48,11 +48,9 @@ Texture of_corners(const Texture& texture, const CGAL::PowerRTF::Polygon_soup& s
   Texture result;
   for (const auto& triangle : sources.corners)
     for (const Source& s : triangle) {
-      const auto begin = soup.corners.begin() + soup.first[s.face],
-                 end = soup.corners.begin() + soup.first[s.face + 1];
       std::array<int, 3> c;
       for (int i = 0; i < 3; ++i)
-        c[i] = texture.corners[std::find(begin, end, s.vertices[i]) - soup.corners.begin()];
+        c[i] = texture.corners[corner_number(soup, s.face, s.vertices[i])];
       if (*std::min_element(c.begin(), c.end()) < 0) {
         result.corners.push_back(-1);
         continue;
@@ -89,6 +87,13 @@ void normalize(std::vector<Mesh_property>& properties)
 
 } // namespace
 
+int corner_number(const CGAL::PowerRTF::Polygon_soup& soup, int face, int vertex)
+{
+  const auto begin = soup.corners.begin();
+  return static_cast<int>(
+      std::find(begin + soup.first[face], begin + soup.first[face + 1], vertex) - begin);
+}
+
 Mesh_properties transferred(const Polygon_mesh& mesh, const Sources& sources)
 {
   const Mesh_properties& input = mesh.properties;
@@ -100,6 +105,8 @@ Mesh_properties transferred(const Polygon_mesh& mesh, const Sources& sources)
   if (!input.texture.empty()) result.texture = of_corners(input.texture, mesh.soup, sources);
   result.material_files = input.material_files;
   result.gltf_materials = input.gltf_materials;
+  result.texture_files = input.texture_files;
+  result.side_files = input.side_files;
   return result;
 }
 

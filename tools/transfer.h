@@ -21,6 +21,9 @@ namespace tools {
 /// texture coordinates of `sources.corners`, interpolated linearly.
 Mesh_properties transferred(const Polygon_mesh& input, const CGAL::PowerRTF::Sources& sources);
 
+/// The number among the soup's corners that its polygon `face` has at `vertex`.
+int corner_number(const CGAL::PowerRTF::Polygon_soup& soup, int face, int vertex);
+
 /// Adds the property `patch` of the faces, in place of one of that name.
 void set_patches(const std::vector<int>& patches, Mesh_properties& properties);
 

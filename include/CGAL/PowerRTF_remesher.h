@@ -87,6 +87,9 @@ public:
   }
 
   const PowerRTF::Surface& surface() const { return m_whole ? *m_whole : m_surface; }
+  /// The plane about which the result is symmetric, in the unit box: samples and cells are those
+  /// above it (`with_images()` adds the others); none without `Remeshing_options::symmetry`.
+  const std::optional<PowerRTF::Mirror_plane>& mirror() const { return m_surface.mirror; }
   /// With the number of the samples that are distributed.
   const Options& options() const { return m_options; }
   const Report& report() const { return m_report; }

@@ -46,6 +46,8 @@ Remeshing_options options_of(const Resolution& resolution, const NamedParameters
   if (Has_float_coordinates<Point>::value) options.coordinates = Coordinates::single_precision;
   options.repair = choose_parameter(get_parameter(np, repair_t()), options.repair);
   options.symmetry = choose_parameter(get_parameter(np, symmetry_t()), options.symmetry);
+  options.region_border =
+      choose_parameter(get_parameter(np, region_border_t()), options.region_border);
   options.random_seed =
       choose_parameter(get_parameter(np, internal_np::random_seed), options.random_seed);
   options.max_iterations = choose_parameter(get_parameter(np, internal_np::number_of_iterations),
@@ -190,6 +192,13 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
  *     \cgalParamType{`PowerRTF::Symmetry`}
  *     \cgalParamDefault{`PowerRTF::Remeshing_options::symmetry`, none}
  *     \cgalParamExtra{`input` has to be symmetric within half the spacing of the vertices.}
+ *   \cgalParamNEnd
+ *
+ *   \cgalParamNBegin{PowerRTF::parameters::region_border}
+ *     \cgalParamDescription{for the second function, which remeshes a part: whether its border
+ *                           stays as it is, or gets vertices as far apart as those of the part}
+ *     \cgalParamType{`PowerRTF::Region_border`}
+ *     \cgalParamDefault{`PowerRTF::Remeshing_options::region_border`, `keep`}
  *   \cgalParamNEnd
  *
  *   \cgalParamNBegin{edge_is_constrained_map}
@@ -351,8 +360,10 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
  *
  * \brief remeshes a part of a mesh in place; the rest stays as it is.
  *
- * The edges between the part and the rest stay, too, and the new faces are joined to them. From
- * there the lengths of the new edges grow or shrink to those elsewhere, by no more than
+ * The edges between the part and the rest stay, too, and the new faces are joined to them; with
+ * `PowerRTF::Region_border::remesh` they give way to edges as long as those of the part, and the
+ * faces of the rest at the vertices that come and go to others. From there the lengths of the new
+ * edges grow or shrink to those elsewhere, by no more than
  * `PowerRTF::Remeshing_options::gradation`, or as slowly as the number of vertices allows. What is
  * border of the mesh in the part is remeshed with it.
  *
@@ -364,7 +375,8 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
  *
  * \param faces those to be remeshed, in any order. All of `mesh` are allowed, too.
  * \param mesh the whole mesh. The other faces, their vertices and edges remain the same elements
- *             with the same points and values of property maps.
+ *             with the same points and values of property maps; but for those that change with the
+ *             border.
  * \param resolution the number of vertices that the part shall have, those on its border
  *                   included; or what gives it
  * \param np those of the first sequence of the function above, with the same defaults. The map
@@ -377,7 +389,8 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
  *          the run, `cancelled` is `true` and `mesh` is as it was.
  *
  * \throws PowerRTF::Invalid_input_error `faces` is empty; and as the function above, of the part.
- *         The samples are too few for the vertices on its border. `mesh` is as it was.
+ *         The samples are too few for the vertices on its border. The border is to be remeshed,
+ *         and `resolution` is a largest distance. `mesh` is as it was.
  */
 template <class ConcurrencyTag = Parallel_if_available_tag, class FaceRange, class PolygonMesh,
           class NamedParameters = parameters::Default_named_parameters>
@@ -398,12 +411,12 @@ power_rtf_remeshing(const FaceRange& faces, PolygonMesh& mesh,
       parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
 
   const PowerRTF::Polygon_soup whole = PowerRTF::internal::soup_of_mesh(mesh, np);
-  const PowerRTF::internal::Soup_region region(whole,
-                                               PowerRTF::internal::marks_of_faces(mesh, faces),
-                                               PowerRTF::internal::surface_fields(mesh, np));
+  const PowerRTF::internal::Remeshed_region region(
+      whole, PowerRTF::internal::marks_of_faces(mesh, faces),
+      PowerRTF::internal::surface_fields(mesh, np), options, ConcurrencyTag());
   const auto prepare = [&](const PowerRTF::Remeshing_options& o, PowerRTF::Remeshing_report& r) {
     const PowerRTF::internal::Stage stage("surface");
-    return PowerRTF::prepare_surface(PowerRTF::Polygon_soup(region.soup), region.fields, o, r,
+    return PowerRTF::prepare_surface(PowerRTF::Polygon_soup(region.soup()), region.fields(), o, r,
                                      ConcurrencyTag());
   };
   return PowerRTF::internal::run<typename Types::Traits>(

@@ -39,6 +39,7 @@ class Mesh:
     vertices: Any
     faces: Any
     labels: Any
+    uv: Any
     patches: NDArray[np.int32] | None
     report: Report
     def __iter__(self) -> Iterator[Any]: ...
@@ -80,6 +81,7 @@ class Options:
     intersections: str | None = None
     wrap_radius: float | None = None
     symmetry: str | None = None
+    region_border: str | None = None
     density_power: float | None = None
     gradation: float | None = None
     density_smoothing: float | None = None
@@ -126,6 +128,7 @@ def remesh(
     constrained_edges: Any = None,
     face_labels: Any = None,
     region: Any = None,
+    uv: Any = None,
     patches: bool = False,
     threads: int = 0,
     progress: Callable[[float, str], Any] | bool | None = None,
@@ -149,6 +152,7 @@ def remesh(
     intersections: str = "keep",
     wrap_radius: float = 0.0,
     symmetry: str = "none",
+    region_border: str = "keep",
     density_power: float = 1.0,
     gradation: float = 0.1,
     density_smoothing: float = 3.0,

@@ -53,8 +53,9 @@ class Mesh:
     """The result of a run: triangles. Unpacks as ``vertices, faces = mesh``.
 
     Attributes: ``vertices`` (n, 3) and ``faces`` (m, 3), counter-clockwise seen from outside, arrays of
-    the input's kind; ``labels`` of the faces, of the kind and type of those given, and ``patches``, where
-    they are wanted, or None; and ``report``, the :class:`Report`. Can be pickled.
+    the input's kind; ``labels`` of the faces and ``uv`` of their corners, (m, 3, 2), of the kind and type of
+    those given, and ``patches``, where they are wanted, or None; and ``report``, the :class:`Report`. Can be
+    pickled.
 
     >>> import powerrtf
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
@@ -70,6 +71,7 @@ class Mesh:
         self.vertices = vertices
         self.faces = faces
         self.labels = None
+        self.uv = None
         self.patches = patches
         self.report = report
         self._sites = sites
@@ -127,10 +129,12 @@ class Mesh:
     def transfer(self, values, of="vertices"):
         """Values of the input's vertices on the result's, interpolated linearly; those that are not
         floating-point numbers, as labels, are those of the nearest corner. Or values of the input's
-        faces on the result's, each that of the face at its center.
+        faces on the result's, each that of the face at its center. Or values of the corners of faces, which
+        jump at the seams of the ``uv`` that :func:`remesh` has had: each corner's are those on its own side.
 
-        :param values: a row for each vertex or face of the input
-        :param of: "vertices" or "faces"
+        :param values: a row for each vertex, face or corner of the input; of corners also (faces, corners of
+            each, ...)
+        :param of: "vertices", "faces" or "corners", of which the result has (m, 3, ...)
         :returns: an array of the same kind and type
 
         >>> import powerrtf

@@ -14,6 +14,7 @@ from ._core import InvalidInputError
 from ._input import face_arrays, index_array, like, real_array, to_host, unpack_mesh
 from ._mesh import Mesh, MissedGuaranteeWarning, Report
 from ._options import DEFAULTS, PRESETS, RESOLUTIONS, ROWS, check_traits, given_options
+from ._sources import corner_rows
 
 
 def _bar():
@@ -43,6 +44,18 @@ def _labels(face_labels, count):
     return face_labels
 
 
+def _uv(uv, faces, corners):
+    array = to_host(uv, "uv")
+    rows = corner_rows(array, faces, corners)
+    if rows.shape != (corners, 2):
+        raise InvalidInputError(f"uv has the shape {array.shape}, but must have two numbers for each of the "
+                                f"{corners} corners of {faces} faces")
+    rows = real_array(rows, "uv", (2,))
+    if not np.isfinite(rows).all():
+        raise InvalidInputError("uv has an entry that is not a finite number")
+    return rows
+
+
 def _region(region, count):
     """The numbers of the faces that a mask or an array of numbers names."""
     array = to_host(region, "region")
@@ -57,7 +70,7 @@ def _region(region, count):
 
 
 def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_edges=None, face_labels=None,
-         region=None, patches=False, threads=0, progress=None, coordinates="double"):
+         region=None, uv=None, patches=False, threads=0, progress=None, coordinates="double"):
     resolutions = [name for name in RESOLUTIONS if name in options and (options[name] or name == "n")]
     if size_field is not None and not resolutions:
         options = {**options, "size_factor": 1.0}
@@ -70,7 +83,7 @@ def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_ed
         raise InvalidInputError(f"threads is {threads!r}, but must be a number from 0 to 4096")
     options["coordinates"] = coordinates
     fields = {"density": None, "sizing": None, "constrained_edges": None, "labels": None, "region": None,
-              "refine": list(refine), "patches": bool(patches)}
+              "uv": None, "refine": list(refine), "patches": bool(patches)}
     if not isinstance(options.get("density", ""), str):
         fields["density"] = _vertex_values(options.pop("density"), "density", len(vertices))
     if size_field is not None:
@@ -81,10 +94,16 @@ def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_ed
     count = len(corners) if sizes is None else len(sizes)
     if face_labels is not None:
         fields["labels"] = _labels(face_labels, count)
+    if uv is not None:
+        if options.get("symmetry", "none") != "none":
+            raise InvalidInputError("uv and symmetry exclude each other: the seams have no mirror images")
+        fields["uv"] = _uv(uv, count, corners.size)
     if region is not None:
         if patches:
             raise InvalidInputError("patches is about whole meshes: what region leaves has none")
         fields["region"] = _region(region, count)
+    elif options.get("region_border", "keep") != "keep":
+        raise InvalidInputError("region_border is about the border of a region, but there is none")
     given = (vertices, corners, sizes, fields, options)
     show, close = _bar() if progress is True else (progress or None, lambda: None)
     try:
@@ -95,6 +114,8 @@ def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_ed
                 given)
     if face_labels is not None:
         mesh.labels = mesh.transfer(face_labels, of="faces")
+    if uv is not None:
+        mesh.uv = mesh.transfer(uv, of="corners")
     return mesh
 
 
@@ -105,14 +126,15 @@ def _warn(mesh):
 
 
 def remesh(vertices, faces=None, n=None, *, size_field=None, refine=(), constrained_edges=None,
-           face_labels=None, region=None, patches=False, threads=0, progress=None, options=None, **single):
+           face_labels=None, region=None, uv=None, patches=False, threads=0, progress=None, options=None,
+           **single):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
     corners, sizes = face_arrays(faces)
     mesh = _run(points, (corners, sizes), given_options(options, n, single), size_field=size_field,
                 refine=refine, constrained_edges=constrained_edges, face_labels=face_labels, region=region,
-                patches=patches, threads=threads, progress=progress,
+                uv=uv, patches=patches, threads=threads, progress=progress,
                 coordinates=_precision(points.dtype == np.float32))
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
@@ -170,7 +192,11 @@ what the result lacks, if it does.
 :param region: the faces to be remeshed, as a mask, (m,) bool, or by number: `n` is then the number of
     their vertices, those on their border included. The other faces, their vertices and the edges
     between stay as they are and come first in the result (polygons in triangles); the report is
-    about the new ones
+    about the new ones. With ``region_border="remesh"`` the edges between get the region's spacing, and
+    those faces beside them that change come last
+:param uv: texture coordinates of the corners of faces, (m, 3, 2), or in a row, (corners, 2). Seams, the edges at
+    an end of which they jump, are kept as creases, and the result has ``uv``, (m, 3, 2), on each side of a
+    seam its own. Not with ``symmetry``
 :param patches: whether the result has ``patches``: for each face the number of its patch between
     creases and borders
 :param threads: 0: all. The result is the same for any number

@@ -10,26 +10,48 @@ from ._input import like, to_host
 
 class Sources:
     """Arrays: the input's face that each vertex lies on, the corners of a triangle of it and the
-    barycentric coordinates in that; the input's face that each face's center lies on; and how many
-    vertices and faces the input has."""
+    barycentric coordinates in that; the input's face that each face's center lies on; three corners of the
+    input for each corner, in a row, and their weights, or None; and how many vertices, faces and corners the
+    input has."""
 
     def __init__(self, found, given):
-        self.face, self.vertices, self.weights, self.of_faces = found
+        self.face, self.vertices, self.weights, self.of_faces, self.corners, self.corner_weights = found
         points, corners, sizes, *_ = given
-        self.counts = {"vertices": len(points), "faces": len(corners if sizes is None else sizes)}
+        self.counts = {"vertices": len(points), "faces": len(corners if sizes is None else sizes),
+                       "corners": corners.size}
 
     def transfer(self, values, of):
         if of not in self.counts:
             raise InvalidInputError(f"of is {of!r}, but must be one of {'|'.join(self.counts)}")
+        if of == "corners" and self.corners is None:
+            raise InvalidInputError("of is 'corners', but where their values jump is told by uv only, and "
+                                    "remesh() has had none")
         array = to_host(values, "values")
+        if of == "corners":
+            array = corner_rows(array, self.counts["faces"], self.counts[of])
         if array.ndim == 0 or len(array) != self.counts[of]:
             raise InvalidInputError(f"values must be a row for each of the input's {self.counts[of]} "
                                     f"{of}, not of the shape {array.shape}")
         if of == "faces":
             result = array[self.of_faces]
-        elif array.dtype.kind in "fc":
-            result = np.einsum("nk,nk...->n...", self.weights, array[self.vertices])
+        elif of == "corners":
+            result = _mixed(array, self.corners, self.corner_weights)
+            result = result.reshape(-1, 3, *array.shape[1:])
         else:
-            nearest = self.weights.argmax(axis=1)
-            result = array[self.vertices[np.arange(len(nearest)), nearest]]
+            result = _mixed(array, self.vertices, self.weights)
         return like(result.astype(array.dtype, copy=False), values)
+
+
+def corner_rows(array, faces, corners):
+    """A row for each corner: faces of equal size may have a dimension of their own."""
+    if array.ndim > 1 and array.shape[0] == faces and faces * array.shape[1] == corners:
+        return array.reshape(corners, *array.shape[2:])
+    return array
+
+
+def _mixed(array, rows, weights):
+    """Three rows of `array` for each of `rows`, interpolated; of what is no floating-point number that with the
+    largest weight."""
+    if array.dtype.kind in "fc":
+        return np.einsum("nk,nk...->n...", weights, array[rows])
+    return array[rows[np.arange(len(rows)), weights.argmax(axis=1)]]

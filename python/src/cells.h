@@ -9,8 +9,10 @@
 #include "arrays.h"
 
 #include <CGAL/PowerRTF/cells/cells_of_sites.h>
+#include <CGAL/PowerRTF/cells/mirror_images.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
 
+#include <optional>
 #include <vector>
 
 namespace powerrtf {
@@ -23,7 +25,8 @@ using CGAL::PowerRTF::Normalization;
 struct Placed_sites {
   Cell_sites in;
   Normalization normalization;
-  bool faces_as_input = true; ///< see `Remeshing_report`
+  std::optional<CGAL::PowerRTF::Mirror_plane> mirror; ///< the sites are those above it
+  bool faces_as_input = true;                         ///< see `Remeshing_report`
 };
 
 template <class Remesher>
@@ -32,6 +35,7 @@ Placed_sites sites_of(const Remesher& remesher)
   const auto& options = remesher.options();
   Placed_sites sites;
   sites.normalization = remesher.surface().normalization;
+  sites.mirror = remesher.mirror();
   sites.faces_as_input = remesher.report().faces_as_input();
   sites.in.samples = remesher.sites();
   sites.in.cells = static_cast<int>(options.number_of_samples - remesher.features().size());
@@ -57,6 +61,8 @@ inline nb::dict to_python(Placed_sites&& sites)
   d["guard_factor"] = in.guard_factor;
   d["center"] = nb::make_tuple(center.x, center.y, center.z);
   d["scale"] = sites.normalization.scale;
+  d["mirror"] =
+      sites.mirror ? nb::object(nb::make_tuple(sites.mirror->axis, sites.mirror->at)) : nb::none();
   d["faces_as_input"] = sites.faces_as_input;
   return d;
 }
@@ -89,7 +95,18 @@ inline Placed_sites sites_from_python(const nb::dict& d)
   in.cos_angle = nb::cast<double>(d["cos_angle"]);
   in.guard_factor = nb::cast<double>(d["guard_factor"]);
   sites.normalization = normalization_from_python(d);
+  if (!d["mirror"].is_none()) {
+    const auto plane = nb::cast<nb::tuple>(d["mirror"]);
+    sites.mirror = {nb::cast<int>(plane[0]), nb::cast<double>(plane[1])};
+  }
   return sites;
+}
+
+/// The cells of the whole, with the images of those of a half.
+template <class Concurrency>
+std::vector<Cell_polygon> whole_cells(const Placed_sites& sites)
+{
+  return with_images(CGAL::PowerRTF::cells_of_sites<Concurrency>(sites.in), sites.mirror);
 }
 
 /// The cells as arrays: all corners, where each cell's begin (and the last's end), and of each cell
@@ -104,7 +121,7 @@ nb::dict cells(const nb::dict& of)
   std::vector<double> area, mass, density, weight;
   {
     const nb::gil_scoped_release release;
-    for (const Cell_polygon& cell : CGAL::PowerRTF::cells_of_sites<Concurrency>(sites.in)) {
+    for (const Cell_polygon& cell : whole_cells<Concurrency>(sites)) {
       for (const Vec3d& p : cell.vertices) points.push_back(sites.normalization.to_outside(p));
       first.push_back(static_cast<int>(points.size()));
       status.push_back(static_cast<int>(cell.status));

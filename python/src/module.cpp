@@ -18,10 +18,11 @@
 #include "report_json.h"
 #include "traits.h"
 
-#include <CGAL/PowerRTF/input/Soup_region.h>
+#include <CGAL/PowerRTF/Remeshed_region.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
+#include <CGAL/PowerRTF/transfer/find_corner_sources.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <nanobind/stl/optional.h>
@@ -46,14 +47,17 @@ using nb::literals::operator""_a;
 struct Input {
   Polygon_soup soup;
   Surface_fields fields;
-  std::optional<internal::Soup_region> region; ///< none: all is remeshed
-  bool wants_patches = false;
+  std::optional<internal::Remeshed_region> region; ///< none: all is remeshed
+  bool wants_patches = false, has_seams = false;
 
   /// What is remeshed, and what is said about places there.
-  Polygon_soup& remeshed_soup() { return region ? region->soup : soup; }
-  const Surface_fields& remeshed_fields() const { return region ? region->fields : fields; }
-  /// Whether the sources of the result are needed: for its labels, or of what stays.
-  bool wants_sources() const { return !fields.labels.empty() || region; }
+  Polygon_soup& remeshed_soup() { return region ? region->soup() : soup; }
+  const Surface_fields& remeshed_fields() const { return region ? region->fields() : fields; }
+  /// What the result comes from.
+  const Polygon_soup& source_soup() const { return region ? region->own().soup : soup; }
+  const Surface_fields& source_fields() const { return region ? region->own().fields : fields; }
+  /// Whether the sources of the result are needed: for its labels, its corners, or of what stays.
+  bool wants_sources() const { return !fields.labels.empty() || has_seams || region; }
 };
 
 /// What a dictionary of fields has: arrays or None, and regions as the program has them.
@@ -61,6 +65,7 @@ struct Given_fields {
   std::optional<Real_array> density, sizing;
   std::optional<Index_array> constrained_edges, labels;
   std::optional<Index_array> region; ///< faces
+  std::optional<Real_array> uv;      ///< of all corners
   std::vector<std::string> refine;
   bool patches; ///< whether the result's are wanted
 
@@ -70,13 +75,15 @@ struct Given_fields {
         constrained_edges(nb::cast<std::optional<Index_array>>(fields["constrained_edges"])),
         labels(nb::cast<std::optional<Index_array>>(fields["labels"])),
         region(nb::cast<std::optional<Index_array>>(fields["region"])),
+        uv(nb::cast<std::optional<Real_array>>(fields["uv"])),
         refine(nb::cast<std::vector<std::string>>(fields["refine"])),
         patches(nb::cast<bool>(fields["patches"]))
   {}
 };
 
 Input input_of(const Real_array& points, const Index_array& faces,
-               const std::optional<Index_array>& sizes, const Given_fields& given)
+               const std::optional<Index_array>& sizes, const Given_fields& given,
+               const Remeshing_options& options)
 {
   Input input;
   input.soup = soup_of_arrays(points, faces, sizes);
@@ -89,12 +96,22 @@ Input input_of(const Real_array& points, const Index_array& faces,
   if (given.labels)
     for_each_index(*given.labels,
                    [&](std::size_t, auto label) { fields.labels.push_back(int(label)); });
+  if (given.uv) {
+    tools::Texture texture;
+    texture.coordinates.resize(given.uv->shape(0));
+    for_each_real(*given.uv,
+                  [&](std::size_t i, double x) { texture.coordinates[i / 2][i % 2] = x; });
+    for (std::size_t c = 0; c < texture.coordinates.size(); ++c)
+      texture.corners.push_back(static_cast<int>(c));
+    fields.lines = tools::texture_seams(input.soup, texture);
+    input.has_seams = true;
+  }
   for (const std::string& region : given.refine)
     fields.refinements.push_back(tools::parse_refinement(region));
   if (given.region) {
     std::vector<char> is_inside(input.soup.first.size() - 1, 0);
     for_each_index(*given.region, [&](std::size_t, auto face) { is_inside[face] = 1; });
-    input.region.emplace(input.soup, is_inside, fields);
+    input.region.emplace(input.soup, is_inside, fields, options, tools::Concurrency());
   }
   return input;
 }
@@ -110,9 +127,13 @@ struct Result {
 void join(const Input& input, const Normalization& normalization, Result& result,
           Remeshing_report& report)
 {
-  internal::Joined_mesh joined(input.soup, *input.region, result.mesh, normalization);
-  joined.judge(input.soup, *input.region, report, tools::Concurrency());
-  result.sources = joined.sources(*input.region, *result.sources);
+  input.region->complete(result.mesh, normalization);
+  input.region->complete_sources(result.mesh, normalization, *result.sources);
+  const internal::Soup_region& region = input.region->replaced();
+  internal::Joined_mesh joined(input.soup, region, result.mesh, normalization);
+  joined.judge(input.soup, region, report, tools::Concurrency());
+  report.changed_faces = input.region->changed_faces();
+  result.sources = joined.sources(region, *result.sources);
   result.mesh.points = std::move(joined.points);
   result.mesh.triangles = std::move(joined.triangles);
 }
@@ -130,12 +151,15 @@ Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visito
     result.sites = sites_of(remesher);
   }
   run.report = remesher.report();
-  if (input.wants_sources() && !run.report.cancelled)
-    result.sources = find_sources(input.remeshed_soup(), remesher.surface().normalization,
-                                  run.report.faces_as_input(), result.mesh.points,
-                                  result.mesh.triangles, tools::Concurrency());
-  if (input.wants_patches) result.patches = remesher.patches(result.mesh);
   const Normalization& normalization = remesher.surface().normalization;
+  if (input.wants_patches) result.patches = remesher.patches(result.mesh);
+  if (input.wants_sources() && !run.report.cancelled)
+    result.sources = find_sources(input.source_soup(), normalization, run.report.faces_as_input(),
+                                  result.mesh.points, result.mesh.triangles, tools::Concurrency());
+  if (result.sources && input.has_seams)
+    result.sources->corners = find_corner_sources(
+        input.source_soup(), input.source_fields().lines, normalization, result.mesh.points,
+        result.mesh.triangles, *result.sources, tools::Concurrency());
   if (input.region && !run.report.cancelled)
     join(input, normalization, result, run.report);
   else
@@ -212,9 +236,10 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   Python_visitor visitor(progress);
   const Given_fields given(fields);
   Result result;
+  Input input;
   {
     const nb::gil_scoped_release release;
-    Input input = input_of(points, faces, sizes, given);
+    input = input_of(points, faces, sizes, given, run.options.remeshing);
     result = remesh_with_traits(run, input, visitor);
   }
   visitor.rethrow();
@@ -222,10 +247,10 @@ nb::tuple remesh(const Real_array& points, const Index_array& faces,
   tools::write_json(report, run);
   nb::object vertices = is_single ? to_array<float>(std::move(result.mesh.points))
                                   : to_array<double>(std::move(result.mesh.points));
-  return nb::make_tuple(vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
-                        to_python(std::move(result.sites)),
-                        to_array<int>(std::move(result.patches)),
-                        result.sources ? nb::object(to_python(*result.sources)) : nb::none());
+  return nb::make_tuple(
+      vertices, to_array<int>(std::move(result.mesh.triangles)), report.str(),
+      to_python(std::move(result.sites)), to_array<int>(std::move(result.patches)),
+      result.sources ? nb::object(to_python(*result.sources, input.soup)) : nb::none());
 }
 
 /// The page of a run, of what went in and what came out. \param sites those of the run
@@ -240,7 +265,7 @@ nb::bytes html_page(const Real_array& points, const Index_array& faces,
   std::ostringstream page;
   {
     const nb::gil_scoped_release release;
-    Input input = input_of(points, faces, sizes, given);
+    Input input = input_of(points, faces, sizes, given, Remeshing_options());
     Remeshing_report repairs;
     const Surface surface = prepare_surface(std::move(input.soup), input.fields, remeshing, repairs,
                                             tools::Concurrency());
@@ -248,7 +273,7 @@ nb::bytes html_page(const Real_array& points, const Index_array& faces,
     mesh.points = points_of_array(vertices);
     for (Vec3d& p : mesh.points) p = surface.normalization.to_inside(p);
     mesh.triangles = triangles_of_array(triangles);
-    std::vector<Cell_polygon> cells = cells_of_sites<tools::Concurrency>(placed.in);
+    std::vector<Cell_polygon> cells = whole_cells<tools::Concurrency>(placed);
     for (Cell_polygon& cell : cells)
       for (Vec3d& p : cell.vertices)
         p = surface.normalization.to_inside(placed.normalization.to_outside(p));

@@ -7,6 +7,8 @@
 
 #include "cells.h"
 
+#include "transfer.h"
+
 #include <CGAL/PowerRTF/transfer/find_sources.h>
 
 #include <optional>
@@ -16,8 +18,10 @@ namespace powerrtf {
 
 /// The face that each vertex of a result lies on, the corners of a triangle of that face and the
 /// weights of these; and the face that the center of each face lies on. Faces and vertices have the
-/// numbers of the input's.
-inline nb::tuple to_python(const CGAL::PowerRTF::Sources& sources)
+/// numbers of the input's. For each corner of each face three corners of the input and their
+/// weights; None, if these have not been looked for.
+/// \param input what they come from
+inline nb::tuple to_python(const CGAL::PowerRTF::Sources& sources, const Polygon_soup& input)
 {
   std::vector<int> of_vertices, of_faces;
   std::vector<CGAL::PowerRTF::Triangle> corners;
@@ -28,8 +32,20 @@ inline nb::tuple to_python(const CGAL::PowerRTF::Sources& sources)
     weights.push_back({s.weights[0], s.weights[1], s.weights[2]});
   }
   for (const CGAL::PowerRTF::Source& s : sources.faces) of_faces.push_back(s.face);
+  std::vector<CGAL::PowerRTF::Triangle> numbers;
+  std::vector<Vec3d> corner_weights;
+  for (const auto& triangle : sources.corners)
+    for (const CGAL::PowerRTF::Source& s : triangle) {
+      numbers.emplace_back();
+      for (int i = 0; i < 3; ++i)
+        numbers.back()[i] = tools::corner_number(input, s.face, s.vertices[i]);
+      corner_weights.push_back({s.weights[0], s.weights[1], s.weights[2]});
+    }
+  const bool has_corners = !sources.corners.empty();
   return nb::make_tuple(to_array<int>(std::move(of_vertices)), to_array<int>(std::move(corners)),
-                        to_array<double>(std::move(weights)), to_array<int>(std::move(of_faces)));
+                        to_array<double>(std::move(weights)), to_array<int>(std::move(of_faces)),
+                        has_corners ? to_array<int>(std::move(numbers)) : nb::none(),
+                        has_corners ? to_array<double>(std::move(corner_weights)) : nb::none());
 }
 
 /// The sources of a result.
@@ -45,14 +61,16 @@ nb::tuple sources(const Real_array& points, const Index_array& faces,
   const Normalization normalization = normalization_from_python(sites);
   const bool faces_as_input = nb::cast<bool>(sites["faces_as_input"]);
   Sources found;
+  Polygon_soup soup;
   {
     const nb::gil_scoped_release release;
+    soup = soup_of_arrays(points, faces, sizes);
     std::vector<Vec3d> inside = points_of_array(vertices);
     for (Vec3d& p : inside) p = normalization.to_inside(p);
-    found = find_sources(soup_of_arrays(points, faces, sizes), normalization, faces_as_input,
-                         inside, triangles_of_array(triangles), Concurrency());
+    found = find_sources(soup, normalization, faces_as_input, inside, triangles_of_array(triangles),
+                         Concurrency());
   }
-  return to_python(found);
+  return to_python(found, soup);
 }
 
 } // namespace powerrtf

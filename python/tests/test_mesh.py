@@ -193,3 +193,66 @@ def test_open3d_in_and_out():
     mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(POINTS),
                                         open3d.utility.Vector3iVector(FACES.astype(np.int32)))
     assert powerrtf.remesh_open3d(mesh, 100).is_watertight()
+
+
+def _folded_strip(n):
+    """A strip of n squares around a cylinder, and the uv of its corners: one chart that is cut where x = 1."""
+    angle = np.arange(n) * 2 * np.pi / n
+    points = np.concatenate([np.stack([np.cos(angle), np.sin(angle), np.full(n, z)], 1) for z in (0., 1)])
+    i, j = np.arange(n), (np.arange(n) + 1) % n
+    faces = np.concatenate([np.stack([i, j, j + n], 1), np.stack([i, j + n, i + n], 1)])
+    u = np.stack([i, i + 1, i + 1], 1), np.stack([i, i + 1, i], 1)
+    v = np.repeat([[0, 0, 1]], n, 0), np.repeat([[0, 1, 1]], n, 0)
+    return points, faces, np.stack([np.concatenate(u) / n, np.concatenate(v)], 2)
+
+
+@pytest.mark.parametrize("real", [np.float32, np.float64])
+def test_texture_coordinates_come_over_with_their_seams(real):
+    points, faces, uv = _folded_strip(48)
+    points, uv = points.astype(real), uv.astype(real)
+    mesh = powerrtf.remesh(points, faces, 400, uv=uv, density="uniform")
+    assert mesh.missed_guarantees == [] and mesh.uv.shape == (len(mesh.faces), 3, 2) and mesh.uv.dtype == real
+    angle = mesh.uv[..., 0] * 2 * np.pi
+    places = np.stack([np.cos(angle), np.sin(angle), mesh.uv[..., 1]], 2)
+    assert np.abs(places - mesh.vertices[mesh.faces]).max() < .02
+    a, b = mesh.uv[:, 1] - mesh.uv[:, 0], mesh.uv[:, 2] - mesh.uv[:, 0]
+    areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+    assert (areas > 0).all() and abs(areas.sum() - 1) < 1e-5
+    on_cut = np.abs(mesh.vertices[:, 1]) + (mesh.vertices[:, 0] < 0) < 1e-6
+    pairs = {(v, round(float(u), 6)) for v, u in zip(mesh.faces.ravel(), mesh.uv[..., 0].ravel())}
+    assert on_cut.sum() > 3 and len(pairs) == len(mesh.vertices) + on_cut.sum()
+
+    rows = powerrtf.remesh(points, faces, 400, uv=uv.reshape(-1, 2), density="uniform")
+    assert (rows.uv == mesh.uv).all() and (rows.vertices == mesh.vertices).all()
+    assert (pickle.loads(pickle.dumps(mesh)).transfer(uv, of="corners") == mesh.uv).all()
+    charts = mesh.transfer(np.repeat(np.arange(len(faces)), 3), of="corners")
+    assert charts.shape == mesh.faces.shape
+
+
+def test_texture_coordinates_of_polygons_and_of_a_region():
+    uv = np.array([[[0, 0], [1, 0], [1, 1], [0, 1]]] * 6) + 2. * np.arange(6)[:, None, None]
+    whole = powerrtf.remesh(CUBE, QUADS, 300, uv=uv)
+    charts = whole.uv[:, :, 0].mean(1) // 2
+    assert set(charts) == set(range(6)) and np.ptp(whole.uv - 2 * charts[:, None, None]) <= 1 + 1e-9
+    for border in ("keep", "remesh"):
+        part = powerrtf.remesh(CUBE, QUADS, 300, uv=uv, region=[0, 2, 4], region_border=border)
+        charts = part.uv[:, :, 0].mean(1) // 2
+        assert set(charts) == set(range(6)) and np.ptp(part.uv - 2 * charts[:, None, None]) <= 1 + 1e-9
+
+
+@pytest.mark.parametrize("uv, message", [
+    (np.zeros((5, 4, 2)), "the 24 corners of 6 faces"), (np.zeros((24, 3)), "the 24 corners"),
+    (np.full((24, 2), np.inf), "not a finite number"), (np.zeros(24), "the 24 corners"),
+    ([["a", "b"]] * 24, "uv must be numbers")])
+def test_wrong_texture_coordinates_are_refused(uv, message):
+    with pytest.raises(powerrtf.InvalidInputError, match=message):
+        powerrtf.remesh(CUBE, QUADS, 300, uv=uv)
+
+
+def test_corners_without_seams_are_refused():
+    mesh = powerrtf.remesh(CUBE, QUADS, 300)
+    assert mesh.uv is None
+    with pytest.raises(powerrtf.InvalidInputError, match="told by uv only"):
+        mesh.transfer(np.zeros((24, 2)), of="corners")
+    with pytest.raises(powerrtf.InvalidInputError, match="exclude each other"):
+        powerrtf.remesh(CUBE, QUADS, 300, uv=np.zeros((24, 2)), symmetry="x")

@@ -117,6 +117,26 @@ def test_what_is_no_region_stays_bit_for_bit(real):
 
 
 @pytest.mark.parametrize("real", [np.float32, np.float64])
+@pytest.mark.parametrize("length", [0.05, 0.4])
+def test_the_border_of_a_region_may_be_remeshed_with_it(real, length):
+    points, faces = sphere(16, real)
+    inside = points[faces].mean(axis=1)[:, 2] > 0.2
+    mesh = powerrtf.remesh(points, faces, edge_length=length, density="uniform", region=inside,
+                           face_labels=inside.astype(int), region_border="remesh")
+    report = mesh.report
+    assert mesh.missed_guarantees == [] and report.changed_faces > 0
+    assert len(mesh.faces) == report.kept_faces + report.changed_faces + report.faces
+    assert (mesh.labels == 1).sum() == report.faces
+    edges = np.sort(np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]]))
+    assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
+    before = {tuple(map(tuple, triangle)) for triangle in points[faces[~inside]].tolist()}
+    kept = mesh.vertices[mesh.faces[:report.kept_faces]]
+    assert {tuple(map(tuple, triangle)) for triangle in kept.tolist()} <= before
+    with pytest.raises(ValueError, match="there is none"):
+        powerrtf.remesh(points, faces, 300, region_border="remesh")
+
+
+@pytest.mark.parametrize("real", [np.float32, np.float64])
 def test_a_symmetric_result_is_its_own_mirror_image(real):
     points, faces = sphere(16, real)
     mesh = powerrtf.remesh(points, faces, 301, symmetry="z")
@@ -126,6 +146,10 @@ def test_a_symmetric_result_is_its_own_mirror_image(real):
     images = mesh.vertices.astype(np.float64) * [1, 1, -1] + [0, 0, 2 * plane["at"]]
     assert {tuple(p) for p in images} == {tuple(p) for p in mesh.vertices.astype(np.float64)}
     assert (images[:, 2] == mesh.vertices[:, 2]).sum() == plane["vertices"]
+    cells = mesh.cells()
+    above = [cell[:, 2].mean() > plane["at"] for cell in cells]
+    assert len(cells) == 301 - plane["vertices"] and sum(above) == len(cells) // 2
+    assert abs(cells.area[above].sum() - cells.area[np.invert(above)].sum()) < 1e-9
 
 
 def test_what_is_not_symmetric_is_refused():

@@ -163,19 +163,6 @@ TEST_CASE("what is written is read as it was, with its materials and images; sea
   }
 }
 
-TEST_CASE("what OBJ and glTF cannot tell each other is named")
-{
-  Mesh_properties properties;
-  CHECK(not_held_by(Format::glb, properties).empty());
-  properties.gltf_materials.json = "{}";
-  CHECK(not_held_by(Format::glb, properties).empty());
-  CHECK(not_held_by(Format::obj, properties) == std::set<std::string>{"the look of materials"});
-  properties.gltf_materials = {};
-  properties.material_files = {"a.mtl"};
-  CHECK(not_held_by(Format::obj, properties).empty());
-  CHECK(not_held_by(Format::gltf, properties) == std::set<std::string>{"the look of materials"});
-}
-
 TEST_CASE("normals are of length 1, and one at smooth vertices only")
 {
   std::ostringstream out;

@@ -174,3 +174,58 @@ TEST_CASE("PLY: what is malformed is told")
     CHECK(is.find(c.reason) != std::string::npos);
   }
 }
+
+TEST_CASE("PLY: texture coordinates of corners, of facets that have as many, and others")
+{
+  const std::string header =
+      " 1.0\ncomment TextureFile a b.png\ncomment TextureFile c.png\nelement vertex 4\n" +
+      std::string(xyz);
+  const std::string list = "property list uchar int vertex_indices\n",
+                    uv = "property list uchar float texcoord\nproperty int texnumber\n";
+  using Uv = std::array<double, 2>;
+  for (const char* const body : bodies)
+    for (const bool even : {true, false}) {
+      CAPTURE(body);
+      CAPTURE(even);
+      Ply data(body);
+      data.line("comment TextureFile a b.png").line("comment TextureFile c.png");
+      data.line("element vertex 4").line("property float x").line("property float y");
+      data.line("property float z").line("element face 2");
+      data.line("property list uchar int vertex_indices");
+      data.line("property list uchar float texcoord").line("property int texnumber");
+      data.line("end_header");
+      for (int v = 0; v < 4; ++v)
+        for (const int x : {v % 2, v / 2, 0}) data.value(float32, x);
+      const auto facet = [&](const std::vector<int>& corners, const std::vector<double>& numbers,
+                             int texture) {
+        data.value(uchar, double(corners.size()));
+        for (const int v : corners) data.value(int32, v);
+        data.value(uchar, double(numbers.size()));
+        for (const double x : numbers) data.value(float32, x);
+        data.value(int32, texture);
+      };
+      facet({0, 1, 2}, {0, 0, 0.5, 0, 0, 0.25}, 1);
+      facet({1, 3, 2}, even ? std::vector<double>{1, 0, 1, 1, 0, 1} : std::vector<double>(), 0);
+      const Polygon_mesh mesh = parse_mesh(Format::ply, data.data());
+      CHECK(mesh.texture_error.empty());
+      const tools::Texture& texture = mesh.properties.texture;
+      std::vector<Uv> wanted = {{0, 0}, {0.5, 0}, {0, 0.25}};
+      if (even) wanted.insert(wanted.end(), {{1, 0}, {1, 1}, {0, 1}});
+      CHECK(texture.coordinates == wanted);
+      CHECK(texture.corners ==
+            (even ? std::vector<int>{0, 1, 2, 3, 4, 5} : std::vector<int>{0, 1, 2, -1, -1, -1}));
+      REQUIRE(mesh.properties.faces.size() == 1);
+      CHECK(mesh.properties.faces[0].name == "material");
+      CHECK(mesh.properties.faces[0].values == std::vector<double>{1, 0});
+      CHECK(mesh.properties.faces[0].names == std::vector<std::string>{"a b.png", "c.png"});
+      CHECK(mesh.attributes == std::set<std::string>{"texture coordinates"});
+    }
+  const auto error = [&](const std::string& facet) {
+    return parse_mesh(Format::ply, "ply\nformat ascii" + header + "element face 1\n" + list + uv +
+                                       "end_header\n0 0 0 1 0 0 0 1 0 1 1 0\n" + facet)
+        .texture_error;
+  };
+  CHECK(error("3 0 1 2 6 0 0 1 0 0 1 0\n").empty());
+  CHECK(error("3 0 1 2 4 0 0 1 0 0\n") == "facet 1 has 4 numbers for 3 corners");
+  CHECK(error("3 0 1 2 6 0 0 x 0 0 1 0\n") == "they are not finite");
+}

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A part of a mesh is remeshed, the rest stays.
-#include "mesh_of_shape.h"
-#include "shapes.h"
+#include "test_regions/faces_where.h"
 
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/power_rtf_remeshing.h>
@@ -16,13 +15,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
+using regions::center;
+using regions::faces_where;
+using regions::Is_inside;
+using regions::is_upper;
+using regions::sphere;
 using shapes::make_mesh;
 using shapes::Mesh;
 using shapes::soup_of;
@@ -30,30 +33,6 @@ using Polyhedron = CGAL::Polyhedron_3<shapes::Kernel>;
 namespace params = CGAL::PowerRTF::parameters;
 
 namespace {
-
-using Is_inside = std::function<bool(const Vec3d&)>;
-
-bool is_upper(const Vec3d& p) { return p.z > 0.1; }
-
-Vec3d center(const Mesh& mesh, Mesh::Face_index f)
-{
-  Vec3d sum{0, 0, 0};
-  int corners = 0;
-  for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) {
-    sum += internal::to_vec3d(mesh.point(v));
-    ++corners;
-  }
-  return (1. / corners) * sum;
-}
-
-/// The faces whose centers are inside.
-std::vector<Mesh::Face_index> faces_where(const Mesh& mesh, const Is_inside& is_inside)
-{
-  std::vector<Mesh::Face_index> result;
-  for (const auto f : mesh.faces())
-    if (is_inside(center(mesh, f))) result.push_back(f);
-  return result;
-}
 
 long euler_characteristic(const Mesh& mesh)
 {
@@ -115,8 +94,6 @@ Remeshing_report remesh(Mesh& mesh, const Is_inside& is_inside, const Resolution
   }
   return report;
 }
-
-Mesh sphere() { return make_mesh(shapes::icosphere(4)); }
 
 } // namespace
 

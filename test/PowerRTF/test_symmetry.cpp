@@ -8,6 +8,7 @@
 #include "odd_shapes.h"
 #include "remeshed_shape.h"
 
+#include <CGAL/PowerRTF/cells/mirror_images.h>
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/features/half_surface.h>
 #include <CGAL/PowerRTF/transfer/Mesh_source.h>
@@ -17,6 +18,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -331,4 +333,27 @@ TEST_CASE("a half ends in the plane exactly, and has half the area")
     for (const Vec3d& p : half.points) CHECK(half.mirror->height(p) >= 0);
     CHECK(half.area == doctest::Approx(whole.area / 2).epsilon(at == 0.1 ? 0.2 : 1e-3));
   }
+}
+
+TEST_CASE("the image of a cell has its sides in the other order, with the same neighbors")
+{
+  Cell_polygon cell;
+  cell.vertices = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
+  cell.neighbors = {10, 11, 12, 13}; // below, to the right, above, to the left
+  const std::vector<Cell_polygon> cells = with_images({cell}, Mirror_plane{0, 0.5});
+  REQUIRE(cells.size() == 2);
+  CHECK(cells[1].vertices == std::vector<Vec3d>{{0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}, {0, 0, 0}});
+  CHECK(cells[1].neighbors == std::vector<int>{12, 11, 10, 13});
+  CHECK(with_images({cell}, std::nullopt).size() == 1);
+
+  Samples samples;
+  samples.points = {{0.5, 3, 0}, {1, 0, 0}, {0.5, 0, 0}};
+  samples.normals.assign(3, {1, 0, 0});
+  samples.facets.assign(3, 0);
+  samples.density.assign(3, 1);
+  samples.weights.assign(3, 0);
+  const Samples all = with_images(samples, 2, Mirror_plane{0, 0.5});
+  CHECK(all.size() == 5); // the last one is on a crease in the plane
+  CHECK(all.points[4] == Vec3d{0, 0, 0});
+  CHECK(all.normals[4] == Vec3d{-1, 0, 0});
 }

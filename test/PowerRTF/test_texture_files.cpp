@@ -102,11 +102,12 @@ struct Remeshed {
   Polygon_mesh mesh;
   Run run;
 };
-Remeshed remeshed(const std::string& obj, std::size_t n, Program_options options = {})
+Remeshed remeshed(const std::string& obj, std::size_t n, Program_options options = {},
+                  const std::string& format = "obj")
 {
   const Scratch scratch;
   options.input = (scratch.path / "input.obj").string();
-  options.output = (scratch.path / "output.obj").string();
+  options.output = (scratch.path / ("output." + format)).string();
   std::ofstream(options.input) << obj;
   options.remeshing.number_of_samples = n;
   options.traits = "cpu";
@@ -201,6 +202,17 @@ TEST_CASE("flat charts come over as they are, each vertex of a seam has a place 
   CHECK(count_pairs(mesh) == pairs);
 }
 
+TEST_CASE("PLY holds them, too, as text and binary")
+{
+  const Textured t = cube();
+  Program_options options;
+  for (const Encoding encoding : {Encoding::text, Encoding::binary}) {
+    options.encoding = encoding;
+    const Remeshed r = remeshed(obj_of(t), 500, options, "ply");
+    CHECK((r.run.not_carried_over.empty() && check_charts(t, r.mesh) < 1e-5));
+  }
+}
+
 TEST_CASE("a cut through a smooth surface is kept, and the error is of second order")
 {
   const auto error = [](int around, std::size_t n) {
@@ -292,6 +304,63 @@ TEST_CASE("the materials of an OBJ file and their images go into a glTF file")
   fs::remove(file("a.mtl"));
   CHECK(remesh_file(options, 0).not_carried_over ==
         std::vector<std::string>{"the look of materials"});
+}
+
+TEST_CASE("the materials and images of a glTF file go to OBJ and PLY, in files beside these")
+{
+  const Scratch scratch;
+  const auto file = [&](const std::string& name) { return (scratch.path / name).string(); };
+  const auto content = [&](const std::string& name) {
+    std::ifstream in(file(name), std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  };
+  Mesh_properties properties;
+  properties.texture = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 1, 2, 0, 2, 3}};
+  properties.faces = {{"material", Number_type::int32, {0, 1}, {"wood", "glass"}}};
+  properties.gltf_materials = {
+      R"({"materials":[{"name":"wood","pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},)"
+      R"({"name":"glass","pbrMetallicRoughness":{"baseColorFactor":[0,0.5,1,0.25],)"
+      R"("baseColorTexture":{"index":0}}}],"textures":[{"source":1},{"source":0}],)"
+      R"("images":[{"mimeType":"image/jpeg","bufferView":0},{"uri":"a%20b.png"}]})",
+      {"the bytes of an image"}};
+  {
+    std::ofstream out(file("a.glb"), std::ios::binary);
+    write_mesh(out, Format::glb, Encoding::binary, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+               {{{0, 1, 2}}, {{0, 2, 3}}}, properties);
+  }
+  Program_options options;
+  options.input = file("a.glb");
+  options.remeshing.number_of_samples = 50;
+  options.traits = "cpu";
+  options.quiet = options.keeps_texture = true;
+  options.output = file("out.obj");
+  CHECK(remesh_file(options, 0).not_carried_over.empty());
+  CHECK(content("out.mtl") == "newmtl wood\nKd 1 1 1\nmap_Kd out_0.jpg\n"
+                              "newmtl glass\nKd 0 0.5 1\nd 0.25\nmap_Kd a b.png\n");
+  CHECK(content("out_0.jpg") == "the bytes of an image");
+  const Polygon_mesh obj = read_mesh(options.output);
+  CHECK(obj.properties.material_files == std::vector<std::string>{"out.mtl"});
+  CHECK(obj.properties.faces.at(0).names == std::vector<std::string>{"wood", "glass"});
+
+  options.output = file("side.ply");
+  CHECK(remesh_file(options, 0).not_carried_over ==
+        std::vector<std::string>{"names of materials", "the look of materials"});
+  CHECK(content("side_0.jpg") == "the bytes of an image");
+  const Polygon_mesh ply = read_mesh(options.output);
+  CHECK(ply.properties.texture_files == std::vector<std::string>{"side_0.jpg", "a b.png"});
+  REQUIRE(ply.properties.faces.size() == 1);
+  CHECK(ply.properties.faces[0].names == ply.properties.texture_files);
+  for (std::size_t f = 0; f + 1 < ply.soup.first.size(); ++f) {
+    const bool is_first = ply.properties.faces[0].values[f] == 0;
+    for (const Vec3d& q : corners_of(ply, f)) CHECK((is_first ? q.x - q.y : q.y - q.x) > -1e-9);
+  }
+
+  std::ofstream(file("a b.png")) << "another image";
+  options.input = file("side.ply");
+  options.output = file("c.glb");
+  CHECK(remesh_file(options, 0).not_carried_over.empty());
+  CHECK(read_mesh(options.output).properties.gltf_materials.images ==
+        std::vector<std::string>{"the bytes of an image", "another image"});
 }
 
 TEST_CASE("OBJ: texture coordinates come back as they were written")

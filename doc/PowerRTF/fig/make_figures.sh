@@ -58,6 +58,76 @@ for name in plain refined; do
   render "$work/$name.off" "$target/fandisk_$name.png" --azimuth 35 --elevation 30 --palette 128
 done
 
+# Edge lengths, distances.
+for picture in coarse=5% fine=2.5%; do
+  "$program" "$models/bunny00.off" "$work/length.off" --edge-length "${picture#*=}" --density uniform --quiet
+  render "$work/length.off" "$target/edge_length_${picture%=*}.png" --palette 128
+done
+for picture in coarse=1% fine=0.25%; do
+  "$program" "$models/bunny00.off" "$work/distance.off" --max-distance "${picture#*=}" --quiet
+  render "$work/distance.off" "$target/max_distance_${picture%=*}.png" --palette 128
+done
+
+# with_vertex_values NAME FORMULA FILE.off: as PLY, with a property of the vertices by x, y, z
+with_vertex_values() {
+  awk 'NR == 2 {
+      print "ply\nformat ascii 1.0\nelement vertex " $1
+      print "property double x\nproperty double y\nproperty double z\nproperty double '"$1"'"
+      print "element face " $2 "\nproperty list uchar int vertex_indices\nend_header"
+    }
+    NR > 2 && NF == 3 { x = $1; y = $2; z = $3; print $0, '"$2"' }
+    NR > 2 && NF == 4' "$3"
+}
+
+# Edge lengths of the user's own, and values that come over.
+with_vertex_values size '0.008 + 0.12 * (x + 0.55) ^ 2' "$models/bunny00.off" >"$work/size.ply"
+"$program" "$work/size.ply" "$work/even.off" --edge-length 3% --density uniform --quiet
+"$program" "$work/size.ply" "$work/sized.off" --size-field size --quiet
+render "$work/even.off" "$target/size_field_before.png" --palette 128
+render "$work/sized.off" "$target/size_field_after.png" --palette 128
+with_vertex_values wave 'sin(18 * x) * cos(15 * y)' "$models/bunny00.off" >"$work/wave.ply"
+"$program" "$work/wave.ply" "$work/carried.vtp" --samples 3000 --quiet
+awk '$2 == "vertex" { n = $3 } $2 == "face" { m = $3 }
+  on { on <= n ? point[on] = $1 " " $2 " " $3 : face[on - n] = $0; value[on++] = $4 }
+  /^end_header/ { on = 1 }
+  END {
+    printf "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS %d double\n", n
+    for (k = 1; k <= n; ++k) print point[k]
+    print "POLYGONS", m, 4 * m
+    for (k = 1; k <= m; ++k) print face[k]
+    print "POINT_DATA", n, "\nSCALARS wave double 1\nLOOKUP_TABLE default"
+    for (k = 1; k <= n; ++k) print value[k]
+  }' "$work/wave.ply" >"$work/wave.vtk"
+render "$work/wave.vtk" "$target/transfer_before.png" --color-by wave --palette 128
+render "$work/carried.vtp" "$target/transfer_after.png" --color-by wave --palette 128
+
+# A thin finger on a ball, turned on a lathe.
+awk 'BEGIN {
+  pi = atan2(0, -1); m = 48; k = 60; n = 0
+  for (i = 1; i < k; ++i) { a = pi * i / k; if (a > pi - 0.05) break; z[n] = -cos(a) / 2; r[n++] = sin(a) / 2 }
+  for (i = 0; i <= 60; ++i) { z[n] = 0.5 + 0.5 * i / 60; r[n++] = 0.02 }
+  for (i = 1; i < 8; ++i) { z[n] = 1 + 0.02 * sin(pi * i / 16); r[n++] = 0.02 * cos(pi * i / 16) }
+  print "OFF"; print n * m + 2, 2 * n * m, 0
+  for (i = 0; i < n; ++i) for (j = 0; j < m; ++j)
+    print r[i] * cos(2 * pi * j / m), r[i] * sin(2 * pi * j / m), z[i]
+  print 0, 0, -0.5; print 0, 0, 1.02
+  for (j = 0; j < m; ++j) {
+    l = (j + 1) % m; print 3, n * m, l, j; print 3, n * m + 1, (n - 1) * m + j, (n - 1) * m + l
+    for (i = 0; i + 1 < n; ++i) {
+      print 3, i * m + j, i * m + l, (i + 1) * m + l; print 3, i * m + j, (i + 1) * m + l, (i + 1) * m + j
+    }
+  }
+}' >"$work/finger.off"
+for what in keep refine; do
+  "$program" "$work/finger.off" "$work/thin.off" --samples 700 --density uniform --thin "$what" --quiet
+  render "$work/thin.off" "$target/thin_$what.png" --up x --azimuth 20 --elevation 10 --palette 128
+done
+
+# Patches between creases.
+"$program" "$models/fandisk.off" "$work/patches.vtp" --samples 2000 --patches --quiet
+render "$work/patches.vtp" "$target/patches.png" --color-by patch --range -1 13 --azimuth 35 \
+  --elevation 30 --palette 128
+
 # A symmetric mesh.
 "$program" "$models/head.off" "$work/plain.off" --samples 1500 --quiet
 "$program" "$models/head.off" "$work/symmetric.off" --samples 1500 --symmetry auto --quiet
@@ -87,6 +157,9 @@ awk -v ply="$work/region.ply" -v vtk="$work/before.vtk" '
 "$program" "$work/region.ply" "$work/after.vtp" --edge-length 1.2% --region part=1 --quiet
 render "$work/before.vtk" "$target/region_before.png" --color-by part --range -2 3 --palette 128
 render "$work/after.vtp" "$target/region_after.png" --color-by part --range -2 3 --palette 128
+"$program" "$work/region.ply" "$work/border.vtp" --edge-length 1.2% --region part=1 \
+  --region-border remesh --quiet
+render "$work/border.vtp" "$target/region_border.png" --color-by part --range -2 3 --palette 128
 
 # Bands as labels, of the result only and kept apart.
 awk 'NR == 2 {

@@ -120,7 +120,7 @@ def main():
     parser.add_argument("--edges", action="store_true", help="draw the edges")
     parser.add_argument("--edge-width", type=float, default=1.0, help="in pixels (default: 1)")
     parser.add_argument("--color-by", metavar="FIELD",
-                        help="a value per facet in a VTP file, or: sides (of the polygon)")
+                        help="a value per facet or vertex in a VTP file, or: sides (of the polygon)")
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
                         help="of the colors; default: the 2nd to the 98th percentile")
     parser.add_argument("--color", default="#e9dcc3", help="where there is no --color-by")
@@ -153,10 +153,10 @@ def main():
         appearance = {"scalars": sides(mesh), "clim": (3.5, 8.5), "n_colors": 5,
                       "cmap": ["#7b3294", "#5b8fd6", "#f2ead7", "#e9845f", "#a50f15"]}
     elif options.color_by:
-        if options.color_by not in mesh.cell_data:
-            sys.exit(f"{options.mesh}: no value {options.color_by} per facet; there are: "
-                     + ", ".join(["sides", *mesh.cell_data.keys()]))
-        values = numpy.asarray(mesh.cell_data[options.color_by], dtype=float)
+        if options.color_by not in mesh.array_names:
+            sys.exit(f"{options.mesh}: no value {options.color_by}; there are: "
+                     + ", ".join(["sides", *mesh.array_names]))
+        values = numpy.asarray(mesh[options.color_by], dtype=float)
         appearance = {"scalars": values, "cmap": "viridis",
                       "clim": options.range or numpy.nanpercentile(values, (2, 98))}
     if options.texture:

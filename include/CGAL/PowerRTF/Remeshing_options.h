@@ -53,6 +53,10 @@ enum class Non_manifold { keep, split, refuse };
 enum class Intersections { keep, resolve, wrap };
 /// Of the result about a plane across an axis, which is looked for, or across that one.
 enum class Symmetry { none, automatic, x, y, z };
+/// Between a region that is remeshed and the rest, which stays. `keep`: its edges stay, too;
+/// `remesh`: it gets vertices as far apart as those of the region, and the faces of the rest that
+/// are beside it change with it.
+enum class Region_border { keep, remesh };
 /// Of the result's points.
 enum class Coordinates { double_precision, single_precision };
 
@@ -90,6 +94,7 @@ struct Remeshing_options {
   /// The result is the same as its mirror image, vertex by vertex. The plane is that of the input's
   /// own symmetry, to which it has to come within half the spacing.
   Symmetry symmetry = Symmetry::none;
+  Region_border region_border = Region_border::keep; ///< where a region of a mesh is remeshed
 
   /// Degrees: edges whose facets' normals differ by at least this are kept as creases where such
   /// edges make clean curves; 180: none. Creases named by the user go first.

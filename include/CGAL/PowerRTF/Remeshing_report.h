@@ -165,9 +165,9 @@ struct Remeshing_report {
   /// None are looked for where all triangles have \f$Q_t \ge 0.6\f$ and no angle below 30 degrees.
   Thin_parts thin;
   Edge_length_statistics edge_length; ///< in the input's unit of length
-  /// Of a region's surroundings, which stay as they are. The rest of the report is about the
-  /// region.
-  std::size_t kept_vertices = 0, kept_faces = 0;
+  /// Of a region's surroundings, which stay as they are, and how many triangles beside its border
+  /// are new (`Region_border::remesh`). The rest of the report is about the region.
+  std::size_t kept_vertices = 0, kept_faces = 0, changed_faces = 0;
   double diagonal = 0; ///< of the input's bounding box, in the input's unit of length
   Distance_statistics distance;
   Stage_seconds seconds;

@@ -25,6 +25,7 @@ enum refinements_t { refinements };
 enum remeshing_options_t { remeshing_options };
 enum repair_t { repair };
 enum symmetry_t { symmetry };
+enum region_border_t { region_border };
 enum vertex_source_map_t { vertex_source_map };
 enum face_source_map_t { face_source_map };
 enum corner_source_map_t { corner_source_map };
@@ -61,6 +62,7 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
   }
   auto repair(bool wanted) const { return with<repair_t>(wanted ? Repair::yes : Repair::no); }
   auto symmetry(Symmetry plane) const { return with<symmetry_t>(plane); }
+  auto region_border(Region_border what) const { return with<region_border_t>(what); }
   template <class Map>
   auto vertex_source_map(const Map& map) const
   {
@@ -130,7 +132,9 @@ constexpr bool has_input_parameter()
          has_parameter<NamedParameters, sizing_map_t>() ||
          has_parameter<NamedParameters, refinements_t>() ||
          has_parameter<NamedParameters, remeshing_options_t>() ||
-         has_parameter<NamedParameters, repair_t>() || has_parameter<NamedParameters, symmetry_t>();
+         has_parameter<NamedParameters, repair_t>() ||
+         has_parameter<NamedParameters, symmetry_t>() ||
+         has_parameter<NamedParameters, region_border_t>();
 }
 
 /// Whether a chain has one of our own parameters about the output.
@@ -191,6 +195,13 @@ inline auto repair(bool wanted)
 inline auto symmetry(Symmetry plane)
 {
   return internal::named_parameter<internal::symmetry_t>(plane);
+}
+
+/// Whether the border of a region that is remeshed alone stays as it is (default), or gets vertices
+/// as far apart as those of the region.
+inline auto region_border(Region_border what)
+{
+  return internal::named_parameter<internal::region_border_t>(what);
 }
 
 /// Gets where the vertices of the output come from: a writable property map from them to

@@ -48,6 +48,7 @@ inline Value_names value_names(Repair) { return {"no", "yes"}; }
 inline Value_names value_names(Non_manifold) { return {"keep", "split", "refuse"}; }
 inline Value_names value_names(Intersections) { return {"keep", "resolve", "wrap"}; }
 inline Value_names value_names(Symmetry) { return {"none", "auto", "x", "y", "z"}; }
+inline Value_names value_names(Region_border) { return {"keep", "remesh"}; }
 inline Value_names value_names(Coordinates) { return {"double", "single"}; }
 
 /// \endcond
@@ -147,6 +148,10 @@ void for_each_option(Visitor&& visit)
   add("symmetry", &O::symmetry, "",
       "the result is its own mirror image, exactly, about a plane across that axis, or the one "
       "that fits best; the input has to be, within half the spacing",
+      no_number);
+  add("region_border", &O::region_border, "",
+      "of a region that is remeshed alone: its edges stay; or it has the region's spacing, and the "
+      "faces beside it change with it",
       no_number);
 
   group = "Density (Section 4.3)";

@@ -361,16 +361,30 @@ expect '--quiet does not say it' [ ! -s stderr ]
 expect 'the report lists it nevertheless' grep -q '^    "texture coordinates"$' r.json
 awk '/^v / { print; print "vt", $2, $3 } /^f / { print "f", $2 "/" $2, $3 "/" $3, $4 "/" $4 }' textured.obj |
   sed '1i mtllib a.mtl' >uv.obj
-run 0 'not carried over to the output: texture coordinates' -- uv.obj out.ply "${fast[@]}" --texture
+run 0 'not carried over to the output: texture coordinates' -- uv.obj out.vtp "${fast[@]}" --texture
+run 0 'not carried over to the output: texture coordinates' -- uv.obj out.ply "${fast[@]}"
 run 0 -- uv.obj out.obj "${fast[@]}" --texture --report r.json
 has not_carried_over '[]'
 has texture true
 expect 'every vertex has texture coordinates' [ "$(grep -c '^vt ' out.obj)" = 200 ]
-for format in glb gltf; do
+for format in glb gltf ply; do
   run 0 -- uv.obj "uv.$format" "${fast[@]}" --texture
   run 0 -- "uv.$format" out.obj "${fast[@]}" --texture
   expect "texture coordinates go through $format" [ "$(grep -c '^vt ' out.obj)" = 200 ]
 done
+sed '2a comment TextureFile a b.png' <(run 0 -- uv.obj uv.ply "${fast[@]}" --texture --ascii; cat uv.ply) >one.ply
+mkdir -p folder
+run 0 -- one.ply folder/out.obj "${fast[@]}" --texture
+expect 'a texture of a PLY file is in the materials of OBJ' grep -qx 'map_Kd ../a b.png' folder/out.mtl
+expect 'which the OBJ file names' grep -qx 'mtllib out.mtl' folder/out.obj
+run 0 -- one.ply folder/out.ply "${fast[@]}" --texture --ascii
+expect 'and from PLY to PLY, as seen from there' grep -qx 'comment TextureFile ../a b.png' folder/out.ply
+expect 'with its number' grep -qx 'property int texnumber' folder/out.ply
+rm -r folder/out.mtl
+mkdir folder/out.mtl
+echo untouched >folder/out.obj
+run 5 'out.mtl: cannot be written' -- one.ply folder/out.obj "${fast[@]}" --texture
+expect 'without the materials nothing is written' [ "$(cat folder/out.obj)" = untouched ]
 run 0 -- torus.off torus.vtp -n 300 --iterations 5 --traits cpu --patches
 run 0 -- torus.vtp out.vtp "${fast[@]}" --labels patch --report r.json
 has input_vertices 300

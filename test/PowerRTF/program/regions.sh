@@ -24,7 +24,7 @@ parted >parted.ply
 
 # kept FILE.ply: the corners of its faces of part 5, with all digits and their heat
 kept() {
-  awk 'NF == 4 { for (k = 1; k <= 4; ++k) v[n] = v[n] sprintf("%.17g ", $k); ++n }
+  awk 'BEGIN { n = 0 } NF == 4 { for (k = 1; k <= 4; ++k) v[n] = v[n] sprintf("%.17g ", $k); ++n }
        NF == 5 && $1 == 3 && $5 == 5 { print v[$2], v[$3], v[$4] }' "$1" | LC_ALL=C sort
 }
 # shape FILE.ply: vertices, faces, edges of one face, of more than two
@@ -62,6 +62,28 @@ expect 'the other part stays, whatever the spacing' cmp <(kept parted.ply) <(kep
 run 0 -- parted.ply out.ply --max-distance 1% --region part=6 --ascii --report r.json
 expect 'a distance may be asked for' cmp <(kept parted.ply) <(kept out.ply)
 expect 'and is kept' [ "$(field absolute_distance_bound)" ]
+
+# --- the border remeshed, too
+# inner.txt: those of the kept faces that have no corner on the old border, where y = 0
+kept parted.ply | awk '($2 ^ 2 > 1e-20) && ($6 ^ 2 > 1e-20) && ($10 ^ 2 > 1e-20)' >inner.txt
+for length in 0.1 0.9; do # the input's are about 0.4
+  run 0 -- parted.ply out.ply --edge-length $length --region part=6 --region-border remesh --ascii --report r.json
+  expect 'a closed torus comes out' [ "$(shape out.ply)" = '0 0 0' ]
+  expect 'the report tells of changed faces' [ "$(field changed_faces)" -gt 20 ]
+  expect 'kept and changed faces are the other part' \
+    [ "$(kept out.ply | wc -l)" = $(($(field kept_faces) + $(field changed_faces))) ]
+  expect 'kept faces are as they were' \
+    [ "$(kept parted.ply | LC_ALL=C comm -12 - <(kept out.ply) | wc -l)" = "$(field kept_faces)" ]
+  expect 'among them all that are off the border' \
+    [ "$(LC_ALL=C comm -12 inner.txt <(kept out.ply) | wc -l)" = "$(wc -l <inner.txt)" ]
+  cp out.ply one.ply
+  run 0 -- parted.ply out.ply --edge-length $length --region part=6 --region-border remesh --ascii --threads 1
+  expect 'on one thread, too' cmp out.ply one.ply
+done
+run 0 -- parted.ply out.stl --edge-length 0.1 --region part=6 --region-border remesh --ascii
+run 1 'largest distance' 'parted.ply' -- parted.ply out.off --max-distance 1% --region part=6 --region-border remesh
+run 2 '--region-border' -- parted.ply out.off -n 300 --region-border remesh
+run 2 'keep|remesh' -- parted.ply out.off -n 300 --region part=6 --region-border move
 
 # --- names of an OBJ file
 awk 'NF == 4 { print "v", $1, $2, $3 }

@@ -37,6 +37,25 @@ inline std::vector<Edge> feature_edges(const Surface& surface)
   return edges;
 }
 
+/// The point at arc distance `reach` from `v` along edge `e`, or the first corner before it; and
+/// how far that is.
+inline std::pair<Vec3d, double>
+point_ahead(const Edge_graph& graph, const std::vector<Vec3d>& points, int v, int e, double reach)
+{
+  double left = reach;
+  for (int steps = 0; steps < graph.size(); ++steps) {
+    const int u = graph.other_end(e, v);
+    const Vec3d a = points[v], b = points[u];
+    const double l = length(b - a);
+    if (l >= left) return {a + (b - a) * (left / l), reach};
+    left -= l;
+    if (graph.degree(u) != 2) return {b, reach - left};
+    v = u;
+    e = graph.other_edge(e, u);
+  }
+  return {points[v], reach - left};
+}
+
 class Feature_tracer {
 public:
   /// \param scale over which turns are measured
@@ -126,21 +145,9 @@ private:
     });
   }
 
-  /// The point at arc distance `m_scale` from `v` along edge `e`, or the first corner before it.
   Vec3d ahead(int v, int e) const
   {
-    double left = m_scale;
-    for (int steps = 0; steps < m_graph.size(); ++steps) {
-      const int u = m_graph.other_end(e, v);
-      const Vec3d a = m_surface.points[v], b = m_surface.points[u];
-      const double l = length(b - a);
-      if (l >= left) return a + (b - a) * (left / l);
-      left -= l;
-      if (m_graph.degree(u) != 2) return b;
-      v = u;
-      e = m_graph.other_edge(e, u);
-    }
-    return m_surface.points[v];
+    return point_ahead(m_graph, m_surface.points, v, e, m_scale).first;
   }
 
   /// Vertices where a curve turns by more than 50 degrees, more than any other within the scale.

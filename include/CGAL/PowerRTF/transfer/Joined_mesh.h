@@ -93,11 +93,13 @@ struct Joined_mesh {
     for (Triangle& t : triangles)
       for (int& v : t) v = name[v];
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-      if (mesh.is_kept(static_cast<int>(v))) {
-        names.push_back(first_name[place_of_kept(v)]);
-      } else {
+      const bool is_kept = mesh.is_kept(static_cast<int>(v));
+      const int place = is_kept ? place_of_kept(v) : -1;
+      if (is_kept && first_name[place] >= 0) {
+        names.push_back(first_name[place]);
+      } else { // new, or all faces at it are
         names.push_back(static_cast<int>(points.size()));
-        points.push_back(normalization.to_outside(mesh.points[v]));
+        points.push_back(is_kept ? whole.points[place] : normalization.to_outside(mesh.points[v]));
       }
     }
     for (const auto& [a, b] : region.fields.kept_edges)

@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_TRANSFER_REPLACE_FACES_H
 #define CGAL_POWER_RTF_TRANSFER_REPLACE_FACES_H
 
+#include <CGAL/PowerRTF/Remeshed_region.h>
 #include <CGAL/PowerRTF/extraction/export_mesh.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF/transfer/export_with_sources.h>
@@ -78,20 +79,30 @@ auto replace_faces(FaceGraph& mesh, const Soup_region& region, const Joined_mesh
   return faces;
 }
 
-/// Replaces the faces of a region of `mesh` by those of `part`, which it has become, and gives them
-/// labels, if `np` has any.
+/// Replaces the faces of a region of `mesh` by those of `part`, which it has become, and those that
+/// change with it, and gives them labels, if `np` has any.
 /// \param whole the soup of `mesh`
 /// \param report of the run; gets the seconds and what is new about the whole
 template <class FaceGraph, class NamedParameters>
 void replace_region(FaceGraph& mesh, const NamedParameters& np, const Polygon_soup& whole,
-                    const Soup_region& region, const Extracted_mesh& part,
+                    const Remeshed_region& remeshed, Extracted_mesh part,
                     const Normalization& normalization, Remeshing_report& report,
                     Concurrency concurrency)
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
   const Stage stage("write", report.seconds.write);
+  constexpr bool has_labels = has_parameter<NamedParameters, internal_np::face_patch_t>();
+  const Soup_region& own = remeshed.own();
+  Sources sources;
+  if (has_labels)
+    sources = find_sources(own.soup, normalization, report.faces_as_input(), part.points,
+                           part.triangles, concurrency);
+  remeshed.complete(part, normalization);
+  if (has_labels) remeshed.complete_sources(part, normalization, sources);
+  const Soup_region& region = remeshed.replaced();
   const Joined_mesh joined(whole, region, part, normalization);
+  report.changed_faces = remeshed.changed_faces();
   joined.judge(whole, region, report, concurrency);
   auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
                                     get_property_map(CGAL::vertex_point, mesh));
@@ -100,9 +111,7 @@ void replace_region(FaceGraph& mesh, const NamedParameters& np, const Polygon_so
     return replace_faces(mesh, region, joined,
                          [&](auto v, const Vec3d& p) { put(point_map, v, from_vec3d<Point>(p)); });
   };
-  if constexpr (has_parameter<NamedParameters, internal_np::face_patch_t>()) {
-    const Sources sources = find_sources(region.soup, normalization, report.faces_as_input(),
-                                         part.points, part.triangles, concurrency);
+  if constexpr (has_labels) {
     const auto labels = label_values(mesh, np);
     const auto map = get_parameter(np, internal_np::face_patch);
     const auto faces = replace();
