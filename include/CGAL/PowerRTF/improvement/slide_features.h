@@ -55,6 +55,20 @@ public:
     for (const auto f : m.working().mesh.faces()) slide_pair(f);
   }
 
+  /// Slides `v`, if it is on a curve, to where the sum of `energy(a, b, c)` of its triangles is
+  /// less, whether these are bad or not.
+  template <class Energy>
+  void slide(Vertex v, const Energy& energy)
+  {
+    Vertex a, b;
+    if (!is_sliding(v, a, b)) return;
+    slide(v, m.star(v), path(v, a, b), [&](const Star& star, const Vec3d& p) {
+      double sum = 0;
+      for (const Star::Corner& c : star.corners) sum += energy(p, c.a, c.b);
+      return sum;
+    });
+  }
+
 private:
   using Segment = std::pair<Vec3d, Vec3d>;
 
@@ -139,17 +153,26 @@ private:
     return sum;
   }
 
+  bool is_sliding(Vertex v, Vertex& a, Vertex& b) const
+  {
+    return m.is_on_feature(v) && !m.is_locked(v) && neighbors(v, a, b);
+  }
+
   void slide(Vertex v)
   {
     Vertex a, b;
-    if (!m.is_on_feature(v) || m.is_locked(v) || !neighbors(v, a, b)) return;
+    if (!is_sliding(v, a, b)) return;
     const Star star = m.star(v);
     const Vec3d p = m.point(v);
     double bad = 0;
     for (const Star::Corner& c : star.corners) bad += triangle_badness(p, c.a, c.b).badness;
-    if (!(bad > 0)) return;
+    if (bad > 0) slide(v, star, path(v, a, b), energy);
+  }
 
-    const Path curve = path(v, a, b);
+  template <class Energy>
+  void slide(Vertex v, const Star& star, const Path& curve, const Energy& energy)
+  {
+    const Vec3d p = m.point(v);
     const auto is_allowed = [&](const Vec3d& q) {
       return curve.is_spaced(q) && !folds(star, p, star, q);
     };
