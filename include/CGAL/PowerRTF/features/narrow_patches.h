@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -28,6 +30,12 @@ struct Patch_shape {
   Vec3d area_vector{0, 0, 0}; ///< sum of the facets' areas times their normals
 
   double width() const { return 2 * area / perimeter; }
+  /// The width of the rectangle with this area and perimeter; any if there is none.
+  double strip_width() const
+  {
+    const double quarter = perimeter / 4, rest = quarter * quarter - area;
+    return rest >= 0 ? quarter - std::sqrt(rest) : std::numeric_limits<double>::infinity();
+  }
   double flat_area() const
   {
     constexpr double flat = 1 - 1e-4;
