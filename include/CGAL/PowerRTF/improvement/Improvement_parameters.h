@@ -99,7 +99,10 @@ struct Improvement_parameters {
     /// The search of two vertices at once: the step, and the number of steps to each side.
     static constexpr double pair_step = 0.05;
     static constexpr int pair_steps = 10;
-    static constexpr double min_spacing = 0.4;      ///< of neighbors, in edges of the curve
+    static constexpr double min_spacing = 0.4; ///< of neighbors, in edges of the curve
+    /// The same at most, where a crease is not straight: the distance to it grows with the square.
+    static constexpr double max_spacing = 1.1;
+    static constexpr double straight = 1e-6;        ///< 1 - cosine of its turn
     static constexpr double corner_cosine = 0.7071; ///< curves that turn more have a corner
     static constexpr double max_turn_cosine = 0.9;  ///< of a triangle
   };

@@ -62,7 +62,10 @@ public:
   {
     Vertex a, b;
     if (!is_sliding(v, a, b)) return;
-    slide(v, m.star(v), path(v, a, b), [&](const Star& star, const Vec3d& p) {
+    Path curve = path(v, a, b);
+    if (!curve.is_straight())
+      curve.longest = std::max(curve.longest_edge(), Parameters::max_spacing * curve.scale);
+    slide(v, m.star(v), curve, [&](const Star& star, const Vec3d& p) {
       double sum = 0;
       for (const Star::Corner& c : star.corners) sum += energy(p, c.a, c.b);
       return sum;
@@ -78,6 +81,7 @@ private:
   struct Path {
     Vec3d p, pa, pb; // the vertex, and its neighbors on the curve
     double scale;    // their mean distance
+    double longest;  // that one of them may become
     std::vector<Segment> near;
 
     /// The place at `s` times the scale from the vertex; s > 0: toward b.
@@ -97,17 +101,23 @@ private:
       return best;
     }
 
+    double longest_edge() const { return std::max(length(p - pa), length(p - pb)); }
+    bool is_straight() const
+    {
+      return dot(p - pa, pb - p) > (1 - Parameters::straight) * length(p - pa) * length(pb - p);
+    }
+
     bool is_spaced(const Vec3d& q) const
     {
-      return length(q - pa) >= Parameters::min_spacing * scale &&
-             length(q - pb) >= Parameters::min_spacing * scale &&
+      const auto [shorter, longer] = std::minmax({length(q - pa), length(q - pb)});
+      return shorter >= Parameters::min_spacing * scale && longer <= longest &&
              dot(normalized(q - pa), normalized(pb - q)) > Parameters::corner_cosine;
     }
   };
 
   Path path(Vertex v, Vertex a, Vertex b) const
   {
-    Path result{m.point(v), m.point(a), m.point(b), 0, {}};
+    Path result{m.point(v), m.point(a), m.point(b), 0, std::numeric_limits<double>::infinity(), {}};
     result.scale = (length(result.pa - result.p) + length(result.pb - result.p)) / 2;
     std::vector<int> near;
     const auto around_p = boost::geometry::index::intersects(rtree_box(result.p, result.scale));
