@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A spacing that follows the width of narrow strips between creases: chamfers, ribs, flanks of
-// teeth. There is room for one row of triangles only, and where they are much longer than it is
-// wide none is round.
+// A spacing that follows the width of narrow strips between creases: chamfers, ribs, rims of
+// plates. Triangles are round there if whole rows of them fit in; where there is room for one row
+// only, if they are not much longer than it is wide.
 #ifndef CGAL_POWER_RTF_FEATURES_REFINE_NARROW_PATCHES_H
 #define CGAL_POWER_RTF_FEATURES_REFINE_NARROW_PATCHES_H
 
@@ -11,23 +11,43 @@
 #include <CGAL/PowerRTF/fields/limited_spacing.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
-/// Brings the spacing of `n` samples by `surface.vertex_density` within 1.4 times the width of the
-/// patches between creases, as far as the spacing elsewhere need not become more than 1.1 times as
-/// large, and splits facets that are too large for that. A surface without such patches stays.
-inline void refine_narrow_patches(Surface& surface, std::size_t n,
-                                  internal::Concurrency concurrency = Sequential_tag())
+namespace internal {
+
+/// The largest spacing on a patch where that would be `spacing`.
+inline double strip_limit(const Patch_shape& patch, double spacing)
 {
   // In one row triangles are equilateral at 2 / sqrt(3) = 1.15 times the width. But finer curves
   // take samples from their other sides, and rows of another spacing end there: on a gear with
   // chamfers the mean Q over all is best at 1.4 (1.15: .902, 1.3: .924, 1.4: .924, 1.5: .921).
-  constexpr double spacing_over_width = 1.4, gradation = 0.15;
-  constexpr internal::Spacing_bounds bounds{0.25, 1.1, 1.5};
+  constexpr double spacing_over_width = 1.4, row = 0.8660254037844386; // height over spacing
+  constexpr double least_rows = 3, most_rows = 4, least_aspect = 3;
+  const auto [width, length] = patch.strip();
+  const double rows = std::round(width / (row * spacing));
+  if (rows <= 1) return spacing_over_width * width;
+  const bool is_strip = rows >= least_rows && rows <= most_rows && length >= least_aspect * width;
+  return is_strip ? width / (row * rows) : std::numeric_limits<double>::infinity();
+}
+
+} // namespace internal
+
+/// Brings the spacing of `n` samples by `surface.vertex_density` within 1.4 times the width of the
+/// patches between creases, and, where these are strips with room for three or four rows of
+/// triangles, so far down that the nearest whole number of rows fits in. The spacing elsewhere
+/// becomes up to 1.1 times as large for that, and facets that are too large are split. A surface
+/// without such patches stays.
+inline void refine_narrow_patches(Surface& surface, std::size_t n,
+                                  internal::Concurrency concurrency = Sequential_tag())
+{
+  constexpr double gradation = 0.15;
+  constexpr internal::Spacing_bounds bounds{0.25, 1.1, 1.5, true};
   if (surface.creases.empty()) return;
   const internal::Crease_patches patches(surface);
   std::vector<int> patch_of = patches.of_facet;
@@ -36,9 +56,11 @@ inline void refine_narrow_patches(Surface& surface, std::size_t n,
       [&] {
         internal::Limited_spacing result(surface, n, gradation, concurrency);
         std::vector<double> limits(patch_of.size());
-        for (std::size_t f = 0; f < limits.size(); ++f)
-          limits[f] = (std::max)(spacing_over_width * patches.shapes[patch_of[f]].strip_width(),
-                                 bounds.least_share * result.spacing(static_cast<int>(f)));
+        for (std::size_t f = 0; f < limits.size(); ++f) {
+          const double spacing = result.spacing(static_cast<int>(f));
+          limits[f] = (std::max)(internal::strip_limit(patches.shapes[patch_of[f]], spacing),
+                                 bounds.least_share * spacing);
+        }
         result.set_limits(std::move(limits));
         return result;
       },

@@ -102,6 +102,9 @@ struct Spacing_bounds {
   double least_share;    ///< of the spacing as it was, which no limit is below
   double most_elsewhere; ///< times the spacing as it was
   double longest_edge;   ///< of facets on which the spacing varies, in its least there
+  /// Whether facets are split for all limits, before it is known which can be met: where all
+  /// vertices are at limits, as on parts in few facets, that none can be.
+  bool splits_for_all = false;
 };
 
 /// The edges, by a halfedge of each, that are too long for the lengths at a facet, where the
@@ -163,8 +166,10 @@ void refine_within_limits(Surface& surface, const Spacing_bounds& bounds,
         is_enough(most, 0)
             ? 0
             : least_enough(bounds.least_share, 1, [&](double x) { return is_enough(most, x); });
-    const std::vector<int> halves = edges_to_halve(surface, spacing, bounds.longest_edge, floor,
-                                                   spacing.lengths(edges, 1, floor), concurrency);
+    const double split_floor = bounds.splits_for_all ? 0 : floor;
+    const std::vector<int> halves =
+        edges_to_halve(surface, spacing, bounds.longest_edge, split_floor,
+                       spacing.lengths(edges, 1, split_floor), concurrency);
     if (!halves.empty()) {
       split(PowerRTF::halve_edges(surface, halves, concurrency).parents);
       continue;
