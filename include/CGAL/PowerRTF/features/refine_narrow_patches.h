@@ -22,43 +22,40 @@ namespace CGAL::PowerRTF {
 namespace internal {
 
 /// The largest spacing on a patch where that would be `spacing`.
-inline double strip_limit(const Patch_shape& patch, double spacing)
+/// \param most_rows of triangles, to which their height is fitted
+inline double strip_limit(const Patch_shape& patch, double spacing, int most_rows)
 {
   // In one row triangles are equilateral at 2 / sqrt(3) = 1.15 times the width. But finer curves
   // take samples from their other sides, and rows of another spacing end there: on a gear with
   // chamfers the mean Q over all is best at 1.4 (1.15: .902, 1.3: .924, 1.4: .924, 1.5: .921).
   constexpr double spacing_over_width = 1.4, row = 0.8660254037844386; // height over spacing
-  constexpr double least_rows = 3, most_rows = 4, least_aspect = 3;
+  constexpr double least_rows = 3, least_aspect = 3;
   const auto [width, length] = patch.strip();
   const double rows = std::round(width / (row * spacing));
   if (rows <= 1) return spacing_over_width * width;
-  const bool is_strip = rows >= least_rows && rows <= most_rows && length >= least_aspect * width;
-  return is_strip ? width / (row * rows) : std::numeric_limits<double>::infinity();
+  // of about the same width everywhere, as far as that is known
+  const bool is_strip =
+      length >= least_aspect * width && (patch.loops == 2 || patch.flat_area() > 0);
+  if (!is_strip || rows < least_rows || rows > most_rows)
+    return std::numeric_limits<double>::infinity();
+  return width / (row * rows);
 }
 
-} // namespace internal
-
-/// Brings the spacing of `n` samples by `surface.vertex_density` within 1.4 times the width of the
-/// patches between creases, and, where these are strips with room for three or four rows of
-/// triangles, so far down that the nearest whole number of rows fits in. The spacing elsewhere
-/// becomes up to 1.1 times as large for that, and facets that are too large are split. A surface
-/// without such patches stays.
-inline void refine_narrow_patches(Surface& surface, std::size_t n,
-                                  internal::Concurrency concurrency = Sequential_tag())
+/// \returns whether the spacing is within the limits
+inline bool refine_strips(Surface& surface, std::size_t n, const Crease_patches& patches,
+                          int most_rows, Concurrency concurrency)
 {
   constexpr double gradation = 0.15;
-  constexpr internal::Spacing_bounds bounds{0.25, 1.1, 1.5, true};
-  if (surface.creases.empty()) return;
-  const internal::Crease_patches patches(surface);
+  const Spacing_bounds bounds{0.25, most_rows > 1 ? 1.06 : 1.1, 1.5, true};
   std::vector<int> patch_of = patches.of_facet;
-  internal::refine_within_limits(
+  return refine_within_limits(
       surface, bounds,
       [&] {
-        internal::Limited_spacing result(surface, n, gradation, concurrency);
+        Limited_spacing result(surface, n, gradation, concurrency);
         std::vector<double> limits(patch_of.size());
         for (std::size_t f = 0; f < limits.size(); ++f) {
           const double spacing = result.spacing(static_cast<int>(f));
-          limits[f] = (std::max)(internal::strip_limit(patches.shapes[patch_of[f]], spacing),
+          limits[f] = (std::max)(strip_limit(patches.shapes[patch_of[f]], spacing, most_rows),
                                  bounds.least_share * spacing);
         }
         result.set_limits(std::move(limits));
@@ -70,6 +67,27 @@ inline void refine_narrow_patches(Surface& surface, std::size_t n,
         patch_of.swap(of_pieces);
       },
       concurrency);
+}
+
+} // namespace internal
+
+/// Brings the spacing of `n` samples by `surface.vertex_density` within 1.4 times the width of the
+/// patches between creases, and, where these are bands, or flat strips, with room for three or four
+/// rows of triangles, so far down that the nearest whole number of rows fits in. The spacing
+/// elsewhere becomes up to 1.06 times as large for that, and facets that are too large are split.
+/// Where that does not suffice, those with several rows stay, and it may become 1.1 times as large;
+/// where that does not, all stay. A surface without such patches stays, too.
+inline void refine_narrow_patches(Surface& surface, std::size_t n,
+                                  internal::Concurrency concurrency = Sequential_tag())
+{
+  if (surface.creases.empty()) return;
+  const internal::Crease_patches patches(surface);
+  for (const int most_rows : {4, 1}) {
+    Surface refined = surface;
+    if (!internal::refine_strips(refined, n, patches, most_rows, concurrency)) continue;
+    surface = std::move(refined);
+    return;
+  }
 }
 
 } // namespace CGAL::PowerRTF

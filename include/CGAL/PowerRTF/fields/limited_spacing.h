@@ -149,15 +149,16 @@ double least_enough(double low, double high, const IsEnough& is_enough)
 /// splits facets that are too large for that. A surface that is nowhere over the limits stays.
 /// \param limited_spacing gives the `Limited_spacing` of the surface as it is
 /// \param split is told of the facets that are there now in which ones before they lie
+/// \returns whether it is within all limits
 template <class LimitedSpacing, class Split>
-void refine_within_limits(Surface& surface, const Spacing_bounds& bounds,
+bool refine_within_limits(Surface& surface, const Spacing_bounds& bounds,
                           const LimitedSpacing& limited_spacing, const Split& split,
                           Concurrency concurrency)
 {
   const double most = bounds.most_elsewhere;
   for (;;) {
     const Limited_spacing spacing = limited_spacing();
-    if (!spacing.is_over()) return;
+    if (!spacing.is_over()) return true;
     const Surface_edges edges = surface_edges(surface, concurrency);
     const auto is_enough = [&](double factor, double floor) {
       return spacing.samples(spacing.lengths(edges, factor, floor)) <= 1;
@@ -179,7 +180,7 @@ void refine_within_limits(Surface& surface, const Spacing_bounds& bounds,
     for (double& l : lengths) l = 1 / (l * l);
     surface.vertex_density = std::move(lengths);
     normalize_density(surface.vertex_density);
-    return;
+    return floor == 0;
   }
 }
 
