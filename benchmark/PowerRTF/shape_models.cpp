@@ -22,7 +22,9 @@ namespace {
 
 shapes::Named_shapes cad_shapes()
 {
-  return {{"gear_chamfered", shapes::gear(0.5)}, {"bracket", shapes::bracket(3, 16)}};
+  return {{"gear_chamfered", shapes::gear(0.5)},
+          {"bracket", shapes::bracket(3, 16)},
+          {"plate", shapes::drilled_plate(3, 2)}};
 }
 
 bool write(const std::string& file, const shapes::Soup& soup)

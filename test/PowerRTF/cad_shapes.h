@@ -79,6 +79,35 @@ inline void add_plate_with_hole(Soup& s, const std::array<int, 4>& top,
   }
 }
 
+/// A plate, 5 thick, of `columns` by `rows` squares of 30, each with a round hole of radius 8.
+inline Soup drilled_plate(int columns, int rows)
+{
+  const double thickness = 5, square = 30, hole = 8;
+  Soup s;
+  for (int i = 0; i <= columns; ++i)
+    for (int j = 0; j <= rows; ++j)
+      for (const double z : {0., thickness}) s.points.push_back({i * square, j * square, z});
+  const auto bottom = [=](int i, int j) { return 2 * (i * (rows + 1) + j); };
+  const auto top = [=](int i, int j) { return bottom(i, j) + 1; };
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j)
+      add_plate_with_hole(s, {top(i, j), top(i + 1, j), top(i + 1, j + 1), top(i, j + 1)},
+                          {bottom(i, j), bottom(i + 1, j), bottom(i + 1, j + 1), bottom(i, j + 1)},
+                          hole);
+  const auto add_side = [&](int i, int j, int k, int l) { // counter-clockwise, seen from the top
+    add_quad(s, bottom(i, j), bottom(k, l), top(k, l), top(i, j));
+  };
+  for (int i = 0; i < columns; ++i) {
+    add_side(i, 0, i + 1, 0);
+    add_side(i + 1, rows, i, rows);
+  }
+  for (int j = 0; j < rows; ++j) {
+    add_side(columns, j, columns, j + 1);
+    add_side(0, j + 1, 0, j);
+  }
+  return s;
+}
+
 /// Two plates at a right angle with a round hole each, 4 thick and 30 wide; along the inner edge a
 /// fillet of radius `fillet`, the outer edge is rounded about the same axis.
 inline Soup bracket(double fillet, int steps)

@@ -119,6 +119,28 @@ TEST_CASE("a bracket with fillets keeps its flat faces")
   check_flat_faces(shapes::bracket(3, 16), false);
 }
 
+TEST_CASE("triangles between creases are round on average")
+{
+  // without rounding and a spacing that follows the strips: .899, .941 and .929, and 1.6, .6 and
+  // 1.2 % above 90 degrees
+  const auto check = [](const shapes::Soup& soup, double least_mean, double most_above_90) {
+    const judged_run::Scratch_folder folder;
+    const Run run = met_run(folder, soup, {3000});
+    CHECK(double(run.report["q_avg"]) >= least_mean);
+    CHECK(double(run.report["above_90"]) <= most_above_90);
+    CHECK(double(run.report["q_min"]) >= 0.69);
+    CHECK(double(run.report["theta_min"]) >= 38);
+  };
+  check(shapes::gear(0.5), 0.918, 0.005);
+  check(shapes::bracket(3, 16), 0.949, 0.003);
+  check(shapes::drilled_plate(3, 2), 0.944, 0.007);
+}
+
+TEST_CASE("a plate with holes keeps its flat faces")
+{
+  check_flat_faces(shapes::drilled_plate(3, 2), true, 6); // as thick as 5
+}
+
 TEST_CASE("a cone keeps its tip, in few long facets and in many")
 {
   for (const int rows : {1, 40})

@@ -1,8 +1,11 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cad_shapes.h"
 #include "odd_shapes.h"
 #include "remeshed_shape.h"
 
+#include <CGAL/PowerRTF/features/refine_narrow_patches.h>
+#include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/thin_parts.h>
 
 #include <doctest/doctest.h>
@@ -177,4 +180,45 @@ TEST_CASE("thin parts: large facets are split, the surface stays where it is")
   CHECK(s.triangles.size() > facets);
   CHECK(s.area == doctest::Approx(area).epsilon(1e-12));
   CHECK(thin_parts(s, n).places == 0);
+}
+
+TEST_CASE(
+    "narrow strips between creases: the spacing follows their width, gradually, not elsewhere")
+{
+  const std::size_t n = 3000;
+  Surface s = shapes::make_surface(shapes::gear(0.5));
+  Remeshing_options o = uniform();
+  o.number_of_samples = n;
+  set_creases(s, o);
+  const double unit = s.normalization.scale, h = spacing_constant(s, n), area = s.area;
+  const double width = std::sqrt(0.5) * unit; // of the chamfers
+  CHECK(1.4 * width < 0.9 * h);
+  refine_narrow_patches(s, n);
+  CHECK(s.area == doctest::Approx(area));
+  double widest = 0;
+  for (int v = 0; v < static_cast<int>(s.points.size()); ++v) {
+    const double z = s.normalization.to_outside(s.points[v]).z, found = spacing_at(s, n, v);
+    const bool is_on_chamfer = std::min(z, 8 - z) > 0.01 && std::min(z, 8 - z) < 0.501;
+    if (is_on_chamfer) CHECK(found <= 1.401 * width);
+    CHECK(found >= 1.3 * width); // the rectangles like its trapezoids are less wide
+    CHECK(found <= 1.101 * h);
+    widest = std::max(widest, found);
+  }
+  CHECK(widest >= h);
+}
+
+TEST_CASE("narrow strips: a surface that has none stays as it is")
+{
+  for (const bool is_creased : {false, true}) {
+    Surface s = shapes::make_surface(is_creased ? shapes::box(4) : torus());
+    Remeshing_options o = uniform();
+    o.number_of_samples = 1000;
+    set_creases(s, o);
+    CHECK(s.creases.empty() != is_creased);
+    const std::vector<double> density = s.vertex_density;
+    const std::vector<Triangle> triangles = s.triangles;
+    refine_narrow_patches(s, 1000);
+    CHECK(s.vertex_density == density);
+    CHECK(s.triangles == triangles);
+  }
 }

@@ -32,6 +32,7 @@ NAMES = {
     "Fandisk": ("fandisk",),
     "Gear": ("gear_chamfered",),
     "Bracket": ("bracket",),
+    "Plate": ("plate",),
 }
 
 

@@ -45,7 +45,7 @@ VIEWS = {"Disc": ["--up", "z", "--elevation", "40"],
          "Three Holes": ["--up", "z", "--elevation", "50"],
          "Close Hemisphere": ["--up", "z", "--elevation", "30"], "Armadillo": ["--azimuth", "240"]}
 PEER_MODELS = ("Kitten", "Homer", "Rocker", "Elk", "Armadillo", "Bunny")
-PARTS = ("Fandisk", "Gear", "Bracket")  # mechanical ones
+PARTS = ("Fandisk", "Gear", "Plate", "Bracket")  # mechanical ones
 CREASE_ANGLE = 40  # of the parts, for the tools that can keep creases: the default of our own
 
 
@@ -63,7 +63,7 @@ def compare_peers(reproduction, runner, peers, quick):
         "show: beside these there is a row of this project's program without creases), on the "
         "other models not; the presets quality and fast look for such creases on all, the preset "
         "paper on none. The edge length (mean, least and largest) and the absolute distance are in "
-        "the model's own unit (Gear, Bracket: mm), all other distances in % of the diagonal."),
+        "the model's own unit (Gear, Plate, Bracket: mm), all other distances in % of the diagonal."),
         PEER_COLUMNS)
     wanted = ("Retinal",) if quick else PEER_MODELS
     models = [m for m in wanted if reproduction.models.get(m)][:4] or ["Three Holes"]

@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_PREPARE_SURFACE_IMPL_H
 
 #include <CGAL/PowerRTF/features/kept_edges.h>
+#include <CGAL/PowerRTF/features/refine_narrow_patches.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
 #include <CGAL/PowerRTF/fields/resolution.h>
@@ -140,12 +141,15 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   report.samples_asked = number_of_samples(surface, options, concurrency);
   const bool is_refined = options.thin == Thin::refine,
              has_lengths = has_wanted_lengths(options, fields) || !surface.kept_edges.empty();
-  if (has_lengths || is_refined)
+  const bool follows_width = !has_lengths && !fields.densities && !surface.creases.empty() &&
+                             !(options.edge_length > 0 || options.relative_edge_length > 0);
+  if (has_lengths || is_refined || follows_width)
     report.input_topology =
         internal::manifold_topology(surface, concurrency); // before facets are split
   if (has_lengths)
     report.samples_asked =
         set_wanted_lengths(surface, options, fields, report.samples_asked, concurrency);
+  if (follows_width) refine_narrow_patches(surface, report.samples_asked, concurrency);
   if (is_refined) refine_thin_parts(surface, report.samples_asked, concurrency);
   return surface;
 }

@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -25,9 +27,20 @@ namespace internal {
 /// What decides which patches are joined.
 struct Patch_shape {
   double area = 0, perimeter = 0;
+  int loops = 0;              ///< around it
   Vec3d area_vector{0, 0, 0}; ///< sum of the facets' areas times their normals
 
   double width() const { return 2 * area / perimeter; }
+  /// Width and length: of a band between closed curves, or else of the rectangle with this area and
+  /// perimeter; infinite if there is none.
+  std::array<double, 2> strip() const
+  {
+    if (loops > 1) return {width(), perimeter / 2};
+    const double quarter = perimeter / 4, rest = quarter * quarter - area;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!(rest >= 0)) return {infinity, infinity};
+    return {quarter - std::sqrt(rest), quarter + std::sqrt(rest)};
+  }
   double flat_area() const
   {
     constexpr double flat = 1 - 1e-4;
@@ -73,6 +86,22 @@ struct Crease_patches {
       const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
       shapes[of_facet[h / 3]].perimeter += length(surface.points[b] - surface.points[a]);
       if (crease[h] >= 0) sides[crease[h]][a < b] = of_facet[h / 3];
+    }
+    count_loops(cut);
+  }
+
+private:
+  void count_loops(const Facet_adjacency& cut)
+  {
+    std::vector<char> seen(cut.opposite.size(), 0);
+    for (int h = 0; h < static_cast<int>(seen.size()); ++h) {
+      if (cut.opposite[h] != Facet_adjacency::none || seen[h]) continue;
+      ++shapes[of_facet[h / 3]].loops;
+      for (int g = h; !seen[g];) {
+        seen[g] = 1;
+        g = next_halfedge(g);
+        while (cut.opposite[g] != Facet_adjacency::none) g = next_halfedge(cut.opposite[g]);
+      }
     }
   }
 };

@@ -17,6 +17,7 @@ struct Improvement_parameters {
     static constexpr int smoothing_passes = 3, last_smoothing_passes = 4;
     static constexpr int optimization_rounds = 8;
     static constexpr int sliding_passes = 2, sliding_rounds = 4;
+    static constexpr int rounding_rounds = 2, last_rounding_rounds = 3;
     /// Of the largest distance, in h: more is undone.
     static constexpr double max_distance_growth = 0.2;
     /// Share of the largest distance from which on a place is worth a vertex of its own.
@@ -98,9 +99,28 @@ struct Improvement_parameters {
     /// The search of two vertices at once: the step, and the number of steps to each side.
     static constexpr double pair_step = 0.05;
     static constexpr int pair_steps = 10;
-    static constexpr double min_spacing = 0.4;      ///< of neighbors, in edges of the curve
+    static constexpr double min_spacing = 0.4; ///< of neighbors, in edges of the curve
+    /// The same at most, where a crease is not straight: the distance to it grows with the square.
+    static constexpr double max_spacing = 1.1;
+    static constexpr double straight = 1e-6;        ///< 1 - cosine of its turn
     static constexpr double corner_cosine = 0.7071; ///< curves that turn more have a corner
     static constexpr double max_turn_cosine = 0.9;  ///< of a triangle
+  };
+
+  /// round_mesh.h
+  struct Rounding {
+    static constexpr double badness_weight = 12; ///< where 1 - Q has 1
+    /// Unroundness: mean of the triangles of a star that stays; of a triangle that flips are tried
+    /// around.
+    static constexpr double good = 0.01, bad = 0.4;
+    /// The search in the tangent plane: the first step in the mean edge of the star, how often it
+    /// is halved, and the number of steps.
+    static constexpr double first_step = 0.05;
+    static constexpr int max_halvings = 3, max_steps = 6;
+    /// Least shape of the triangles that a flip makes, before the search of the vertices around it.
+    static constexpr double min_flip_shape = 0.3;
+    static constexpr int passes_per_flip = 3;     ///< of that search
+    static constexpr double min_agreement = 0.75; ///< that a star or a flip must keep, if it had it
   };
 
   /// cover_tips.h

@@ -14,6 +14,7 @@
 //     optimize
 //     if there are creases or borders, twice:
 //       slide vertices along them; optimize                                slide_features.h
+//     if there are creases: make triangles rounder on average              round_mesh.h
 //     move vertices to far tips of the surface and pin them; optimize      cover_tips.h
 //     fit the mesh to the surface by least squares; optimize               fit_to_surface.h
 //     release the pinned vertices of bad triangles; optimize
@@ -24,6 +25,7 @@
 //     else if places are still very far: once more, allowing worse triangles; optimize;
 //       undo that if bad triangles are left
 //     put vertices where triangles are still bad, if that makes them good
+//     if there are creases: make triangles rounder on average
 //     move vertices to far tips where that makes no triangle bad
 //     if no faces intersect and the largest distance has hardly grown:
 //       unlock all vertices; optimize, with only what makes no faces intersect; done
@@ -41,6 +43,7 @@
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
 #include <CGAL/PowerRTF/improvement/relocate_vertices.h>
+#include <CGAL/PowerRTF/improvement/round_mesh.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -125,6 +128,8 @@ private:
     part.next(0.6);
     optimize();
     if (has_features) slide();
+    const bool is_creased = has_features && has_creases(stars);
+    if (is_creased) round(stars, Schedule::rounding_rounds);
     part.next(0.63);
     m_tracker.update_all();
     part.next(0.66);
@@ -139,7 +144,27 @@ private:
     m_tracker.update();
     part.next(1);
     relocate(stars, optimizer);
+    if (is_creased) {
+      round(stars, Schedule::last_rounding_rounds);
+      m_tracker.update();
+    }
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
+  }
+
+  // Whether there are features that are no borders.
+  static bool has_creases(const Star_mesh& stars)
+  {
+    const auto& mesh = stars.working().mesh;
+    const auto edges = mesh.edges();
+    return std::any_of(edges.begin(), edges.end(), [&](Working_mesh::Edge e) {
+      return stars.is_feature(e) && !mesh.is_border(e);
+    });
+  }
+
+  void round(Star_mesh& stars, int rounds)
+  {
+    Feature_slider slider(stars, m_surface);
+    Mesh_rounder(stars, slider).run(rounds);
   }
 
   // The triangles between locked vertices, too, as far as no faces intersect.

@@ -55,6 +55,23 @@ public:
     for (const auto f : m.working().mesh.faces()) slide_pair(f);
   }
 
+  /// Slides `v`, if it is on a curve, to where the sum of `energy(a, b, c)` of its triangles is
+  /// less, whether these are bad or not.
+  template <class Energy>
+  void slide(Vertex v, const Energy& energy)
+  {
+    Vertex a, b;
+    if (!is_sliding(v, a, b)) return;
+    Path curve = path(v, a, b);
+    if (!curve.is_straight())
+      curve.longest = std::max(curve.longest_edge(), Parameters::max_spacing * curve.scale);
+    slide(v, m.star(v), curve, [&](const Star& star, const Vec3d& p) {
+      double sum = 0;
+      for (const Star::Corner& c : star.corners) sum += energy(p, c.a, c.b);
+      return sum;
+    });
+  }
+
 private:
   using Segment = std::pair<Vec3d, Vec3d>;
 
@@ -64,6 +81,7 @@ private:
   struct Path {
     Vec3d p, pa, pb; // the vertex, and its neighbors on the curve
     double scale;    // their mean distance
+    double longest;  // that one of them may become
     std::vector<Segment> near;
 
     /// The place at `s` times the scale from the vertex; s > 0: toward b.
@@ -83,17 +101,23 @@ private:
       return best;
     }
 
+    double longest_edge() const { return std::max(length(p - pa), length(p - pb)); }
+    bool is_straight() const
+    {
+      return dot(p - pa, pb - p) > (1 - Parameters::straight) * length(p - pa) * length(pb - p);
+    }
+
     bool is_spaced(const Vec3d& q) const
     {
-      return length(q - pa) >= Parameters::min_spacing * scale &&
-             length(q - pb) >= Parameters::min_spacing * scale &&
+      const auto [shorter, longer] = std::minmax({length(q - pa), length(q - pb)});
+      return shorter >= Parameters::min_spacing * scale && longer <= longest &&
              dot(normalized(q - pa), normalized(pb - q)) > Parameters::corner_cosine;
     }
   };
 
   Path path(Vertex v, Vertex a, Vertex b) const
   {
-    Path result{m.point(v), m.point(a), m.point(b), 0, {}};
+    Path result{m.point(v), m.point(a), m.point(b), 0, std::numeric_limits<double>::infinity(), {}};
     result.scale = (length(result.pa - result.p) + length(result.pb - result.p)) / 2;
     std::vector<int> near;
     const auto around_p = boost::geometry::index::intersects(rtree_box(result.p, result.scale));
@@ -139,17 +163,26 @@ private:
     return sum;
   }
 
+  bool is_sliding(Vertex v, Vertex& a, Vertex& b) const
+  {
+    return m.is_on_feature(v) && !m.is_locked(v) && neighbors(v, a, b);
+  }
+
   void slide(Vertex v)
   {
     Vertex a, b;
-    if (!m.is_on_feature(v) || m.is_locked(v) || !neighbors(v, a, b)) return;
+    if (!is_sliding(v, a, b)) return;
     const Star star = m.star(v);
     const Vec3d p = m.point(v);
     double bad = 0;
     for (const Star::Corner& c : star.corners) bad += triangle_badness(p, c.a, c.b).badness;
-    if (!(bad > 0)) return;
+    if (bad > 0) slide(v, star, path(v, a, b), energy);
+  }
 
-    const Path curve = path(v, a, b);
+  template <class Energy>
+  void slide(Vertex v, const Star& star, const Path& curve, const Energy& energy)
+  {
+    const Vec3d p = m.point(v);
     const auto is_allowed = [&](const Vec3d& q) {
       return curve.is_spaced(q) && !folds(star, p, star, q);
     };
