@@ -71,7 +71,7 @@ bench() {
   [ -x "$programs/$name" ] || return
   while IFS= read -r line; do
     echo "$line"
-    case $line in *' ms '* | *' | '* | *check:* | *mesh:*) table+=("  $line") ;; esac
+    case $line in *' ms '* | *' | '* | *check:* | *mesh:* | *' total '*) table+=("  $line") ;; esac
   done < <("$programs/$name" "$@" 2>&1)
 }
 
@@ -86,6 +86,9 @@ for model in kitten elk armadillo fertility; do
       --meshes 3
     bench cuda_remeshing "$models/$model.off" --samples 30000 --density $density --check --cpu
   done
+  for traits in cuda cpu; do # from mesh to mesh, milliseconds
+    bench whole_runs "$models/$model.off" --samples 3000,30000 --traits $traits
+  done
   case $model in kitten | fertility) # on the others the paper's weights converge with no traits
     bench cuda_remeshing "$models/$model.off" --samples 3000 --preset paper --check --cpu
     for seed in 1 2 3 4; do
@@ -98,6 +101,7 @@ if [ -z "$quick" ] && [ -r "$refined" ]; then
   table+=("armadillo, refined")
   bench cuda_remeshing "$refined" --refine 2 --samples 3000,30000,1000000
   bench cuda_remeshing "$refined" --refine 3 --samples 10000000 --runs 1
+  bench whole_runs "$refined" --refine 2 --samples 1000000 --traits cuda
   [ -n "$large" ] && bench cuda_remeshing "$refined" --refine 3 --samples 30000000 --runs 0
 fi
 
