@@ -46,7 +46,9 @@ inline bool refine_strips(Surface& surface, std::size_t n, const Crease_patches&
                           int most_rows, Concurrency concurrency)
 {
   constexpr double gradation = 0.15;
-  const Spacing_bounds bounds{0.25, most_rows > 1 ? 1.06 : 1.1, 1.5, true};
+  constexpr std::size_t facets_per_sample = 8; // slivers between creases would take any number
+  const Spacing_bounds bounds{0.25, most_rows > 1 ? 1.06 : 1.1, 1.5, true,
+                              surface.triangles.size() + facets_per_sample * n};
   std::vector<int> patch_of = patches.of_facet;
   return refine_within_limits(
       surface, bounds,

@@ -105,6 +105,7 @@ struct Spacing_bounds {
   /// Whether facets are split for all limits, before it is known which can be met: where all
   /// vertices are at limits, as on parts in few facets, that none can be.
   bool splits_for_all = false;
+  std::size_t most_facets = std::numeric_limits<std::size_t>::max(); ///< more are not made
 };
 
 /// The edges, by a halfedge of each, that are too long for the lengths at a facet, where the
@@ -149,7 +150,8 @@ double least_enough(double low, double high, const IsEnough& is_enough)
 /// splits facets that are too large for that. A surface that is nowhere over the limits stays.
 /// \param limited_spacing gives the `Limited_spacing` of the surface as it is
 /// \param split is told of the facets that are there now in which ones before they lie
-/// \returns whether it is within all limits
+/// \returns whether it is within all limits; `false`, too, with only facets split, where these
+/// would be too many
 template <class LimitedSpacing, class Split>
 bool refine_within_limits(Surface& surface, const Spacing_bounds& bounds,
                           const LimitedSpacing& limited_spacing, const Split& split,
@@ -167,6 +169,7 @@ bool refine_within_limits(Surface& surface, const Spacing_bounds& bounds,
         is_enough(most, 0)
             ? 0
             : least_enough(bounds.least_share, 1, [&](double x) { return is_enough(most, x); });
+    if (surface.triangles.size() > bounds.most_facets) return false;
     const double split_floor = bounds.splits_for_all ? 0 : floor;
     const std::vector<int> halves =
         edges_to_halve(surface, spacing, bounds.longest_edge, split_floor,
