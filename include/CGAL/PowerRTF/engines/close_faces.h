@@ -78,6 +78,7 @@ struct Gather_faces {
       f.points[i] = points[v[i]];
       f.vertices[i] = v[i];
     }
+    f.face = order[k];
     faces[k] = f;
   }
 };
@@ -93,7 +94,6 @@ struct Close_faces_rule {
   Packed_tree_layout tree;
   const Child_boxes* nodes;
   Box_of_face box_of;
-  const int* order;
   int capacity;
   int* count; ///< of all pairs, perhaps more than there is room for
   int* pairs;
@@ -101,21 +101,21 @@ struct Close_faces_rule {
   CGAL_POWER_RTF_HD void operator()(int k) const
   {
     const Numbered_face f = box_of.faces[k];
-    if (!clearly_has_area(f)) add(k, k);
+    if (!clearly_has_area(f)) add(f, f);
     visit_near(
         tree, nodes, Box_query(box_of(k)), [] { return 0.f; },
         [&](int l) {
-          if (l > k && !are_clearly_apart(f, box_of.faces[l])) add(k, l);
+          if (l > k && !are_clearly_apart(f, box_of.faces[l])) add(f, box_of.faces[l]);
         });
   }
 
 private:
-  CGAL_POWER_RTF_HD void add(int k, int l) const
+  CGAL_POWER_RTF_HD void add(const Numbered_face& f, const Numbered_face& g) const
   {
     const int place = atomic_add(count, 1);
     if (place >= capacity) return;
-    pairs[2 * place] = order[k];
-    pairs[2 * place + 1] = order[l];
+    pairs[2 * place] = f.face;
+    pairs[2 * place + 1] = g.face;
   }
 };
 
@@ -173,8 +173,8 @@ bool close_faces(Backend& backend, int vertices, const Vec3d* points, int n, con
   const Box_of_face box_of{a.faces.data(), into};
   fit_tree(backend, tree, box_of, a.boxes.data(), a.nodes.data());
   backend.fill(a.count.data(), 0, 1);
-  backend.for_each(n, Close_faces_rule{tree, a.nodes.data(), box_of, a.order.data(),
-                                       static_cast<int>(capacity), a.count.data(), a.pairs.data()});
+  backend.for_each(n, Close_faces_rule{tree, a.nodes.data(), box_of, static_cast<int>(capacity),
+                                       a.count.data(), a.pairs.data()});
   int count = 0;
   backend.download(&count, a.count.data(), 1);
   if (count > static_cast<int>(capacity)) return false;

@@ -103,10 +103,10 @@ private:
   double m_reach = 0;
 };
 
-/// Corners of a face, and their numbers.
+/// Corners of a face, their numbers and its own.
 struct Numbered_face {
   Vec3d points[3];
-  int vertices[3];
+  int vertices[3], face;
 };
 
 constexpr double clear_share = 1e-14; ///< of a product of lengths: 90 roundings
