@@ -38,7 +38,7 @@ struct Into_unit_box {
   }
 };
 
-/// Of one that no one of them is far outside of.
+/// The one for `n` points. \pre `n` > 0
 inline Into_unit_box into_unit_box(const Vec3d* points, int n, Concurrency concurrency)
 {
   const Box3<double> box = reduce(
