@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/tangent_search.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -177,17 +178,12 @@ private:
       m_failed_searches[v] = m.state_around(v);
   }
 
-  // Looks for a place of less energy in six directions, with shorter and shorter steps.
   bool move_to_better(Vertex v)
   {
     Star star = m.star(v);
     const Vec3d p = m.point(v), n = m.normal(v);
     sort_by_energy(star, p);
-    const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
-                w = cross(n, u);
-    double size = 0;
-    for (const Star::Corner& c : star.corners) size += length(c.a - p);
-    const double scale = size / double(star.corners.size());
+    const double scale = mean_edge(star, p);
     const double pull = Parameters::anchor_weight *
                         std::max(0., Parameters::curved_agreement - m.agreement(star, p, n)) /
                         (scale * scale);
@@ -196,28 +192,11 @@ private:
       return star_energy(star, q, pull * squared_length(q - m_anchors[v]), limit);
     };
     const double start = energy(p, unlimited);
-    double step = Parameters::first_step * scale, least = start, su = 0, sw = 0;
-    constexpr double d = 0.8660254037844386;
-    constexpr double directions[6][2] = {{1, 0}, {.5, d}, {-.5, d}, {-1, 0}, {-.5, -d}, {.5, -d}};
-    int halved = 0;
-    for (int i = 0; i < Parameters::max_steps && halved < Parameters::max_halvings; ++i) {
-      int best = -1;
-      for (int k = 0; k < 6; ++k) {
-        const double e =
-            energy(p + (su + step * directions[k][0]) * u + (sw + step * directions[k][1]) * w,
-                   clearly_less * least);
-        if (e < clearly_less * least) least = e, best = k;
-      }
-      if (best >= 0) {
-        su += step * directions[best][0];
-        sw += step * directions[best][1];
-      } else {
-        step /= 2;
-        ++halved;
-      }
-    }
+    double least = start;
+    const Vec3d best =
+        search_tangent_plane<Parameters>(p, n, Parameters::first_step * scale, least, energy);
     if (!(least < clearly_less * start)) return false;
-    const auto place = m.project(v, p + su * u + sw * w);
+    const auto place = m.project(v, best);
     if (place.facet < 0 || !(energy(place.point, clearly_less * start) < clearly_less * start))
       return false;
     if (m.agreement(star, place.point, place.normal) <

@@ -10,7 +10,9 @@
 
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/better_flips.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
+#include <CGAL/PowerRTF/improvement/tangent_search.h>
 #include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -74,17 +76,7 @@ private:
 
   bool is_better_flipped(Edge e) const
   {
-    if (m.working().mesh.is_removed(e) || !m.is_free(e)) return false;
-    const auto [a, b, c, d] = m.corners(e);
-    const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
-    const double enough = clearly_less * (unroundness(pa, pb, pc) + unroundness(pb, pa, pd)),
-                 first = unroundness(pd, pc, pa);
-    if (!(first < enough) || !(first + unroundness(pc, pd, pb) < enough)) return false;
-    const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
-    if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) <
-        std::min(Parameters::min_agreement, agreement))
-      return false;
-    return m.working().is_flippable(e);
+    return internal::is_better_flipped(m, e, unroundness, 0, Parameters::min_agreement);
   }
 
   void flip_around_bad()
@@ -150,19 +142,17 @@ private:
     return unroundness(a, b, c);
   }
 
-  // Looks for a rounder star in six directions, with shorter and shorter steps.
   bool search(Vertex v)
   {
     const Star star = m.star(v);
     const Vec3d p = m.point(v), n = m.normal(v);
     const double start = sum(star, p, std::numeric_limits<double>::infinity());
     if (start < Parameters::good * double(star.corners.size())) return false;
-    double size = 0;
-    for (const Star::Corner& c : star.corners) size += length(c.a - p);
-    const double limit = clearly_less * start;
-    const Vec3d best = least_around(
-        star, p, n, Parameters::first_step * size / double(star.corners.size()), start);
-    if (best == p) return false;
+    const double step = Parameters::first_step * mean_edge(star, p), limit = clearly_less * start;
+    double least = start;
+    const Vec3d best = search_tangent_plane<Parameters>(
+        p, n, step, least, [&](const Vec3d& q, double enough) { return sum(star, q, enough); });
+    if (!(least < limit)) return false;
     const auto place = m.project(v, best);
     if (place.facet < 0 || !(sum(star, place.point, limit) < limit)) return false;
     if (m.agreement(star, place.point, place.normal) <
@@ -170,31 +160,6 @@ private:
       return false;
     m.move(v, place);
     return true;
-  }
-
-  // `least`: the sum at `p`.
-  static Vec3d least_around(const Star& star, const Vec3d& p, const Vec3d& normal, double step,
-                            double least)
-  {
-    constexpr double d = 0.8660254037844386;
-    constexpr double directions[6][2] = {{1, 0}, {.5, d}, {-.5, d}, {-1, 0}, {-.5, -d}, {.5, -d}};
-    const Vec3d u = normalized(
-                    cross(normal, std::abs(normal.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
-                w = cross(normal, u);
-    Vec3d best = p;
-    for (int i = 0, halved = 0; i < Parameters::max_steps && halved < Parameters::max_halvings;
-         ++i) {
-      const Vec3d center = best;
-      for (const auto& [x, y] : directions) {
-        const Vec3d q = center + step * x * u + step * y * w;
-        const double limit = clearly_less * least, here = sum(star, q, limit);
-        if (here < limit) least = here, best = q;
-      }
-      if (!(best == center)) continue;
-      step /= 2;
-      ++halved;
-    }
-    return best;
   }
 
   // Of the star with its center at `p`, or what is no less than `limit`.

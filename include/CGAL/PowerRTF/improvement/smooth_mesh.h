@@ -10,6 +10,8 @@
 
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/better_flips.h>
+#include <CGAL/PowerRTF/improvement/tangent_search.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
@@ -95,8 +97,7 @@ private:
     const Vec3d p = m.point(v), n = m.normal(v);
 
     // gradient and Hessian in the plane (u, w); areas are linear there but for the curvature
-    const Vec3d u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0})),
-                w = cross(n, u);
+    const auto [u, w] = Tangent_axes(n);
     double now = 0, gu = 0, gw = 0, huu = 0, huw = 0, hww = 0, shortest = -1;
     for (const Star::Corner& c : star.corners) {
       const Vec3d e = c.a - p, f = c.b - p, area = cross(e, f);
@@ -141,17 +142,9 @@ private:
 
   bool is_better_flipped(Edge e) const
   {
-    if (m.working().mesh.is_removed(e) || !m.is_free(e)) return false;
-    const auto [a, b, c, d] = m.corners(e);
-    const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
-    const double enough = clearly_less * (energy(pa, pb, pc) + energy(pb, pa, pd)),
-                 first = energy(pd, pc, pa); // equal diagonals stay
-    if (!(first + least_energy < enough) || !(first + energy(pc, pd, pb) < enough)) return false;
-    const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
-    if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) <
-        std::min(Parameters::min_agreement, agreement))
-      return false;
-    return m.working().is_flippable(e);
+    return internal::is_better_flipped(
+        m, e, [](const Vec3d& a, const Vec3d& b, const Vec3d& c) { return energy(a, b, c); },
+        least_energy, Parameters::min_agreement);
   }
 
   Star_mesh& m;
