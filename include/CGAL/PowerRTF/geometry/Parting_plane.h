@@ -103,6 +103,30 @@ private:
   double m_reach = 0;
 };
 
+/// Which corners two triangles share, by the numbers of their vertices.
+struct Shared_corners {
+  int count = 0;
+  int first = -1, second = -1;       ///< of the last pair, in either triangle; -1: there is none
+  int first_off = 3, second_off = 3; ///< where two are shared: the corners off their edge
+};
+
+/// \param s, t arrays of three
+template <class Vertices>
+CGAL_POWER_RTF_HD inline Shared_corners shared_corners(const Vertices& s, const Vertices& t)
+{
+  Shared_corners shared;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (s[i] == t[j]) {
+        ++shared.count;
+        shared.first = i;
+        shared.second = j;
+        shared.first_off -= i;
+        shared.second_off -= j;
+      }
+  return shared;
+}
+
 /// Corners of a face, their numbers and its own.
 struct Numbered_face {
   Vec3d points[3];
@@ -132,22 +156,14 @@ CGAL_POWER_RTF_HD inline bool clearly_unfolded(const Vec3d& edge, const Vec3d& a
 /// Proves that two faces meet in nothing but the corners and the edge that they share.
 CGAL_POWER_RTF_HD inline bool are_clearly_apart(const Numbered_face& f, const Numbered_face& g)
 {
-  int shared = 0, i = -1, j = -1; // the last pair of corners with the same vertex
-  int rest_f = 3, rest_g = 3;     // sums of the numbers of the corners that are not shared
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l)
-      if (f.vertices[k] == g.vertices[l]) {
-        ++shared;
-        i = k;
-        j = l;
-        rest_f -= k;
-        rest_g -= l;
-      }
-  if (shared < 2) return Parting_plane(f.points, g.points, i, j).exists();
-  if (shared > 2) return false;
-  const Vec3d origin = f.points[(rest_f + 1) % 3];
-  return clearly_unfolded(f.points[(rest_f + 2) % 3] - origin, f.points[rest_f] - origin,
-                          g.points[rest_g] - origin);
+  const Shared_corners shared = shared_corners(f.vertices, g.vertices);
+  if (shared.count < 2)
+    return Parting_plane(f.points, g.points, shared.first, shared.second).exists();
+  if (shared.count > 2) return false;
+  const int off = shared.first_off;
+  const Vec3d origin = f.points[(off + 1) % 3];
+  return clearly_unfolded(f.points[(off + 2) % 3] - origin, f.points[off] - origin,
+                          g.points[shared.second_off] - origin);
 }
 
 } // namespace CGAL::PowerRTF::internal

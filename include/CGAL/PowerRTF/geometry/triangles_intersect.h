@@ -40,31 +40,21 @@ template <class Vertex>
 bool triangles_intersect(const std::array<Vertex, 3>& s, const Triangle_points& p,
                          const std::array<Vertex, 3>& t, const Triangle_points& q)
 {
-  int shared = 0, i_s = 0, i_t = 0; // the last pair of corners with the same vertex
-  bool s_is_shared[3] = {false, false, false}, t_is_shared[3] = {false, false, false};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (s[i] == t[j]) {
-        ++shared;
-        s_is_shared[i] = t_is_shared[j] = true;
-        i_s = i;
-        i_t = j;
-      }
+  const Shared_corners shared = shared_corners(s, t);
   const auto triangle = [](const Triangle_points& x) {
     return Epick::Triangle_3(x[0], x[1], x[2]);
   };
   const auto opposite_edge = [](const Triangle_points& x, int i) {
     return Epick::Segment_3(x[(i + 1) % 3], x[(i + 2) % 3]);
   };
-  if (shared == 0) return !has_parting_plane(p, q) && do_intersect(triangle(p), triangle(q));
-  if (shared == 1)
-    return !has_parting_plane(p, q, i_s, i_t) &&
-           (do_intersect(triangle(p), opposite_edge(q, i_t)) ||
-            do_intersect(triangle(q), opposite_edge(p, i_s)));
-  if (shared == 3) return true;
+  if (shared.count == 0) return !has_parting_plane(p, q) && do_intersect(triangle(p), triangle(q));
+  if (shared.count == 1)
+    return !has_parting_plane(p, q, shared.first, shared.second) &&
+           (do_intersect(triangle(p), opposite_edge(q, shared.second)) ||
+            do_intersect(triangle(q), opposite_edge(p, shared.first)));
+  if (shared.count == 3) return true;
   // a shared edge: the triangles overlap when they are coplanar and on the same side of it
-  const int a = s_is_shared[0] ? (s_is_shared[1] ? 2 : 1) : 0; // the corners off the edge
-  const int b = t_is_shared[0] ? (t_is_shared[1] ? 2 : 1) : 0;
+  const int a = shared.first_off, b = shared.second_off;
   const auto &e = p[(a + 1) % 3], &f = p[(a + 2) % 3];
   return coplanar(e, f, p[a], q[b]) && coplanar_orientation(e, f, p[a], q[b]) == POSITIVE;
 }
