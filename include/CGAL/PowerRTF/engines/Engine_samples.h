@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/engines/Engine.h>
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
+#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -83,11 +84,7 @@ void Engine<R, B, C>::sort(const Engine_samples& samples)
   Buffer<int> places;
   codes.allocate(m_backend, n);
   places.allocate(m_backend, n);
-  const Vec3d& first = samples.points[0];
-  const Box3<double> box = internal::reduce(
-      B::concurrency(), m, Box3<double>{first, first},
-      [&](Box3<double>& b, int i) { b.add(samples.points[i]); },
-      [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
+  const Box3<double> box = internal::box_around(B::concurrency(), m, samples.points);
   find_hilbert_codes(m_backend, n, m_sites.data(), box, codes.data());
   m_backend.sort_order(n, codes.data(), places.data());
   std::vector<int> order(m);

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Parting_plane.h>
+#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
@@ -41,10 +42,7 @@ struct Into_unit_box {
 /// The one for `n` points. \pre `n` > 0
 inline Into_unit_box into_unit_box(const Vec3d* points, int n, Concurrency concurrency)
 {
-  const Box3<double> box = reduce(
-      concurrency, n, Box3<double>{points[0], points[0]},
-      [&](Box3<double>& b, int i) { b.add(points[i]); },
-      [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
+  const Box3<double> box = box_around(concurrency, n, points);
   const Vec3d half = 0.5 * box.hi - 0.5 * box.lo;
   const double reach = std::max({half.x, half.y, half.z});
   return {0.5 * box.lo + 0.5 * box.hi, reach > 0 ? 1 / reach : 1};

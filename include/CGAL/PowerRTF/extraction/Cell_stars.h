@@ -108,8 +108,7 @@ private:
           if (c[1] >= m_cells) parts[begin / chunk].push_back({c[1], i, c[0]});
         });
     });
-    for (const auto& part : parts)
-      m_at_features.insert(m_at_features.end(), part.begin(), part.end());
+    m_at_features = concatenated(ConcurrencyTag(), parts);
     // Found from each of the cells at it.
     sort_uniquely(m_at_features);
   }

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
+#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -73,9 +74,7 @@ public:
       : m_concurrency(concurrency), m_tree(int(boxes.size())), m_nodes(m_tree.nodes())
   {
     if (boxes.empty()) return;
-    const Box3<double> all = reduce(
-        concurrency, int(boxes.size()), boxes[0], [&](Box3<double>& b, int i) { b.add(boxes[i]); },
-        [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
+    const Box3<double> all = box_around(concurrency, int(boxes.size()), boxes);
     const Vec3d middle = 0.5 * all.lo + 0.5 * all.hi, half = 0.5 * all.hi - 0.5 * all.lo;
     const double reach = std::max({half.x, half.y, half.z});
     const auto inside = [&](double x, double center) {
@@ -118,9 +117,7 @@ public:
         if (wanted.before[leaf] < wanted.before[leaf + 1])
           find_pairs(leaf, wanted, test, parts[begin / leaves_per_chunk]);
     });
-    std::vector<std::pair<int, int>> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    return concatenated(m_concurrency, parts);
   }
 
 private:

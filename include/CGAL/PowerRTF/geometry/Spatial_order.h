@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_GEOMETRY_SPATIAL_ORDER_H
 
 #include <CGAL/PowerRTF/geometry/Hilbert_table.h>
-#include <CGAL/PowerRTF/geometry/Packed_tree.h>
+#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -24,10 +24,7 @@ std::vector<int> spatial_order(const Points& points, Concurrency concurrency = S
 {
   if (points.empty()) return {};
   const int n = static_cast<int>(points.size());
-  const Box3<double> box = reduce(
-      concurrency, n, Box3<double>{points[0], points[0]},
-      [&](Box3<double>& b, int i) { b.add(points[i]); },
-      [](Box3<double>& b, const Box3<double>& part) { b.add(part); });
+  const Box3<double> box = box_around(concurrency, n, points);
   const Vec3d middle = 0.5 * box.lo + 0.5 * box.hi, half = 0.5 * box.hi - 0.5 * box.lo;
   const double reach = std::max({half.x, half.y, half.z});
   const Hilbert_table& curve = Hilbert_table::get();
