@@ -84,15 +84,15 @@ public:
   using Mesh = Working_mesh::Mesh;
 
   explicit Intersection_finder(const Working_mesh& mesh, Concurrency concurrency = Sequential_tag())
-      : Intersecting_pairs(Face_triangles(mesh), concurrency), m_working(mesh), m_mesh(mesh.mesh),
-        m_concurrency(concurrency)
+      : Intersecting_pairs(Face_triangles(mesh), concurrency), m_mesh(mesh)
   {}
 
   /// All of them, sorted. `close_faces`: what finds most of the others instead, where it does.
   std::vector<Face_pair> all(const Find_close_faces& close_faces = {}) const
   {
     Face_pairs close;
-    return close_faces && find_close(close_faces, close) ? find_among(close) : find(m_mesh.faces());
+    return close_faces && find_close(close_faces, close) ? find_among(close)
+                                                         : find(m_mesh.mesh.faces());
   }
 
   /// Those of `pairs`, all that there were before the faces with `has_changed[f]` changed, as they
@@ -106,7 +106,7 @@ public:
                                }),
                 pairs.end());
     const std::vector<Face_pair> fresh =
-        find_where(m_mesh.faces(), [&](Face f) { return bool(has_changed[f]); });
+        find_where(m_mesh.mesh.faces(), [&](Face f) { return bool(has_changed[f]); });
     pairs.insert(pairs.end(), fresh.begin(), fresh.end());
     std::sort(pairs.begin(), pairs.end());
     return pairs;
@@ -115,15 +115,15 @@ public:
 private:
   bool find_close(const Find_close_faces& close_faces, Face_pairs& pairs) const
   {
-    const std::vector<int> faces = select(m_concurrency, int(m_mesh.num_faces()), [this](int f) {
-      return !m_mesh.is_removed(Working_mesh::Face(f));
-    });
-    Unset_vector<Vec3d> points(m_mesh.num_vertices());
-    for_each_index(m_concurrency, int(points.size()),
-                   [&](int v) { points[v] = m_working.point(Working_mesh::Vertex(v)); });
+    const std::vector<int> faces =
+        select(concurrency(), int(m_mesh.mesh.num_faces()),
+               [this](int f) { return !m_mesh.mesh.is_removed(Working_mesh::Face(f)); });
+    Unset_vector<Vec3d> points(m_mesh.mesh.num_vertices());
+    for_each_index(concurrency(), int(points.size()),
+                   [&](int v) { points[v] = m_mesh.point(Working_mesh::Vertex(v)); });
     Unset_vector<int> corners(3 * faces.size());
-    for_each_index(m_concurrency, int(faces.size()), [&](int k) {
-      const auto at = m_working.corners(Working_mesh::Face(faces[k]));
+    for_each_index(concurrency(), int(faces.size()), [&](int k) {
+      const auto at = m_mesh.corners(Working_mesh::Face(faces[k]));
       std::copy(at.begin(), at.end(), &corners[3 * k]);
     });
     if (!close_faces(int(points.size()), points.data(), int(faces.size()), corners.data(), pairs))
@@ -132,9 +132,7 @@ private:
     return true;
   }
 
-  const Working_mesh& m_working;
-  const Mesh& m_mesh;
-  Concurrency m_concurrency;
+  const Working_mesh& m_mesh;
 };
 
 } // namespace CGAL::PowerRTF::internal

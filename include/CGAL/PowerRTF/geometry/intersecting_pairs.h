@@ -92,6 +92,9 @@ public:
     return found;
   }
 
+protected:
+  Concurrency concurrency() const { return m_concurrency; }
+
 private:
   Triangles m_triangles;
   Concurrency m_concurrency;
