@@ -20,20 +20,19 @@ namespace CGAL::PowerRTF {
 namespace internal {
 
 /// The smallest n up to `most` with `ratio(n) <= 1`, to a tenth, where `ratio` falls about as 1 /
-/// n, if it falls; `most` if there is none. The search begins with `first`. `last`: gets the ratio
-/// for what is returned.
+/// n, if it falls; `most` if there is none. The search begins with `first`. \returns n and its
+/// ratio
 template <class Ratio>
-double smallest_of_falling(double first, double most, const Ratio& ratio, double& last)
+std::pair<double, double> smallest_of_falling(double first, double most, const Ratio& ratio)
 {
   constexpr double near_enough = 1.1, step = 1.04, least = 4, farthest = 4;
-  double failed = least - 1, met = std::numeric_limits<double>::infinity(), at_met = 0;
+  double failed = least - 1, met = std::numeric_limits<double>::infinity(), ratio_of_met = 0;
   for (double n = std::round(std::clamp(first, least, most));;) {
     const double r = ratio(static_cast<std::size_t>(n));
     (r <= 1 ? met : failed) = n;
-    if (r <= 1) at_met = r;
-    last = failed == most ? r : at_met;
-    if (failed == most) return most;
-    if (met <= near_enough * failed || met == failed + 1) return met;
+    if (r <= 1) ratio_of_met = r;
+    if (failed == most) return {most, r};
+    if (met <= near_enough * failed || met == failed + 1) return {met, ratio_of_met};
     // A little more than it should be, and between what has been tried.
     const double next = std::round(n * step * std::clamp(r, 1 / farthest, farthest));
     const double low = std::max(failed + 1, std::ceil(step * failed)),
@@ -50,7 +49,7 @@ std::size_t smallest_number(double first, double most, const Ratio& ratio)
   constexpr double step = 1.06, hopeless = 1.4, least = 4;
   constexpr int patience = 4;
   most = std::floor(most);
-  double r = 0, met = smallest_of_falling(first, most, ratio, r);
+  auto [met, r] = smallest_of_falling(first, most, ratio);
   int failures = 0;
   for (double n = std::floor(met / step); n >= least && r < hopeless && failures < patience;
        n = std::floor(n / step)) {
