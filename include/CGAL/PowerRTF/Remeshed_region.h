@@ -50,7 +50,6 @@ public:
     }
     m_remeshed.emplace(m_changed->soup, is_remeshed, m_changed->fields);
     m_own = std::exchange(m_replaced, Soup_region(whole, is_replaced, fields));
-    m_places = places_of_points(whole);
   }
 
   /// The polygons that give way to the result.
@@ -72,15 +71,14 @@ public:
   void complete(Extracted_mesh& mesh, const Normalization& normalization) const
   {
     if (!m_remeshed) return;
+    const std::vector<int>& places = m_changed->places;
     std::map<int, int> replaced_at; // by place
     for (std::size_t v = 0; v < m_replaced.points.size(); ++v)
-      replaced_at.insert({m_places[m_replaced.points[v]], static_cast<int>(v)});
+      replaced_at.insert({places[m_replaced.points[v]], static_cast<int>(v)});
     const auto name = [&](int v) { // among the points that are replaced; -1: it is a new one
-      return v < static_cast<int>(m_places.size()) ? replaced_at.at(m_places[v]) : -1;
+      return v < static_cast<int>(places.size()) ? replaced_at.at(places[v]) : -1;
     };
-    const auto place = [&](int v) {
-      return v < static_cast<int>(m_places.size()) ? m_places[v] : v;
-    };
+    const auto place = [&](int v) { return v < static_cast<int>(places.size()) ? places[v] : v; };
     std::map<int, int> vertex_at; // by place
     mesh.input_points.resize(mesh.points.size(), -1);
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
@@ -171,7 +169,6 @@ private:
   std::optional<Soup_region> m_own, m_remeshed; ///< none: it is what is replaced
   std::optional<Changed_soup> m_changed;
   std::vector<int> m_beside; ///< polygons of `m_changed` outside of the region that are new
-  std::vector<int> m_places; ///< by point of the whole
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -57,7 +57,7 @@ internal::change_border(const Polygon_soup& whole, const Surface_fields& fields,
                               "the spacing on the border does not follow from a largest distance");
   Border_change change(whole, fields, region, options.feature_angle);
   const std::vector<double> known =
-      lengths_in_region(region, places_of_points(whole), options, concurrency);
+      lengths_in_region(region, change.places(), options, concurrency);
   std::vector<double> lengths;
   for (const int v : change.vertices()) lengths.push_back(known[v]);
   // Of facets without area the surface has nothing; there, edges are no matter.

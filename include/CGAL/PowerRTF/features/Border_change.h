@@ -31,6 +31,7 @@ struct Changed_soup {
   std::vector<int> polygons; ///< by polygon: the one of the old soup that it is, or a part of
   std::vector<char> is_new;  ///< by polygon: whether it is a part of one that has changed
   Surface_fields fields;     ///< of the soup
+  std::vector<int> places;   ///< by point of the old soup: the first one at its place
 };
 
 class Border_change {
@@ -48,6 +49,8 @@ public:
 
   /// The points of the border, each standing for all at its place.
   const std::vector<int>& vertices() const { return m_vertices; }
+  /// By point of the soup: the one that stands for it.
+  const std::vector<int>& places() const { return m_places; }
 
   /// \param lengths by vertex of the border: how far apart they shall be there, in the soup's unit
   /// \param is_single whether new points have coordinates of single precision
@@ -272,6 +275,7 @@ private:
       end(polygon, true);
     }
     set_fields(result);
+    result.places = m_places;
     return result;
   }
 
