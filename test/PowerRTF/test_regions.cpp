@@ -22,6 +22,7 @@
 
 using namespace CGAL::PowerRTF;
 using regions::center;
+using regions::check_invariance;
 using regions::faces_where;
 using regions::Is_inside;
 using regions::is_upper;
@@ -283,21 +284,11 @@ TEST_CASE("new faces get the labels of the old ones, and the lines between them 
   }
 }
 
-TEST_CASE("scaled and moved, and on one thread, a region becomes the same")
+TEST_CASE("scaled, and on one thread, a region becomes the same")
 {
-  const auto points = [](double scale, auto concurrency) {
-    Mesh mesh = make_mesh(shapes::scaled(shapes::icosphere(4), scale));
-    const auto faces =
-        faces_where(mesh, [scale](const Vec3d& p) { return is_upper((1 / scale) * p); });
+  check_invariance([](const auto& faces, Mesh& mesh, auto concurrency) {
     CGAL::power_rtf_remeshing<decltype(concurrency)>(faces, mesh, 300);
-    std::vector<Vec3d> result;
-    for (const auto v : mesh.vertices())
-      result.push_back((1 / scale) * internal::to_vec3d(mesh.point(v)));
-    return result;
-  };
-  const std::vector<Vec3d> one = points(1, CGAL::Parallel_if_available_tag());
-  CHECK(one == points(1, CGAL::Sequential_tag()));
-  CHECK(one == points(std::ldexp(1., -30), CGAL::Sequential_tag()));
+  });
 }
 
 TEST_CASE("a vertex on an edge that should be kept is told")

@@ -20,6 +20,7 @@
 using namespace CGAL::PowerRTF;
 using doctest::Approx;
 using regions::center;
+using regions::check_invariance;
 using regions::faces_where;
 using regions::Is_inside;
 using regions::is_upper;
@@ -221,20 +222,10 @@ TEST_CASE("two sheets, holes, a border of the mesh, a single facet")
 
 TEST_CASE("a remeshed border is the same on one thread, and for a scaled mesh")
 {
-  const auto points = [](double scale, auto concurrency) {
-    Mesh mesh = make_mesh(shapes::scaled(shapes::icosphere(4), scale));
-    const auto faces =
-        faces_where(mesh, [scale](const Vec3d& p) { return is_upper((1 / scale) * p); });
+  check_invariance([](const auto& faces, Mesh& mesh, auto concurrency) {
     CGAL::power_rtf_remeshing<decltype(concurrency)>(faces, mesh, 150,
                                                      params::region_border(Region_border::remesh));
-    std::vector<Vec3d> result;
-    for (const auto v : mesh.vertices())
-      result.push_back((1 / scale) * internal::to_vec3d(mesh.point(v)));
-    return result;
-  };
-  const std::vector<Vec3d> one = points(1, CGAL::Parallel_if_available_tag());
-  CHECK(one == points(1, CGAL::Sequential_tag()));
-  CHECK(one == points(std::ldexp(1., -30), CGAL::Sequential_tag()));
+  });
 }
 
 TEST_CASE("no spacing on the border follows from a largest distance")

@@ -8,6 +8,11 @@
 #include "../mesh_of_shape.h"
 #include "../shapes.h"
 
+#include <CGAL/tags.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -40,6 +45,25 @@ inline std::vector<Mesh::Face_index> faces_where(const Mesh& mesh, const Is_insi
 }
 
 inline Mesh sphere() { return shapes::make_mesh(shapes::icosphere(4)); }
+
+/// A region becomes the same on one thread, and for a scaled mesh.
+/// \param remesh `remesh(faces, mesh, concurrency tag)`
+template <class Remesh>
+void check_invariance(const Remesh& remesh)
+{
+  const auto points = [&](double scale, auto concurrency) {
+    Mesh mesh = shapes::make_mesh(shapes::scaled(shapes::icosphere(4), scale));
+    remesh(faces_where(mesh, [scale](const Vec3d& p) { return is_upper((1 / scale) * p); }), mesh,
+           concurrency);
+    std::vector<Vec3d> result;
+    for (const auto v : mesh.vertices())
+      result.push_back((1 / scale) * CGAL::PowerRTF::internal::to_vec3d(mesh.point(v)));
+    return result;
+  };
+  const std::vector<Vec3d> one = points(1, CGAL::Parallel_if_available_tag());
+  CHECK(one == points(1, CGAL::Sequential_tag()));
+  CHECK(one == points(std::ldexp(1., -30), CGAL::Sequential_tag()));
+}
 
 } // namespace regions
 
