@@ -330,8 +330,9 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
                 "chain of named parameters");
   static_assert(
       !PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
-      "density_map, sizing_map, refinements, remeshing_options, repair and symmetry belong "
-      "into the first chain of named parameters; one that began in CGAL::parameters takes them by "
+      "density_map, sizing_map, refinements, remeshing_options, repair, symmetry and region_border "
+      "belong into the first chain of named parameters; one that began in CGAL::parameters takes "
+      "them by "
       "PowerRTF::parameters::combine(chain, density_map(map))");
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, InputMesh, NamedParametersIn>;
   using Output_map = typename GetVertexPointMap<OutputMesh, NamedParametersOut>::type;
