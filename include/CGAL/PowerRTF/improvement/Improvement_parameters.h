@@ -14,7 +14,7 @@ struct Improvement_parameters {
   /// improve_mesh.h
   struct Schedule {
     static constexpr int max_attempts = 8;
-    static constexpr int smoothing_passes = 3, last_smoothing_passes = 4;
+    static constexpr int smoothing_passes = 2, last_smoothing_passes = 2;
     static constexpr int optimization_rounds = 8;
     static constexpr int sliding_passes = 2, sliding_rounds = 4;
     static constexpr int rounding_rounds = 2, last_rounding_rounds = 3;
@@ -57,8 +57,10 @@ struct Improvement_parameters {
     /// Agreement that a star must keep, if it had it. One on a strongly curved part stands for
     /// features that smoothing would slide off.
     static constexpr double min_agreement = 0.75;
+    /// Of Newton's step: successive over-relaxation, as good in four passes as in seven without it.
+    static constexpr double relaxation = 1.4;
     /// In the shortest edge of the star; smaller steps are not worth their search of the surface.
-    static constexpr double max_step = 0.25, min_step = 0.002;
+    static constexpr double max_step = 0.25, min_step = 0.001;
   };
 
   /// annihilate_dislocations.h
@@ -66,9 +68,9 @@ struct Improvement_parameters {
     static constexpr int max_glide = 6;         ///< edges
     static constexpr int irregular_degree = 10; ///< of vertices that take no part
     static constexpr int rings = 4;             ///< around the flips, of vertices that move
-    static constexpr int rounds_per_flip = 2, rounds = 5; ///< of their moves
+    static constexpr int rounds_per_flip = 1, rounds = 3; ///< of their moves
     /// All that the rounds to come gain, at most, in the gain of the last one.
-    static constexpr double gains_to_come = 2;
+    static constexpr double gains_to_come = 1;
     static constexpr double min_agreement = 0.5;
   };
 
@@ -135,7 +137,7 @@ struct Improvement_parameters {
 
   /// fit_to_surface.h
   struct Fitting {
-    static constexpr int sweeps = 8; ///< the matrix is like a mass matrix: they converge fast
+    static constexpr int sweeps = 5; ///< the matrix is like a mass matrix: they converge fast
     static constexpr double max_turn_cosine = 0.5; ///< of a triangle by one move
     /// What moves in the tangent plane cost; more where the samples are to be spaced evenly.
     static constexpr double tangential_weight = 0.05, even_tangential_weight = 0.3;

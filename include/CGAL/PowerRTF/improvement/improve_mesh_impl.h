@@ -8,9 +8,9 @@
 //   repeat, at most 8 times:
 //     start from the extracted mesh, with some vertices locked (at first none)
 //     unless dislocations are to be kept:
-//       3 times (the second attempt: 2): flip edges, smooth vertices        smooth_mesh.h
+//       twice (the second attempt: once): flip edges, smooth vertices       smooth_mesh.h
 //       annihilate dislocations of the lattice                 annihilate_dislocations.h
-//     4 times (the second attempt, if they are kept: 3): flip edges, smooth vertices
+//     twice (the second attempt, if they are kept: once): flip edges, smooth vertices
 //     optimize
 //     if there are creases or borders, twice:
 //       slide vertices along them; optimize                                slide_features.h

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Smoothing of all stars: edges are flipped and vertices moved where that lowers the sum of the
-// inverse mean ratios L^2 / (4 sqrt(3) A) of the triangles (1: equilateral). A vertex makes a
-// Newton step in its tangent plane and goes back to the surface. (Freitag and Knupp, "Tetrahedral
-// mesh improvement via optimization of the element condition number", 2002, for triangles.)
+// inverse mean ratios L^2 / (4 sqrt(3) A) of the triangles (1: equilateral). A vertex makes an
+// over-relaxed Newton step in its tangent plane and goes back to the surface. (Freitag and Knupp,
+// "Tetrahedral mesh improvement via optimization of the element condition number", 2002, for
+// triangles.)
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
 #define CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
 
@@ -117,7 +118,8 @@ private:
     }
     const double determinant = huu * hww - huw * huw;
     if (!(determinant > 0) || !(huu > 0)) return;
-    double su = -(hww * gu - huw * gw) / determinant, sw = -(huu * gw - huw * gu) / determinant;
+    const double scale = -Parameters::relaxation / determinant;
+    double su = scale * (hww * gu - huw * gw), sw = scale * (huu * gw - huw * gu);
     const double size = std::sqrt(su * su + sw * sw), unit = std::sqrt(shortest),
                  limit = Parameters::max_step * unit;
     if (!(size > Parameters::min_step * unit)) return;
