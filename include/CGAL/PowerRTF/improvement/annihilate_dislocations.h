@@ -29,12 +29,36 @@ class Dislocation_annihilator {
 public:
   explicit Dislocation_annihilator(Star_mesh& mesh) : m(mesh), m_smoother(mesh) {}
 
-  /// The nearest pairs first. \returns the number of meetings.
+  /// Where surroundings touch, the nearest pairs first. \returns the number of meetings.
   std::size_t run()
   {
-    std::size_t meetings = 0;
-    for (int length = 1; length <= Parameters::max_glide; ++length) meetings += run(length);
-    return meetings;
+    m_is_taken.assign(m.size(), false);
+    m_is_known.assign(m.size(), false);
+    std::vector<Candidate> left;
+    for (const int v :
+         select(m.concurrency(), int(m.size()), [&](int v) { return excess(Vertex(v)) == -1; }))
+      add(Vertex(v), left);
+    for (std::size_t meetings = 0;;) {
+      Cancellation::poll();
+      for_each_chunk(m.concurrency(), int(left.size()), 1, [&](int k, int) { update(left[k]); });
+      const std::vector<Candidate> chosen = take_independent(left);
+      if (chosen.empty()) return meetings;
+      std::vector<char> has_met(chosen.size());
+      for_each_chunk(m.concurrency(), int(chosen.size()), 1,
+                     [&](int k, int) { has_met[k] = annihilate(chosen[k]); });
+      m_is_taken.assign(m.size(), false);
+      for (std::size_t k = 0; k < chosen.size(); ++k) {
+        const Candidate& c = chosen[k];
+        if (has_met[k]) {
+          ++meetings;
+          take(c);
+          for (const Vertex v : c.zone)
+            if (excess(v) == -1 && !m_is_known[v]) add(v, left);
+        } else if (c.length < Parameters::max_glide) {
+          left.push_back({c.five, c.length + 1, false, {}, {}});
+        }
+      }
+    }
   }
 
 private:
@@ -48,44 +72,31 @@ private:
   // and all vertices that these may move, or depend on.
   struct Candidate {
     Vertex five;
+    int length;      // the least number of flips
+    bool is_current; // what follows
     std::vector<std::vector<Edge>> meetings;
     std::vector<Vertex> zone;
   };
 
-  Candidate candidate(Vertex five, int length) const
+  void add(Vertex five, std::vector<Candidate>& candidates)
   {
-    Candidate c{five, find_meetings(five, length), {}};
+    m_is_known[five] = true;
+    candidates.push_back({five, 1, false, {}, {}});
+  }
+
+  // Looks for the nearest meetings, if something has changed around the candidate.
+  void update(Candidate& c) const
+  {
+    if (c.is_current && is_free(c)) return;
+    c.is_current = true;
+    c.zone.clear();
+    c.meetings = find_meetings(c.five, c.length);
+    while (c.meetings.empty() && c.length < Parameters::max_glide)
+      c.meetings = find_meetings(c.five, ++c.length);
     for (const std::vector<Edge>& flips : c.meetings) {
       const std::vector<Vertex> near = vertices_near(flips, Parameters::rings + 1);
       c.zone.insert(c.zone.end(), near.begin(), near.end());
     }
-    return c;
-  }
-
-  // Pairs that are `length` flips apart. Those whose surroundings do not touch meet at once.
-  std::size_t run(int length)
-  {
-    const std::vector<int> fives =
-        select(m.concurrency(), int(m.size()), [&](int v) { return excess(Vertex(v)) == -1; });
-    std::vector<Candidate> left(fives.size());
-    for_each_chunk(m.concurrency(), int(left.size()), 1,
-                   [&](int k, int) { left[k] = candidate(Vertex(fives[k]), length); });
-    std::size_t meetings = 0;
-    while (!left.empty()) {
-      Cancellation::poll();
-      const std::vector<Candidate> chosen = take_independent(left);
-      std::vector<char> has_met(chosen.size());
-      for_each_chunk(m.concurrency(), int(chosen.size()), 1,
-                     [&](int k, int) { has_met[k] = annihilate(chosen[k]); });
-      meetings += std::count(has_met.begin(), has_met.end(), true);
-      m_is_taken.assign(m.size(), false);
-      for (std::size_t k = 0; k < chosen.size(); ++k)
-        if (has_met[k]) take(chosen[k]);
-      for_each_chunk(m.concurrency(), int(left.size()), 1, [&](int k, int) {
-        if (!is_free(left[k])) left[k] = candidate(left[k].five, length);
-      });
-    }
-    return meetings;
   }
 
   void take(const Candidate& c)
@@ -98,10 +109,13 @@ private:
     return std::none_of(c.zone.begin(), c.zone.end(), [this](Vertex v) { return m_is_taken[v]; });
   }
 
-  // Takes those out whose zones touch none of those taken before, and all that have no meeting any
-  // more.
+  // Takes those out whose zones touch none of those taken before, the nearest pairs first, and all
+  // that have no meeting any more.
   std::vector<Candidate> take_independent(std::vector<Candidate>& candidates)
   {
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return std::pair(a.length, a.five) < std::pair(b.length, b.five);
+    });
     m_is_taken.assign(m.size(), false);
     std::vector<Candidate> chosen, left;
     for (Candidate& c : candidates) {
@@ -294,7 +308,7 @@ private:
 
   Star_mesh& m;
   Mesh_smoother m_smoother;
-  std::vector<char> m_is_taken; // by vertex
+  std::vector<char> m_is_taken, m_is_known; // by vertex: in a zone; has been a candidate
 };
 
 } // namespace CGAL::PowerRTF::internal
