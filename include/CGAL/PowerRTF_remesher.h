@@ -185,7 +185,7 @@ private:
     part.next(0.85);
     const PowerRTF::Samples samples = PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
         m_patches.surface(), m_options, features, &tree, &m_report.off_lattice_samples,
-        m_engine.lattice_field_maker());
+        m_engine.lattice_field_maker(), m_engine.facet_finder());
     part.next(1);
     m_engine.set_samples(samples, features);
     m_report.iterations.clear();
@@ -290,7 +290,7 @@ private:
       PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
                              typename Traits::Concurrency_tag(), m_options.dislocations,
                              m_surface.is_closed_up() ? std::vector<int>() : samples.facets,
-                             m_engine.close_face_finder());
+                             m_engine.close_face_finder(), m_engine.star_sweeps_maker());
     }
     return mesh;
   }

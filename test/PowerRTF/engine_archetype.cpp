@@ -15,6 +15,7 @@ public:
   Engine_archetype(const Engine_archetype&) = delete;
   Engine_archetype& operator=(const Engine_archetype&) = delete;
   Make_lattice_field lattice_field_maker();
+  Find_facets facet_finder();
   void set_samples(const Samples& samples, const Feature_samples& features);
   void build_cells();
   bool optimize_weights(int passes);
@@ -32,6 +33,7 @@ public:
   void release_memory();
   Find_distances distance_finder();
   Find_close_faces close_face_finder();
+  Make_star_sweeps star_sweeps_maker();
   Neighbor_cycles neighbors();
   double epsilon() const;
   const Facet_tree& facet_tree();

@@ -4,7 +4,7 @@
 # The folders of include/CGAL/PowerRTF follow the way of the data: no header includes one of a
 # folder further down. (`-DINCLUDE=folder` with CGAL/PowerRTF)
 cmake_minimum_required(VERSION 3.22)
-set(layers internal geometry input fields features sampling cells optimization engines extraction
+set(layers internal geometry input fields features sampling cells optimization smoothing engines extraction
            improvement exact quality transfer)
 
 set(faults "")

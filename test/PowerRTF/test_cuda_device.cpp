@@ -5,6 +5,7 @@
 // the engine is not built.
 #include "engine_comparison.h"
 #include "relative_distances.h"
+#include "sweeps_case.h"
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/engines/close_faces.h>
@@ -252,6 +253,43 @@ TEST_CASE("distances are those that the CPU finds")
   }
 }
 
+TEST_CASE("facets are as near as those that the CPU finds")
+{
+  constexpr double cosine = 0.2;
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    const Start start(c);
+    const Surface& surface = start.patches->surface();
+    Cuda_engine<float> engine(surface, c.options);
+    const Facet_tree& tree = engine.facet_tree();
+    for (const int n : {1, 5000, 300000}) { // by lanes, and a thread for each
+      std::mt19937 random(n);
+      std::vector<Vec3d> points, normals;
+      std::vector<int> hints, places;
+      for (int i = 0; i < n; ++i) {
+        const int f = int(random() % surface.triangles.size());
+        hints.push_back(f);
+        places.push_back(tree.place(f));
+        points.push_back(surface.points[surface.triangles[f][i % 3]]);
+        normals.push_back((i % 2 == 0 ? 1. : -1.) * surface.facet_normals[f]); // of the other side
+      }
+      REQUIRE(engine.facet_finder()(n, points.data(), normals.data(), cosine, places.data()));
+      int differ = 0; // by rounding, whether normals agree
+      for (int i = 0; i < n; ++i) {
+        const auto nearest = tree.nearest(points[i], normals[i], cosine, hints[i]);
+        const auto found = places[i] < 0 ? -1. : [&] {
+          const Facet_corners<double>& f = tree.view().facets[places[i]];
+          return length(points[i] - nearest_point_on_triangle(points[i], f.a, f.b, f.c));
+        }();
+        differ += nearest.facet < 0
+                      ? found >= 0
+                      : !(std::fabs(found - std::sqrt(nearest.squared_distance)) < 1e-5);
+      }
+      CHECK(differ <= n / 1000);
+    }
+  }
+}
+
 TEST_CASE("faces that may intersect are those that the host's loops find")
 {
   const Case c = cases()[0];
@@ -275,6 +313,41 @@ TEST_CASE("faces that may intersect are those that the host's loops find")
     REQUIRE(internal::close_faces(host, vertices, s.points.data(), n, s.triangles.front().data(),
                                   expected));
     CHECK(sorted(pairs) == sorted(expected));
+  }
+}
+
+TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
+{
+  using improvement_case::Sweeps_case;
+  const Case c = cases()[0];
+  const Start start(c);
+  Cuda_engine<float> engine(start.patches->surface(), c.options);
+  engine.set_samples(start.samples, start.patches->features());
+  const Make_star_sweeps make = engine.star_sweeps_maker();
+  const shapes::Soup fine = shapes::ellipsoid(1, 0.7, 0.4, 6);
+  struct Mesh {
+    shapes::Soup soup;
+    int n;
+    double bound; // of nine tenths of the distances, in the spacing: a fit is in single precision
+  };
+  // Of a cylinder's strips two are as near to a point: rounding chooses.
+  for (const auto& [soup, n, bound] :
+       {Mesh{shapes::icosphere(2), 12, 1e-6}, Mesh{shapes::open_cylinder(40, 10, .5, 2), 400, 0.01},
+        Mesh{fine, 3000, 1e-6}, Mesh{fine, 40000, 1e-6}}) {
+    CAPTURE(n);
+    const Sweeps_case mesh(soup, n);
+    const auto device = mesh.sweeps(make),
+               host = mesh.host_sweeps(CGAL::Parallel_if_available_tag());
+    const auto smooth = mesh.smoothed(*device, 2), smooth_on_host = mesh.smoothed(*host, 2);
+    REQUIRE(smooth.size() == int(mesh.mesh().size()));
+    CHECK(improvement_case::distances(smooth, smooth_on_host).back() < 1e-11 * mesh.spacing());
+    CHECK(mesh.smoothed(*device, 2).points == smooth.points);
+    double gain = 0, gain_on_host = 0;
+    const auto fit = mesh.fitted(*device, gain), fit_on_host = mesh.fitted(*host, gain_on_host);
+    REQUIRE(fit.size() == smooth.size());
+    const std::vector<double> d = improvement_case::distances(fit, fit_on_host);
+    CHECK(d[d.size() * 9 / 10] < bound * mesh.spacing());
+    CHECK(std::fabs(gain - gain_on_host) < 0.01 * gain_on_host);
   }
 }
 

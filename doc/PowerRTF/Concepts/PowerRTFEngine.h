@@ -31,6 +31,9 @@ public:
   /// What makes the fields of a lattice, on which samples begin, where the engine works; or empty.
   CGAL::PowerRTF::Make_lattice_field lattice_field_maker();
 
+  /// What finds facets of the surface where the engine works; or empty.
+  CGAL::PowerRTF::Find_facets facet_finder();
+
   /// Takes the samples' points and facets; their normals and densities come from the surface, their
   /// weights become 0. The engine may reorder them, once. `features`: samples that stay where they
   /// are; the copies of each, one for every patch at it, bound cells and have none.
@@ -95,6 +98,8 @@ public:
   CGAL::PowerRTF::Find_distances distance_finder();
   /// The same of faces that may intersect.
   CGAL::PowerRTF::Find_close_faces close_face_finder();
+  /// The same of sweeps over the vertices of a mesh.
+  CGAL::PowerRTF::Make_star_sweeps star_sweeps_maker();
 
   /// The precision of the cells' numbers: the machine epsilon of `double`, or of `float`.
   double epsilon() const;

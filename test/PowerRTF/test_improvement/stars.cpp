@@ -6,13 +6,15 @@
 #include "../odd_shapes.h"
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
-#include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
+#include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
+#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -27,6 +29,18 @@
 #include <vector>
 
 using namespace improvement_case;
+
+namespace {
+
+// One vertex after the other, so many times.
+void smooth(internal::Star_mesh& mesh, int steps)
+{
+  for (int step = 0; step < steps; ++step)
+    for (const internal::Star_mesh::Vertex v : mesh.working().mesh.vertices())
+      if (mesh.is_movable(v)) smooth_vertex(mesh, v);
+}
+
+} // namespace
 
 TEST_CASE("triangle badness")
 {
@@ -77,8 +91,7 @@ TEST_CASE("smoothing finds the best place in a star, and leaves it")
     return sum;
   };
   internal::Star_mesh mesh(star, projector);
-  internal::Mesh_smoother smoother(mesh);
-  for (int i = 0; i < 10; ++i) smoother.sweep();
+  smooth(mesh, 10);
   const Vec3d p = mesh.point(internal::Star_mesh::Vertex(0));
   CHECK(energy(p) < energy(star.points[0]));
   for (int k = 0; k < 12; ++k) {
@@ -121,7 +134,7 @@ TEST_CASE("a projection descends to the nearest place around")
             length(nearest_point_on_triangle(p, surface.points[t[0]], surface.points[t[1]],
                                              surface.points[t[2]]) -
                    p));
-      CHECK(projector.are_on_one_patch(found.facet, start));
+      CHECK(projector.descent().are_on_one_patch(found.facet, start));
       CHECK(dot(surface.facet_normals[found.facet], n) > min_cosine);
     }
     for (int k = 0; k < 100; ++k) { // facet `start` does not agree
@@ -199,12 +212,13 @@ TEST_CASE("dislocations glide to each other and annihilate")
   const int first = rows / 2 * rows + 6;
   for (int k = 0; k < length; ++k)
     mesh.flip(m.edge(m.halfedge(Vertex(first + k + 1), Vertex(first + k + rows))));
-  internal::Mesh_smoother smoother(mesh);
-  for (int sweep = 0; sweep < 50; ++sweep) smoother.sweep();
+  smooth(mesh, 50);
   REQUIRE(irregular() == 4);
   const bool are_near = length < 12;
   if (length > 1) { // flips alone do not help
-    smoother.flip();
+    const auto sweeps =
+        internal::make_host_star_sweeps(projector.descent(), 0, CGAL::Sequential_tag());
+    internal::Mesh_smoother(mesh, *sweeps).run(0);
     CHECK(irregular() == 4);
   }
   CHECK(internal::Dislocation_annihilator(mesh).run() == (are_near ? 1 : 0));
@@ -225,7 +239,7 @@ TEST_CASE(
     std::vector<std::vector<int>> result;
     for (int pass = 0; pass < 4; ++pass) {
       std::vector<int> before(mesh.size(), 0), calls(mesh.size(), 0);
-      mesh.for_each_vertex([&](Vertex v) {
+      mesh.for_each_movable([&](Vertex v) {
         for (const Vertex u : m.vertices_around_target(m.halfedge(v))) before[v] += calls[u];
         ++calls[v];
       });

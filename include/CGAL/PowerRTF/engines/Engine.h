@@ -11,12 +11,14 @@
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
 #include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/engines/facet_distances.h>
+#include <CGAL/PowerRTF/engines/nearest_facets.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
 #include <CGAL/PowerRTF/optimization/position_steps.h>
 #include <CGAL/PowerRTF/optimization/weight_steps.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
+#include <CGAL/PowerRTF/smoothing/Star_sweeps.h>
 
 #include <cmath>
 #include <cstddef>
@@ -109,6 +111,26 @@ public:
           [this](int vertices, const Vec3d* points, int n, const int* corners, Face_pairs& pairs) {
             return internal::close_faces(m_backend, vertices, points, n, corners, pairs);
           };
+  }
+  Find_facets facet_finder() override
+  {
+    if constexpr (Backend::is_host)
+      return {};
+    else
+      return
+          [this](int n, const Vec3d* points, const Vec3d* normals, double cos_angle, int* places) {
+            return internal::nearest_facets(m_backend, m_surface.view(), n, points, normals,
+                                            cos_angle, places);
+          };
+  }
+  Make_star_sweeps star_sweeps_maker() override
+  {
+    if constexpr (Backend::is_host)
+      return {};
+    else
+      return [this](const Surface_descent& surface, double grid) {
+        return std::make_unique<Star_sweeps<Backend>>(m_backend, surface, grid);
+      };
   }
   double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }
   Device_report device_report() override

@@ -11,10 +11,12 @@
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
+#include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
+#include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -108,6 +110,10 @@ public:
   virtual Find_distances distance_finder() = 0;
   /// The same for faces that may intersect.
   virtual Find_close_faces close_face_finder() = 0;
+  /// The same for facets of its surface.
+  virtual Find_facets facet_finder() = 0;
+  /// The same for what moves the vertices of meshes.
+  virtual Make_star_sweeps star_sweeps_maker() = 0;
   virtual double epsilon() const = 0;
   virtual Device_report device_report() = 0;
 };

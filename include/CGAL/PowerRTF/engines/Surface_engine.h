@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
+#include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -31,6 +32,8 @@ public:
   /// Makes the fields of a lattice where the engine works. The surface's normals and density are
   /// those of then.
   Make_lattice_field lattice_field_maker();
+  /// Finds facets where the engine works, if that is not on the host. Calls it into being, too.
+  Find_facets facet_finder();
   void set_samples(const Samples& samples, const Feature_samples& features = {});
   void build_cells() { m_engine->build_cells(); }
   bool optimize_weights(int passes) { return m_engine->optimize_weights(passes); }
@@ -59,6 +62,11 @@ public:
   Find_close_faces close_face_finder()
   {
     return m_engine ? m_engine->close_face_finder() : Find_close_faces();
+  }
+  /// The same for what moves the vertices of meshes.
+  Make_star_sweeps star_sweeps_maker()
+  {
+    return m_engine ? m_engine->star_sweeps_maker() : Make_star_sweeps();
   }
   double epsilon() const { return m_engine->epsilon(); }
   Device_report device_report() const { return m_engine->device_report(); }

@@ -92,7 +92,8 @@ public:
   const internal::Unset_vector<Child_boxes>& nodes() const { return m_nodes; }
   /// The facets in the order of the tree.
   const std::vector<int>& order() const { return m_order; }
-  /// The place of facet `f` in the tree.
+  /// The place of each facet in the tree.
+  const internal::Unset_vector<int>& places() const { return m_places; }
   int place(int f) const { return m_places[f]; }
 
   /// The nearest point of the mesh to `p` on the facets whose normals make less than Theta with

@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_H
 
 #include <CGAL/PowerRTF/geometry/Mirror_plane.h>
+#include <CGAL/PowerRTF/geometry/snapped.h>
 #include <CGAL/PowerRTF/geometry/vector.h>
 
 #include <algorithm>
@@ -71,13 +72,8 @@ struct Normalization {
     std::frexp(reach, &exponent);
     return (std::max)(std::ldexp(1., exponent - Limits::digits), double(Limits::denorm_min()));
   }
-  /// The point of a grid that is nearest to `p`.
-  static Vec3d snapped(const Vec3d& p, double grid)
-  {
-    const auto snap = [grid](double x) { return std::nearbyint(x / grid) * grid; };
-    return {snap(p.x), snap(p.y), snap(p.z)};
-  }
-  Vec3d snapped(const Vec3d& p) const { return grid > 0 ? snapped(p, grid) : p; }
+  /// The point of the grid that is nearest to `p`.
+  Vec3d snapped(const Vec3d& p) const { return grid > 0 ? PowerRTF::snapped(p, grid) : p; }
 };
 
 /// \ingroup PkgPowerRTFSurface

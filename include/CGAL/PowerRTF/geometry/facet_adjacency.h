@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/halfedge_numbers.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
@@ -22,7 +23,6 @@
 
 namespace CGAL::PowerRTF {
 
-/// Halfedge `h = 3 f + i` runs from corner `i` to corner `i + 1` of facet `f`.
 inline int halfedge_source(const std::vector<Triangle>& triangles, int h)
 {
   return triangles[h / 3][h % 3];
@@ -36,8 +36,6 @@ inline int opposite_vertex(const std::vector<Triangle>& triangles, int h)
 {
   return triangles[h / 3][(h + 2) % 3];
 }
-inline int next_halfedge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
-inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 namespace internal {
 

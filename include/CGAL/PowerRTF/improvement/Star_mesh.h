@@ -12,10 +12,13 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
-#include <CGAL/PowerRTF/improvement/Independent_vertices.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
 #include <CGAL/PowerRTF/improvement/Undoable_edits.h>
+#include <CGAL/PowerRTF/improvement/color_order.h>
 #include <CGAL/PowerRTF/internal/mixed_bits.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/smoothing/Star_view.h>
+#include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -37,6 +40,12 @@ struct Star {
     Working_mesh::Vertex vertex_a, vertex_b;
   };
   boost::container::small_vector<Corner, 12> corners;
+
+  template <class F>
+  void for_each(const F& f) const
+  {
+    for (const Corner& c : corners) f(c);
+  }
 };
 
 class Star_mesh {
@@ -104,6 +113,8 @@ public:
   }
 
   Concurrency concurrency() const { return m_concurrency; }
+  /// Whether a checkpoint is alive: then things happen one by one.
+  bool is_noted() const { return m_edits.are_noted(); }
   Working_mesh& working() { return m; }
   const Working_mesh& working() const { return m; }
   const Surface_projector& projector() const { return *m_projector; }
@@ -207,21 +218,10 @@ public:
     return true;
   }
 
-  /// The smallest cosine between the normals of the star's triangles, with its center at `p`, and
-  /// the surface's normals at their corners.
+  /// See `star_agreement()`.
   double agreement(const Star& star, const Vec3d& p, const Vec3d& normal) const
   {
-    double least = 1;
-    for (const Star::Corner& c : star.corners) {
-      const Vec3d n = cross(c.a - p, c.b - p);
-      const double l = length(n);
-      if (!(l > 0)) return -1;
-      double d = dot(n, normal);
-      for (const Vertex v : {c.vertex_a, c.vertex_b})
-        if (!m_on_feature[v]) d = std::min(d, dot(n, m.normals[v]));
-      least = std::min(least, d / l);
-    }
-    return least;
+    return star_agreement(*this, star, p, normal);
   }
 
   /// The same for one triangle. Between features alone the surface's nearest facet counts.
@@ -254,7 +254,6 @@ public:
   void flip(Edge e)
   {
     for (const Vertex v : corners(e)) touch(v);
-    m_independent.note_change();
     m_edits.flip(m.mesh, e);
   }
 
@@ -288,7 +287,6 @@ public:
     template <class F>
     void undo(F&& f)
     {
-      m.m_independent.note_change();
       m.m_edits.undo(m.m.mesh, m_edits);
       for (; m.m_past.size() > m_past; m.m_past.pop_back()) {
         m.restore(m.m_past.back());
@@ -307,7 +305,6 @@ public:
   {
     const Vertex target = m.mesh.target(h);
     for (const Vertex v : {m.mesh.source(h), target}) touch(v);
-    m_independent.note_change();
     const Surface_projector::Place there = place(target);
     const double height = m_heights[target];
     const Vertex kept = m_edits.collapse(m, h);
@@ -321,7 +318,6 @@ public:
   /// been taken out.
   Vertex split(Halfedge h, const Surface_projector::Place& place)
   {
-    m_independent.note_change();
     const Vertex v = m_edits.split(m.mesh, h);
     move(v, place);
     touch_around(v);
@@ -346,11 +342,62 @@ public:
     m.mesh.point(v) = Working_mesh::Point(q.x, q.y, q.z);
   }
 
-  /// Calls `f(v)` for all vertices, many at once: it may change `v` and read its neighbors.
+  /// Calls `f(v)` for all vertices that may move, many at once: it may change `v` and read its
+  /// neighbors.
   template <class F>
-  void for_each_vertex(F&& f)
+  void for_each_movable(F&& f)
   {
-    m_independent.for_each(m.mesh, m_concurrency, f);
+    const Color_order order = color_order(flat(), m_concurrency);
+    for (std::size_t c = 0; c + 1 < order.first.size(); ++c)
+      for_each_chunk(m_concurrency, order.first[c + 1] - order.first[c], 64,
+                     [&](int begin, int end) {
+                       for (int k = begin; k < end; ++k)
+                         f(Vertex(order.vertices[order.first[c] + k]));
+                     });
+  }
+
+  /// All stars as plain arrays. \pre nothing is missing: no vertex has been collapsed
+  Flat_stars flat() const
+  {
+    Flat_stars flat;
+    const int n = int(size());
+    flat.first.assign(n + 1, 0);
+    for (auto array : {&flat.points, &flat.normals}) array->resize(n);
+    flat.facets.resize(n);
+    flat.kinds.resize(n);
+    for_each_index(m_concurrency, n, [&](int i) {
+      const Vertex v(i);
+      flat.points[i] = point(v);
+      flat.normals[i] = normal(v);
+      flat.facets[i] = facet(v);
+      flat.kinds[i] =
+          (is_movable(v) ? is_movable_kind : 0) | (is_on_feature(v) ? is_on_feature_kind : 0);
+      if (is_movable(v)) flat.first[i] = int(m.mesh.degree(v));
+    });
+    flat.neighbors.resize(exclusive_scan(m_concurrency, n + 1, flat.first.data()));
+    for_each_spoke(flat, [&](int k, Halfedge h) { flat.neighbors[k] = int(m.mesh.source(h)); });
+    return flat;
+  }
+  /// Calls `f(k, h)` for the spokes of all stars, many at once: their numbers in `flat`, and the
+  /// halfedges to the center.
+  template <class F>
+  void for_each_spoke(const Flat_stars& flat, F&& f) const
+  {
+    for_each_index(m_concurrency, flat.size(), [&](int v) {
+      if (flat.first[v] == flat.first[v + 1]) return;
+      int k = flat.first[v];
+      for (const Halfedge h : halfedges_around_target(Vertex(v), m.mesh)) f(k++, h);
+    });
+  }
+  /// The vertices go where they are in `flat`, at these heights, or 0. \pre nothing is noted
+  void move_all(const Flat_stars& flat, const double* heights = nullptr)
+  {
+    for_each_index(m_concurrency, flat.size(), [&](int i) {
+      const Vertex v(i);
+      if (flat.points[i] == point(v)) return;
+      move(v, {flat.points[i], flat.normals[i], flat.facets[i]});
+      m_heights[v] = heights ? heights[i] : 0;
+    });
   }
 
   void write(Extracted_mesh& mesh) const
@@ -400,7 +447,6 @@ private:
   std::vector<char> m_locked, m_movable, m_pinned, m_on_feature, m_kept;
   std::vector<unsigned> m_changes; // by vertex: of it or its edges
   std::vector<char> m_is_feature;  // by edge
-  Independent_vertices m_independent;
   Undoable_edits m_edits;
   std::vector<Vertex_state> m_past; // of those that were touched while the edits are noted
 };

@@ -5,16 +5,17 @@
 // five edges and one with seven. A flip of an edge beside it moves it by one edge (it glides),
 // until it meets another one: both are gone, or one is left of the two. Such a chain of flips is
 // kept if, with the vertices around moved, it lowers the energy of the triangles. (Hirth and Lothe,
-// "Theory of Dislocations", 1982, on glide and annihilation; the energy is that of smooth_mesh.h.)
+// "Theory of Dislocations", 1982, on glide and annihilation; the energy is that of
+// smooth_vertex.h.)
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_ANNIHILATE_DISLOCATIONS_H
 #define CGAL_POWER_RTF_IMPROVEMENT_ANNIHILATE_DISLOCATIONS_H
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
-#include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -27,7 +28,7 @@ namespace CGAL::PowerRTF::internal {
 
 class Dislocation_annihilator {
 public:
-  explicit Dislocation_annihilator(Star_mesh& mesh) : m(mesh), m_smoother(mesh) {}
+  explicit Dislocation_annihilator(Star_mesh& mesh) : m(mesh) {}
 
   /// Where surroundings touch, the nearest pairs first. \returns the number of meetings.
   std::size_t run()
@@ -244,12 +245,20 @@ private:
       }
       m.flip(e);
       const std::vector<Vertex> around = vertices_near({e}, 1);
-      for (int round = 0; round < Parameters::rounds_per_flip; ++round) m_smoother.sweep(around);
+      for (int round = 0; round < Parameters::rounds_per_flip; ++round) smooth(around);
     }
     if (relax_below(clearly_less * before, near, faces) && lie_well(faces)) return true;
     undo(flips);
     restore(near, places);
     return false;
+  }
+
+  void smooth(const std::vector<Vertex>& vertices)
+  {
+    for (const Vertex v : vertices) {
+      Cancellation::poll();
+      if (m.is_movable(v)) smooth_vertex(m, v);
+    }
   }
 
   // Moves vertices. False as soon as it is clear that the faces' energy will not fall below
@@ -259,7 +268,7 @@ private:
   {
     double now = energy(faces);
     for (int round = 0; round < Parameters::rounds; ++round) {
-      m_smoother.sweep(vertices);
+      smooth(vertices);
       const double gain = now - energy(faces);
       now -= gain;
       if (now - limit > Parameters::gains_to_come * gain) return false;
@@ -292,7 +301,7 @@ private:
     double sum = 0;
     for (const Face f : faces) {
       const auto [a, b, c] = m.points(m.working().mesh.halfedge(f));
-      sum += Mesh_smoother::energy(a, b, c);
+      sum += shape_energy(a, b, c);
     }
     return sum;
   }
@@ -307,7 +316,6 @@ private:
   }
 
   Star_mesh& m;
-  Mesh_smoother m_smoother;
   std::vector<char> m_is_taken, m_is_known; // by vertex: in a zone; has been a candidate
 };
 

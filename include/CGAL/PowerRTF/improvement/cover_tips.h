@@ -10,8 +10,8 @@
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
-#include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
 #include <cmath>

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 
 #include <vector>
 
@@ -28,14 +29,15 @@ class Facet_tree;
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
 /// `dislocations`: those that are kept cost roundness, not time. `carriers`: for the first
-/// points of `mesh`, or none, the facets that they probably lie on, which saves time. `find`: what
-/// finds intersections instead, where it does.
+/// points of `mesh`, or none, the facets that they probably lie on, which saves time. `find`,
+/// `make_sweeps`: what finds intersections and moves vertices instead, where it does.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                   internal::Concurrency concurrency = Sequential_tag(),
                   Dislocations dislocations = Dislocations::annihilate,
-                  const std::vector<int>& carriers = {}, const Find_close_faces& find = {});
+                  const std::vector<int>& carriers = {}, const Find_close_faces& find = {},
+                  const Make_star_sweeps& make_sweeps = {});
 
 /// The same with a tree of its own.
 bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,

@@ -8,9 +8,9 @@
 //   repeat, at most 8 times:
 //     start from the extracted mesh, with some vertices locked (at first none)
 //     unless dislocations are to be kept:
-//       twice (the second attempt: once): flip edges, smooth vertices       smooth_mesh.h
+//       flip edges; twice (the second attempt: once): smooth vertices       smooth_mesh.h
 //       annihilate dislocations of the lattice                 annihilate_dislocations.h
-//     twice (the second attempt, if they are kept: once): flip edges, smooth vertices
+//     flip edges; twice (the second attempt, if they are kept: once): smooth vertices
 //     optimize
 //     if there are creases or borders, twice:
 //       slide vertices along them; optimize                                slide_features.h
@@ -36,6 +36,7 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_IMPROVE_MESH_IMPL_H
 
 #include <CGAL/PowerRTF/extraction/intersecting_faces.h>
+#include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/cover_tips.h>
@@ -62,9 +63,13 @@ public:
   /// \throw Invalid_input_error if `mesh` is not an oriented 2-manifold
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                 Concurrency concurrency, Dislocations dislocations,
-                const std::vector<int>& carriers, const Find_close_faces& find)
+                const std::vector<int>& carriers, const Find_close_faces& find,
+                const Make_star_sweeps& make_sweeps)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_carriers(carriers),
         m_find(find), m_concurrency(concurrency), m_dislocations(dislocations),
+        m_sweeps(
+            make_sweeps ? make_sweeps(m_projector.descent(), surface.normalization.grid) : nullptr,
+            make_host_star_sweeps(m_projector.descent(), surface.normalization.grid, concurrency)),
         m_locked(mesh.points.size(), false),
         m_stars(std::in_place, mesh, m_projector, carriers, concurrency), m_tracker(*m_stars),
         m_flat(surface, Flat_patches::level_sine, concurrency),
@@ -107,7 +112,7 @@ private:
   void improve(Star_mesh& stars, int passes_less)
   {
     Progress_part part(0.1);
-    Mesh_smoother smoother(stars);
+    Mesh_smoother smoother(stars, m_sweeps);
     if (m_dislocations == Dislocations::annihilate) {
       smoother.run(Schedule::smoothing_passes - std::exchange(passes_less, 0));
       part.next(0.2);
@@ -137,7 +142,7 @@ private:
     optimize();
     m_tracker.update();
     part.next(0.75);
-    Surface_fitter(stars, m_tracker, m_flat, Schedule::healable_badness).run();
+    Surface_fitter(stars, m_tracker, m_flat, m_sweeps, Schedule::healable_badness).run();
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
     if (has_features && optimizer.is_needed()) slide();
@@ -264,6 +269,7 @@ private:
   const Find_close_faces& m_find;
   Concurrency m_concurrency;
   Dislocations m_dislocations;
+  Star_sweeps_of_two m_sweeps;
   std::vector<char> m_locked;
   std::optional<Star_mesh> m_stars; // of the attempt
   Distance_tracker m_tracker;
@@ -276,13 +282,14 @@ private:
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
                                         Extracted_mesh& mesh, internal::Concurrency concurrency,
                                         Dislocations dislocations, const std::vector<int>& carriers,
-                                        const Find_close_faces& find)
+                                        const Find_close_faces& find,
+                                        const Make_star_sweeps& make_sweeps)
 {
   if (mesh.triangles.empty()) return true;
   try {
     internal::Progress_part part(0.12);
-    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, carriers,
-                                     find);
+    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, carriers, find,
+                                     make_sweeps);
     part.next(0.98);
     improver.run();
     mesh.sort_triangles(concurrency);

@@ -14,9 +14,9 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
-#include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
 #include <cmath>

@@ -13,9 +13,9 @@
 #include <CGAL/PowerRTF/improvement/better_flips.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
-#include <CGAL/PowerRTF/improvement/triangle_badness.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
 #include <array>
@@ -52,8 +52,7 @@ public:
   {
     for (int round = 0; round < rounds; ++round) {
       flip();
-      m.for_each_vertex([this](Vertex v) {
-        if (!m.is_movable(v)) return;
+      m.for_each_movable([this](Vertex v) {
         const State state = m.state_around(v);
         if (state != m_failed[v] && !search(v)) m_failed[v] = state;
       });

@@ -12,7 +12,7 @@
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
-#include <CGAL/PowerRTF/improvement/triangle_badness.h>
+#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
 #include <array>

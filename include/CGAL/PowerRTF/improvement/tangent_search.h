@@ -5,23 +5,11 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_TANGENT_SEARCH_H
 #define CGAL_POWER_RTF_IMPROVEMENT_TANGENT_SEARCH_H
 
+#include <CGAL/PowerRTF/geometry/Tangent_frame.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 
-#include <cmath>
-
 namespace CGAL::PowerRTF::internal {
-
-/// Orthonormal, and with the normal right-handed.
-struct Tangent_axes {
-  Vec3d u, w;
-
-  /// `n`: unit
-  explicit Tangent_axes(const Vec3d& n)
-      : u(normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}))),
-        w(cross(n, u))
-  {}
-};
 
 /// The mean of the star's edges at its center, `p`.
 inline double mean_edge(const Star& star, const Vec3d& p)
@@ -43,7 +31,7 @@ Vec3d search_tangent_plane(const Vec3d& p, const Vec3d& normal, double step, dou
 {
   constexpr double d = 0.8660254037844386;
   constexpr double directions[6][2] = {{1, 0}, {.5, d}, {-.5, d}, {-1, 0}, {-.5, -d}, {.5, -d}};
-  const auto [u, w] = Tangent_axes(normal);
+  const auto [u, w] = PowerRTF::Tangent_frame<double>(normal);
   double su = 0, sw = 0;
   for (int i = 0, halved = 0; i < Parameters::max_steps && halved < Parameters::max_halvings; ++i) {
     int best = -1;

@@ -176,8 +176,7 @@ private:
       const Point& p = corners[i];
       const auto number = [](const Exact::FT& x) { return CGAL::to_double(CGAL::exact(x)); };
       t[i] = static_cast<int>(m_result.points.size());
-      m_result.points.push_back(
-          Normalization::snapped({number(p.x()), number(p.y()), number(p.z())}, m_grid));
+      m_result.points.push_back(snapped({number(p.x()), number(p.y()), number(p.z())}, m_grid));
     }
     m_result.triangles.push_back(t);
   }

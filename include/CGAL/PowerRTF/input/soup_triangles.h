@@ -57,7 +57,7 @@ inline Normalization unit_box(const std::vector<Vec3d>& points, const std::vecto
     result.reach = (std::max)(result.reach, std::abs(x) + side);
   // Floats hold the center, too, where they hold anything like the surface.
   const double coarse = result.spacing<float>(), fine = result.spacing<double>();
-  result.center = Normalization::snapped(low + 0.5 * size, 1024 * coarse < side ? coarse : fine);
+  result.center = snapped(low + 0.5 * size, 1024 * coarse < side ? coarse : fine);
   result.grid = fine * result.scale;
   return result;
 }

@@ -42,7 +42,7 @@ inline Triangle_set wrapped_triangles(const Triangle_set& set, double radius, do
   for (const auto v : wrap.vertices()) {
     place[v] = static_cast<int>(result.points.size());
     const Point& p = wrap.point(v);
-    result.points.push_back(Normalization::snapped({p.x(), p.y(), p.z()}, grid));
+    result.points.push_back(snapped({p.x(), p.y(), p.z()}, grid));
   }
   for (const auto f : wrap.faces()) {
     const auto h = wrap.halfedge(f);

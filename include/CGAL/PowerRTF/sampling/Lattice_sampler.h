@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/errors.h>
@@ -62,7 +63,8 @@ public:
     }
   }
 
-  Samples run(const Make_lattice_field& make)
+  /// `find`: see `sample_surface()`.
+  Samples run(const Make_lattice_field& make, const Find_facets& find = {})
   {
     internal::Progress_part part(0.05);
     make_nodes();
@@ -75,7 +77,7 @@ public:
     }
     m_levels.resize(1);
     part.next(1);
-    return eliminate();
+    return eliminate(find);
   }
 
   /// Samples of the last run that are no points of the lattice.
@@ -245,7 +247,7 @@ private:
   }
 
   /// The samples of each component from its candidates.
-  Samples eliminate()
+  Samples eliminate(const Find_facets& find)
   {
     const Lattice_nodes& nodes = m_levels.front();
     std::vector<std::vector<int>> candidates = candidates_of_components();
@@ -270,7 +272,7 @@ private:
         internal::select(m_backend.concurrency(), static_cast<int>(all.size()), [&](int k) {
           return all[k].distance < 0;
         }).size();
-    return on_surface(all);
+    return on_surface(all, find);
   }
 
   std::vector<std::vector<int>> candidates_of_components() const
@@ -304,30 +306,55 @@ private:
   }
 
   template <class Candidates>
-  Samples on_surface(const Candidates& candidates) const
+  Samples on_surface(const Candidates& candidates, const Find_facets& find = {}) const
   {
+    const internal::Unset_vector<int> facets = nearest_facets(candidates, find);
     internal::Unset_vector<Facet_place> places(candidates.size());
     m_backend.for_each(static_cast<int>(places.size()),
-                       [&](int k) { places[k] = place_on_surface(candidates[k]); });
+                       [&](int k) { places[k] = place_on_surface(candidates[k], facets[k]); });
     Samples samples;
     internal::add_samples(m_surface, places, samples, m_backend.concurrency());
     return samples;
   }
 
-  /// The candidate's nearest point of the surface, on the node's side of a sheet; the node itself
-  /// for a point of the lattice beyond a border, whose nearest point is on it.
-  Facet_place place_on_surface(const Sample_candidate& candidate) const
+  /// The facets that are nearest to the candidates, on the nodes' side of a sheet; -1: there is
+  /// none.
+  template <class Candidates>
+  internal::Unset_vector<int> nearest_facets(const Candidates& candidates,
+                                             const Find_facets& find) const
   {
     const Lattice_nodes& nodes = m_levels.front();
-    const Vec3d normal = to_double(nodes.normals[candidate.node]);
-    const int near = m_facets[candidate.node];
+    const int n = static_cast<int>(candidates.size());
+    internal::Unset_vector<int> facets(n); // at first their places in the tree
+    internal::Unset_vector<Vec3d> points(n), normals(n);
+    m_backend.for_each(n, [&](int k) {
+      points[k] = m_cube.to_outside(candidates[k].point);
+      normals[k] = to_double(nodes.normals[candidates[k].node]);
+      facets[k] = m_tree.place(m_facets[candidates[k].node]);
+    });
+    const bool are_found =
+        find && find(n, points.data(), normals.data(), cos_same_side, facets.data());
+    m_backend.for_each(n, [&](int k) {
+      if (!are_found)
+        facets[k] =
+            m_tree.nearest(points[k], normals[k], cos_same_side, m_tree.order()[facets[k]]).facet;
+      else if (facets[k] >= 0)
+        facets[k] = m_tree.order()[facets[k]];
+    });
+    return facets;
+  }
+
+  /// The candidate's point on its nearest facet `f`; the node itself where there is none, and for a
+  /// point of the lattice beyond a border, whose nearest point is on it.
+  Facet_place place_on_surface(const Sample_candidate& candidate, int f) const
+  {
+    const Lattice_nodes& nodes = m_levels.front();
     Vec3d point = m_cube.to_outside(candidate.point);
-    int f = m_tree.nearest(point, normal, cos_same_side, near).facet;
-    if (f < 0) f = near;
+    if (f < 0) f = m_facets[candidate.node];
     const double h = double(nodes.spacing[candidate.node]) / m_cube.scale;
     if (beyond(point, f) > max_beyond * h) {
       point = m_cube.to_outside(to_double(nodes.points[candidate.node]));
-      f = near;
+      f = m_facets[candidate.node];
     }
     const auto [a, b, c] = corners(f);
     double beta, gamma;

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
 #include <CGAL/PowerRTF/sampling/Lattice_fields.h>
@@ -35,12 +36,14 @@ class Facet_tree;
 ///   the n
 /// \param tree of the surface's facets; null: it is made where it is needed
 /// \param make makes the fields of a lattice; empty: they are made on the CPU
+/// \param find finds the facets that are nearest to the lattice's points, where it does
 /// \param off_lattice gets the number of samples that are no points of the lattice; may be null
 /// \throws Invalid_input_error an option has a value that is not allowed
 template <class ConcurrencyTag = Sequential_tag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                        const Feature_samples& features = {}, const Facet_tree* tree = nullptr,
-                       std::size_t* off_lattice = nullptr, const Make_lattice_field& make = {});
+                       std::size_t* off_lattice = nullptr, const Make_lattice_field& make = {},
+                       const Find_facets& find = {});
 
 /// The fields of the lattice that `sample_surface()` begins with when it gets the same; they are
 /// made anew.

@@ -23,7 +23,8 @@ namespace CGAL::PowerRTF {
 template <class ConcurrencyTag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                        const Feature_samples& features, const Facet_tree* tree,
-                       std::size_t* off_lattice, const Make_lattice_field& make)
+                       std::size_t* off_lattice, const Make_lattice_field& make,
+                       const Find_facets& find)
 {
   validate(options);
   internal::Progress_part part(0.02);
@@ -40,9 +41,10 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
     if (!tree) tree = &own_tree.emplace(surface.points, surface.triangles, surface.facet_patches);
     Lattice_sampler<Backend> sampler(backend, surface, *tree, features, component, shares,
                                      options.random_seed);
-    samples = sampler.run(make ? make : [&](const auto& levels, bool is_even, std::uint64_t seed) {
+    const Make_lattice_field own_make = [&](const auto& levels, bool is_even, std::uint64_t seed) {
       return std::make_unique<Lattice_field<Backend>>(backend, levels, is_even, seed);
-    });
+    };
+    samples = sampler.run(make ? make : own_make, find);
     if (off_lattice) *off_lattice = sampler.off_lattice();
   } else if (options.sampling == Sampling::stratified) {
     samples = stratified_samples(backend, surface, component, shares, options.random_seed);

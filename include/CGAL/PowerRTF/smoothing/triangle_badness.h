@@ -3,14 +3,13 @@
 //
 // How far a triangle is from acceptable: 0 as soon as its quality and angles are good, so that only
 // bad triangles pull.
-#ifndef CGAL_POWER_RTF_IMPROVEMENT_TRIANGLE_BADNESS_H
-#define CGAL_POWER_RTF_IMPROVEMENT_TRIANGLE_BADNESS_H
+#ifndef CGAL_POWER_RTF_SMOOTHING_TRIANGLE_BADNESS_H
+#define CGAL_POWER_RTF_SMOOTHING_TRIANGLE_BADNESS_H
 
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/vector.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -21,7 +20,7 @@ struct Triangle_badness {
   static constexpr double tolerable = 0.0012; ///< Q .763, or 42.06 degrees, or 83.93 degrees
 
   /// What the search lowers: badness first, then the shape of all.
-  double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }
+  CGAL_POWER_RTF_HD double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }
 };
 
 /// 4 (.78 - Q)+^2 + 4 ((43.1 - theta_min) / 60)+^2 + 8 ((theta_max - 83.2) / 60)+^2, Q as in
@@ -29,7 +28,8 @@ struct Triangle_badness {
 /// functions, from tan(43.1 - theta_min) and cot 83.2 - cot theta_max: atan(x)^2 is nearly
 /// x^2 / (1 + 0.64 x^2) up to tan 43.1; of the largest angle, up to 170, x^2 / (1 + 0.42 x^2)
 /// serves.
-inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+CGAL_POWER_RTF_HD inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b,
+                                                           const Vec3d& c)
 {
   constexpr double least_quality = 0.78, quality_weight = 4;
   constexpr double cot_smallest = 1.0686233026146528, smallest_weight = 3.648; // 43.1 degrees
@@ -39,7 +39,7 @@ inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const V
   const Vec3d ab = b - a, ac = c - a;
   const double squared_double_area = squared_length(cross(ab, ac));
   if (!(squared_double_area > 0)) {
-    result.badness = result.inverse_mean_ratio = std::numeric_limits<double>::infinity();
+    result.badness = result.inverse_mean_ratio = INFINITY;
     return result;
   }
   const double s0 = squared_length(ab), s1 = squared_length(ac), s2 = squared_length(c - b);
@@ -47,7 +47,7 @@ inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const V
   result.inverse_mean_ratio = sum / (1.7320508075688772 * quadruple_area);
   if (result.inverse_mean_ratio < surely_good) return result;
   // the cotangent of the angle opposite to the edge s: (sum - 2 s) / quadruple_area
-  const double shortest = std::min({s0, s1, s2}), longest = std::max({s0, s1, s2});
+  const double shortest = smaller(s0, smaller(s1, s2)), longest = larger(s0, larger(s1, s2));
   const double smallest_excess = sum - 2 * shortest - cot_smallest * quadruple_area;
   if (smallest_excess > 0) {
     const double below =
@@ -74,4 +74,4 @@ inline Triangle_badness triangle_badness(const Vec3d& a, const Vec3d& b, const V
 
 } // namespace CGAL::PowerRTF::internal
 
-#endif // CGAL_POWER_RTF_IMPROVEMENT_TRIANGLE_BADNESS_H
+#endif // CGAL_POWER_RTF_SMOOTHING_TRIANGLE_BADNESS_H

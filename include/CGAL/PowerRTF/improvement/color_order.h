@@ -1,0 +1,48 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_COLOR_ORDER_H
+#define CGAL_POWER_RTF_IMPROVEMENT_COLOR_ORDER_H
+
+#include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/smoothing/color_vertices.h>
+
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+/// The vertices of stars that may move, color by color.
+struct Color_order {
+  Unset_vector<int> vertices;
+  std::vector<int> first; ///< of each color, and the end
+};
+
+template <class Backend>
+Color_order color_order_by(Backend&& backend, const Flat_stars& stars)
+{
+  const std::size_t n = stars.points.size();
+  Color_order order;
+  order.vertices.resize(n);
+  std::vector<int> colors(n, Color_vertices::none);
+  Unset_vector<unsigned char> flags(n);
+  int flag;
+  Star_view view;
+  view.size = stars.size();
+  view.first = stars.first.data();
+  view.neighbors = stars.neighbors.data();
+  view.kinds = stars.kinds.data();
+  order.first =
+      order_by_colors(backend, view, colors.data(), &flag, flags.data(), order.vertices.data());
+  return order;
+}
+
+inline Color_order color_order(const Flat_stars& stars, Concurrency concurrency)
+{
+  return concurrency.is_parallel()
+             ? color_order_by(Host_backend<Parallel_if_available_tag>(), stars)
+             : color_order_by(Host_backend<Sequential_tag>(), stars);
+}
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_COLOR_ORDER_H

@@ -1,0 +1,324 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_H
+#define CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_H
+
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
+#include <CGAL/PowerRTF/smoothing/color_vertices.h>
+#include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+namespace internal {
+
+/// The arrays of a surface where a backend works.
+template <class Backend>
+struct Descent_arrays {
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  Buffer<int> corners, opposite, patches, order, places, tree_patches;
+  Buffer<Vec3d> points, vertex_normals, facet_normals;
+  Buffer<Facet_corners<double>> facets;
+  Buffer<Child_boxes> nodes;
+
+  /// See listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, const Surface_descent& s)
+  {
+    using A = Descent_arrays;
+    const std::size_t facets = s.tree.facet_tree.items, vertices = s.vertices;
+    for (auto array : {&A::corners, &A::opposite}) f(array, 3 * facets);
+    for (auto array : {&A::order, &A::places}) f(array, facets);
+    if (s.patches)
+      for (auto array : {&A::patches, &A::tree_patches}) f(array, facets);
+    for (auto array : {&A::points, &A::vertex_normals}) f(array, vertices);
+    f(&A::facet_normals, facets);
+    f(&A::facets, facets);
+    f(&A::nodes, std::size_t(s.tree.facet_tree.nodes()));
+  }
+
+  /// The surface as it is there; `s`: the host's.
+  Surface_descent upload(Backend& backend, const Surface_descent& s)
+  {
+    allocate_listed(backend, *this, s);
+    const auto uploaded = [&backend](auto& to, const auto* from) {
+      backend.upload(to.data(), from, to.size());
+      return to.data();
+    };
+    Surface_descent there = s;
+    there.corners = uploaded(corners, s.corners);
+    there.opposite = uploaded(opposite, s.opposite);
+    there.order = uploaded(order, s.order);
+    there.places = uploaded(places, s.places);
+    if (s.patches) {
+      there.patches = uploaded(patches, s.patches);
+      there.tree.patches = uploaded(tree_patches, s.tree.patches);
+    }
+    there.points = uploaded(points, s.points);
+    there.vertex_normals = uploaded(vertex_normals, s.vertex_normals);
+    there.facet_normals = uploaded(facet_normals, s.facet_normals);
+    there.tree.facets = uploaded(facets, s.tree.facets);
+    there.tree.facet_nodes = uploaded(nodes, s.tree.facet_nodes);
+    return there;
+  }
+};
+
+/// The arrays of `Flat_stars` where a backend works, and the order of the vertices.
+template <class Backend>
+struct Star_arrays {
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  Buffer<int> first, neighbors, facets;
+  Buffer<unsigned char> kinds;
+  Buffer<Vec3d> points, normals;
+  Buffer<int> order, flag;
+  Buffer<unsigned char> flags;
+
+  /// See listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t vertices, std::size_t spokes)
+  {
+    using A = Star_arrays;
+    f(&A::first, vertices + 1);
+    f(&A::neighbors, spokes);
+    for (auto array : {&A::facets, &A::order}) f(array, vertices);
+    for (auto array : {&A::kinds, &A::flags}) f(array, vertices);
+    for (auto array : {&A::points, &A::normals}) f(array, vertices);
+    f(&A::flag, std::size_t(1));
+  }
+
+  Star_view upload(Backend& backend, const Flat_stars& stars)
+  {
+    allocate_listed(backend, *this, stars.points.size(), stars.neighbors.size());
+    const auto upload = [&backend](auto& to, const auto& from) {
+      backend.upload(to.data(), from.data(), from.size());
+    };
+    upload(first, stars.first);
+    upload(neighbors, stars.neighbors);
+    upload(facets, stars.facets);
+    upload(kinds, stars.kinds);
+    upload(points, stars.points);
+    upload(normals, stars.normals);
+    Star_view view;
+    view.size = stars.size();
+    view.first = first.data();
+    view.neighbors = neighbors.data();
+    view.kinds = kinds.data();
+    view.points = points.data();
+    view.normals = normals.data();
+    view.facets = facets.data();
+    return view;
+  }
+};
+
+/// The arrays of `Fit_equations` where a backend works.
+template <class Backend>
+struct Fit_arrays {
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  Buffer<double> heights;
+  Buffer<int> spoke_edges, spoke_faces, corners, first_tracked, tracked_at;
+  Buffer<Mesh_edge> edges;
+  Buffer<Tracked_place> tracked;
+  Buffer<unsigned char> is_wide;
+  Buffer<Fit_target> centroids, middles;
+  Buffer<Fit_unknown> unknowns;
+  Buffer<Symmetric_matrix<float>> couplings;
+  Buffer<Vec3<float>> steps;
+
+  /// See listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, const Flat_fit& fit)
+  {
+    using A = Fit_arrays;
+    const std::size_t vertices = fit.heights.size(), faces = fit.faces(), edges = fit.edges.size();
+    f(&A::heights, vertices);
+    for (auto array : {&A::spoke_edges, &A::spoke_faces}) f(array, fit.spoke_edges.size());
+    f(&A::corners, 3 * faces);
+    f(&A::first_tracked, faces + 1);
+    f(&A::tracked_at, fit.tracked.size());
+    f(&A::edges, edges);
+    f(&A::tracked, fit.tracked.size());
+    f(&A::is_wide, fit.is_wide.size());
+    f(&A::centroids, faces);
+    f(&A::middles, edges);
+    f(&A::unknowns, vertices);
+    f(&A::couplings, edges);
+    f(&A::steps, vertices);
+  }
+
+  Fit_equations upload(Backend& backend, const Star_view& stars, const Flat_fit& fit)
+  {
+    allocate_listed(backend, *this, fit);
+    const auto uploaded = [&backend](auto& to, const auto& from) {
+      backend.upload(to.data(), from.data(), from.size());
+      return to.data();
+    };
+    Fit_equations equations;
+    equations.stars = stars;
+    equations.stars.heights = uploaded(heights, fit.heights);
+    equations.spoke_edges = uploaded(spoke_edges, fit.spoke_edges);
+    equations.spoke_faces = uploaded(spoke_faces, fit.spoke_faces);
+    equations.corners = uploaded(corners, fit.corners);
+    equations.edges = uploaded(edges, fit.edges);
+    equations.first_tracked = uploaded(first_tracked, fit.first_tracked);
+    equations.tracked_at = uploaded(tracked_at, fit.tracked_at);
+    equations.tracked = uploaded(tracked, fit.tracked);
+    equations.is_wide = uploaded(is_wide, fit.is_wide);
+    equations.tangential_weight = fit.tangential_weight;
+    equations.tracked_weight = fit.tracked_weight;
+    equations.badness_limit = fit.badness_limit;
+    equations.centroids = centroids.data();
+    equations.middles = middles.data();
+    equations.unknowns = unknowns.data();
+    equations.couplings = couplings.data();
+    equations.steps = steps.data();
+    return equations;
+  }
+};
+
+struct Smooth_vertices {
+  Star_view stars;
+  CGAL_POWER_RTF_HD void operator()(int v) const { smooth_vertex(stars, v); }
+};
+
+enum class Fit_part { centroid, middle, unknown, coupling, step, move };
+
+/// What `Fit_equations` does to a face, an edge or a vertex.
+template <Fit_part part>
+struct Fit_rule {
+  Fit_equations equations;
+
+  CGAL_POWER_RTF_HD void operator()(int i) const
+  {
+    if constexpr (part == Fit_part::centroid) equations.set_centroid(i);
+    if constexpr (part == Fit_part::middle) equations.set_middle(i);
+    if constexpr (part == Fit_part::unknown) equations.set_unknown(i);
+    if constexpr (part == Fit_part::coupling) equations.set_coupling(i);
+    if constexpr (part == Fit_part::step) equations.relax(i);
+    if constexpr (part == Fit_part::move) equations.move(i);
+  }
+};
+
+/// Applies a rule to some vertices.
+template <class Rule>
+struct In_order {
+  Rule rule;
+  const int* order;
+  CGAL_POWER_RTF_HD void operator()(int k) const { rule(order[k]); }
+};
+
+} // namespace internal
+
+/// The result is the same for any number of threads.
+template <class Backend>
+class Star_sweeps : public Star_sweeps_base {
+public:
+  /// As `Make_star_sweeps`. Keeps a reference to `backend`, too.
+  Star_sweeps(Backend& backend, const Surface_descent& surface, double grid)
+      : m_backend(backend), m_surface(surface), m_grid(grid)
+  {}
+
+  bool smooth(internal::Flat_stars& stars, int steps) override
+  {
+    if (!has_room(stars, 0)) return false;
+    Arrays arrays;
+    const internal::Star_view view = upload(stars, arrays);
+    const std::vector<int> first = order(view, arrays);
+    for (int step = 0; step < steps; ++step)
+      for_each_vertex(first, arrays, internal::Smooth_vertices{view});
+    download(arrays, stars);
+    return true;
+  }
+
+  bool fit(internal::Flat_stars& stars, internal::Flat_fit& fit) override
+  {
+    using Part = internal::Fit_part;
+    using internal::Fit_rule;
+    if (!has_room(stars, internal::bytes_of_listed<Fit_arrays>(fit))) return false;
+    Arrays arrays;
+    Fit_arrays fit_arrays;
+    const internal::Fit_equations equations =
+        fit_arrays.upload(m_backend, upload(stars, arrays), fit);
+    const int edges = static_cast<int>(fit.edges.size());
+    m_backend.for_each(fit.faces(), Fit_rule<Part::centroid>{equations});
+    m_backend.for_each(edges, Fit_rule<Part::middle>{equations});
+    m_backend.for_each(stars.size(), Fit_rule<Part::unknown>{equations});
+    m_backend.for_each(edges, Fit_rule<Part::coupling>{equations});
+    const std::vector<int> first = order(equations.stars, arrays);
+    for (int sweep = 0; sweep < internal::Fitting_parameters::sweeps; ++sweep)
+      for_each_vertex(first, arrays, Fit_rule<Part::step>{equations});
+    for_each_vertex(first, arrays, Fit_rule<Part::move>{equations});
+    download(arrays, stars);
+    m_backend.download(fit.heights.data(), fit_arrays.heights.data(), fit.heights.size());
+    return true;
+  }
+
+private:
+  using Arrays = internal::Star_arrays<Backend>;
+  using Fit_arrays = internal::Fit_arrays<Backend>;
+  using Descent_arrays = internal::Descent_arrays<Backend>;
+
+  bool has_room(const internal::Flat_stars& stars, std::size_t more) const
+  {
+    if (!m_is_uploaded) more += internal::bytes_of_listed<Descent_arrays>(m_surface);
+    return m_backend.has_room(
+        more + internal::bytes_of_listed<Arrays>(stars.points.size(), stars.neighbors.size()));
+  }
+
+  internal::Star_view upload(const internal::Flat_stars& stars, Arrays& arrays)
+  {
+    if constexpr (!Backend::is_host)
+      if (!m_is_uploaded) m_surface = m_arrays.upload(m_backend, m_surface);
+    m_is_uploaded = true;
+    internal::Star_view view = arrays.upload(m_backend, stars);
+    view.surface = m_surface;
+    view.grid = m_grid;
+    return view;
+  }
+
+  /// Where in the arrays' order each color begins.
+  std::vector<int> order(const internal::Star_view& view, Arrays& arrays)
+  {
+    if (static_cast<int>(m_colors.size()) != view.size) {
+      m_colors.allocate(m_backend, view.size);
+      m_backend.fill(m_colors.data(), internal::Color_vertices::none, m_colors.size());
+    }
+    return internal::order_by_colors(m_backend, view, m_colors.data(), arrays.flag.data(),
+                                     arrays.flags.data(), arrays.order.data());
+  }
+
+  /// Applies a rule to all vertices that may move, neighbors one after the other.
+  template <class Rule>
+  void for_each_vertex(const std::vector<int>& first, const Arrays& arrays, const Rule& rule)
+  {
+    for (std::size_t c = 0; c + 1 < first.size(); ++c)
+      m_backend.for_each(first[c + 1] - first[c],
+                         internal::In_order<Rule>{rule, arrays.order.data() + first[c]});
+  }
+
+  void download(const Arrays& arrays, internal::Flat_stars& stars)
+  {
+    m_backend.download(stars.points.data(), arrays.points.data(), stars.points.size());
+    m_backend.download(stars.normals.data(), arrays.normals.data(), stars.normals.size());
+    m_backend.download(stars.facets.data(), arrays.facets.data(), stars.facets.size());
+  }
+
+  Backend& m_backend;
+  Surface_descent m_surface; // where the backend works, once it is uploaded
+  Descent_arrays m_arrays;
+  double m_grid;
+  typename Backend::template Buffer<int> m_colors; // of the vertices, as they were last
+  bool m_is_uploaded = false;
+};
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_H

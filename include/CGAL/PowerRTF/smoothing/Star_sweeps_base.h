@@ -1,0 +1,33 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_BASE_H
+#define CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_BASE_H
+
+#include <CGAL/PowerRTF/smoothing/Fit_equations.h>
+#include <CGAL/PowerRTF/smoothing/Star_view.h>
+
+#include <functional>
+#include <memory>
+
+namespace CGAL::PowerRTF {
+
+/// Looks at all vertices of a mesh again and again, where an engine works. What returns `false` has
+/// done nothing, as the memory does not suffice.
+class Star_sweeps_base {
+public:
+  virtual ~Star_sweeps_base() = default;
+  /// So many steps of each vertex; see `smooth_vertex()`.
+  virtual bool smooth(internal::Flat_stars& stars, int steps) = 0;
+  /// Moves the vertices, off the surface too, so that the mesh is nearer to it; see
+  /// `Fit_equations`.
+  virtual bool fit(internal::Flat_stars& stars, internal::Flat_fit& fit) = 0;
+};
+
+/// `surface`: what meshes lie on; its arrays have to live as long as the result. `grid`: of the
+/// coordinates of the vertices; 0: none.
+using Make_star_sweeps =
+    std::function<std::unique_ptr<Star_sweeps_base>(const Surface_descent& surface, double grid)>;
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_BASE_H

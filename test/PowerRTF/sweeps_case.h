@@ -1,0 +1,96 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshes whose vertices are to be swept over, and what becomes of them.
+#ifndef CGAL_POWER_RTF_TEST_SWEEPS_CASE_H
+#define CGAL_POWER_RTF_TEST_SWEEPS_CASE_H
+
+#include "improvement_case.h"
+
+#include <CGAL/PowerRTF/features/flat_patches.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/improvement/Distance_tracker.h>
+#include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/Surface_projector.h>
+#include <CGAL/PowerRTF/improvement/fit_to_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace improvement_case {
+
+class Sweeps_case {
+public:
+  using Stars = internal::Flat_stars;
+
+  Sweeps_case(const shapes::Soup& soup, std::size_t n)
+      : m_case(make_case(soup, n, 1)), m_tree(m_case.surface.points, m_case.surface.triangles),
+        m_projector(m_case.surface, m_tree), m_mesh(m_case.raw, m_projector)
+  {}
+
+  const internal::Star_mesh& mesh() const { return m_mesh; }
+  double spacing() const { return std::sqrt(m_case.surface.area / double(m_mesh.size())); }
+
+  std::unique_ptr<Star_sweeps_base> host_sweeps(internal::Concurrency concurrency) const
+  {
+    return internal::make_host_star_sweeps(m_projector.descent(), grid(), concurrency);
+  }
+  std::unique_ptr<Star_sweeps_base> sweeps(const Make_star_sweeps& make) const
+  {
+    return make(m_projector.descent(), grid());
+  }
+
+  Stars smoothed(Star_sweeps_base& sweeps, int steps) const
+  {
+    Stars stars = m_mesh.flat();
+    return sweeps.smooth(stars, steps) ? stars : Stars();
+  }
+  /// `gain`: becomes the mean distance of the surface's vertices before, over that after.
+  Stars fitted(Star_sweeps_base& sweeps, double& gain) const
+  {
+    internal::Star_mesh mesh = m_mesh;
+    internal::Distance_tracker tracker(mesh);
+    const double before = mean_distance(tracker);
+    const Flat_patches flat(m_case.surface);
+    const internal::Surface_fitter fitter(mesh, tracker, flat, sweeps, 0.3);
+    Stars stars = mesh.flat();
+    internal::Flat_fit fit = fitter.equations(stars);
+    if (!sweeps.fit(stars, fit)) return {};
+    mesh.move_all(stars, fit.heights.data());
+    tracker.update();
+    gain = before / mean_distance(tracker);
+    return stars;
+  }
+
+private:
+  static double mean_distance(const internal::Distance_tracker& tracker)
+  {
+    double sum = 0;
+    for (int i = 0; i < tracker.size(); ++i) sum += tracker[i].distance;
+    return sum / tracker.size();
+  }
+  double grid() const { return m_case.surface.normalization.grid; }
+
+  Case m_case;
+  Facet_tree m_tree;
+  internal::Surface_projector m_projector;
+  internal::Star_mesh m_mesh;
+};
+
+/// The distances between two sets of points, sorted.
+inline std::vector<double> distances(const internal::Flat_stars& a, const internal::Flat_stars& b)
+{
+  std::vector<double> result;
+  for (std::size_t v = 0; v < a.points.size(); ++v)
+    result.push_back(length(a.points[v] - b.points[v]));
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+} // namespace improvement_case
+
+#endif // CGAL_POWER_RTF_TEST_SWEEPS_CASE_H

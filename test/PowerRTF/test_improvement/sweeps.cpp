@@ -1,0 +1,105 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sweeps over all vertices of a mesh, as loops that a backend runs.
+#include "../sweeps_case.h"
+
+#include <CGAL/PowerRTF/improvement/color_order.h>
+#include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace improvement_case;
+
+namespace {
+
+struct Named_case {
+  std::string name;
+  std::unique_ptr<Sweeps_case> mesh;
+  double least_gain; ///< of the distance, by a fit
+};
+
+const std::vector<Named_case>& all()
+{
+  static const std::vector<Named_case> cases = [] {
+    std::vector<Named_case> list;
+    const auto add = [&list](const std::string& name, const shapes::Soup& soup, std::size_t n,
+                             double least_gain) {
+      list.push_back({name, std::make_unique<Sweeps_case>(soup, n), least_gain});
+    };
+    add("ellipsoid", shapes::ellipsoid(1, 0.7, 0.4, 4), 2000, 1.5);
+    add("cylinder with borders", shapes::open_cylinder(40, 10, .5, 2), 400, 1.1);
+    add("few vertices", shapes::icosphere(2), 12, 1);
+    return list;
+  }();
+  return cases;
+}
+
+} // namespace
+
+TEST_CASE("vertices of one color are no neighbors, and most keep their color")
+{
+  for (const auto& [name, mesh, least_gain] : all()) {
+    CAPTURE(name);
+    const Sweeps_case& c = *mesh;
+    const internal::Flat_stars stars = c.mesh().flat();
+    const internal::Color_order order = internal::color_order(stars, CGAL::Sequential_tag()),
+                                parallel =
+                                    internal::color_order(stars, CGAL::Parallel_if_available_tag());
+    CHECK(order.first == parallel.first);
+    std::vector<int> colors(stars.size(), internal::Color_vertices::none);
+    for (std::size_t color = 0; color + 1 < order.first.size(); ++color)
+      for (int k = order.first[color]; k < order.first[color + 1]; ++k) {
+        CHECK(order.vertices[k] == parallel.vertices[k]);
+        CHECK(colors[order.vertices[k]] == internal::Color_vertices::none);
+        colors[order.vertices[k]] = int(color);
+      }
+    for (int v = 0; v < stars.size(); ++v) {
+      CHECK((colors[v] >= 0) == bool(stars.kinds[v] & internal::is_movable_kind));
+      for (int k = stars.first[v]; k < stars.first[v + 1]; ++k)
+        CHECK(colors[stars.neighbors[k]] != colors[v]);
+    }
+  }
+}
+
+TEST_CASE("a sweep smooths one vertex after the other, whatever the number of threads")
+{
+  constexpr int steps = 3;
+  for (const auto& [name, mesh, least_gain] : all()) {
+    CAPTURE(name);
+    const Sweeps_case& c = *mesh;
+    internal::Star_mesh one_by_one = c.mesh();
+    const internal::Flat_stars stars = one_by_one.flat();
+    const internal::Color_order order = internal::color_order(stars, CGAL::Sequential_tag());
+    for (int step = 0; step < steps; ++step)
+      for (int k = 0; k < order.first.back(); ++k)
+        smooth_vertex(one_by_one, internal::Star_mesh::Vertex(order.vertices[k]));
+    const auto sequential = c.smoothed(*c.host_sweeps(CGAL::Sequential_tag()), steps),
+               parallel = c.smoothed(*c.host_sweeps(CGAL::Parallel_if_available_tag()), steps);
+    CHECK(sequential.points == parallel.points);
+    CHECK(sequential.normals == parallel.normals);
+    CHECK(sequential.facets == parallel.facets);
+    CHECK(distances(one_by_one.flat(), sequential).back() < 1e-9 * c.spacing());
+    CHECK((order.first.back() == 0 || sequential.points != stars.points));
+  }
+}
+
+TEST_CASE("a fit is the same for any number of threads, and brings the mesh nearer to the surface")
+{
+  for (const auto& [name, mesh, least_gain] : all()) {
+    CAPTURE(name);
+    double gain = 0, same_gain = 0;
+    const auto sequential = mesh->fitted(*mesh->host_sweeps(CGAL::Sequential_tag()), gain),
+               parallel =
+                   mesh->fitted(*mesh->host_sweeps(CGAL::Parallel_if_available_tag()), same_gain);
+    CHECK(sequential.points == parallel.points);
+    CHECK(sequential.normals == parallel.normals);
+    CHECK(same_gain == gain);
+    CHECK(gain > least_gain);
+  }
+}
