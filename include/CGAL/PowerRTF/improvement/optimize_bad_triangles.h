@@ -39,7 +39,8 @@ public:
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
       : m(mesh), m_guard(guard), m_anchors(mesh.size()), m_anchored(mesh.size(), 0),
-        m_failed_searches(mesh.size(), 0), m_failed_flips(mesh.working().mesh.number_of_edges(), 0)
+        m_failed_searches(mesh.size(), 0), m_failed_flips(mesh.working().mesh.number_of_edges(), 0),
+        m_colors(mesh.size(), no_color)
   {}
 
   double badness(Face f) const { return judgment(f).badness; }
@@ -94,20 +95,11 @@ private:
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
       const std::vector<Vertex> vertices = vertices_around(bad);
       set_anchors(vertices);
-      for (const Vertex v : vertices) {
-        Cancellation::poll();
-        search(v);
-      }
+      search(vertices);
       if (round % 2 == 1)
         for (const Face f : bad)
           if (badness(f) > 0) flip_around(f);
-      std::vector<Face> left;
-      for (const Vertex v : vertices) // only what is around them has changed
-        for (const Face f : m.working().mesh.faces_around_target(m.working().mesh.halfedge(v)))
-          if (f.is_valid() && f != Working_mesh::Mesh::null_face() && badness(f) > 0)
-            left.push_back(f);
-      sort_uniquely(left);
-      bad.swap(left);
+      bad = bad_faces_at(vertices); // only what is around them has changed
       const double now = total_badness(bad);
       if (round % 2 == 1 && now > Parameters::stagnation_share * total) break;
       if (round % 2 == 1) total = now;
@@ -116,6 +108,7 @@ private:
   }
 
   using Parameters = Improvement_parameters::Optimization;
+  static constexpr int no_color = -1;
 
   // The corners and their neighbors.
   std::vector<Vertex> vertices_around(const std::vector<Face>& faces) const
@@ -170,6 +163,55 @@ private:
       m_anchors[v] = m.point(v);
       m.touch(v);
     }
+  }
+
+  std::vector<Face> bad_faces_at(const std::vector<Vertex>& vertices) const
+  {
+    constexpr int chunk = 64;
+    const auto& mesh = m.working().mesh;
+    std::vector<std::vector<Face>> parts((vertices.size() + chunk - 1) / chunk);
+    for_each_chunk(m.concurrency(), int(vertices.size()), chunk, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k)
+        for (const Halfedge h : halfedges_around_target(vertices[k], mesh))
+          if (!mesh.is_border(h) && badness(mesh.face(h)) > 0)
+            parts[begin / chunk].push_back(mesh.face(h));
+    });
+    std::vector<Face> faces = concatenated(m.concurrency(), parts);
+    sort_uniquely(faces);
+    return faces;
+  }
+
+  // Neighbors one after the other, the others at once if nothing else notes what is done.
+  void search(const std::vector<Vertex>& vertices)
+  {
+    constexpr int chunk = 8;
+    const Concurrency concurrency =
+        m_guard || m.is_noted() ? Concurrency(Sequential_tag()) : m.concurrency();
+    for (const std::vector<Vertex>& some : colored(vertices))
+      for_each_chunk(concurrency, int(some.size()), chunk, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) search(some[k]);
+      });
+  }
+
+  // The vertices in classes without neighbors.
+  std::vector<std::vector<Vertex>> colored(const std::vector<Vertex>& vertices)
+  {
+    const auto& mesh = m.working().mesh;
+    std::vector<std::vector<Vertex>> classes;
+    const auto is_taken = [&](Vertex v, int color) {
+      for (const Halfedge h : halfedges_around_target(v, mesh))
+        if (m_colors[mesh.source(h)] == color) return true;
+      return false;
+    };
+    for (const Vertex v : vertices) {
+      int color = 0;
+      while (is_taken(v, color)) ++color;
+      m_colors[v] = color;
+      classes.resize(std::max(classes.size(), std::size_t(color) + 1));
+      classes[color].push_back(v);
+    }
+    for (const Vertex v : vertices) m_colors[v] = no_color;
+    return classes;
   }
 
   void search(Vertex v)
@@ -306,6 +348,7 @@ private:
   std::vector<unsigned> m_anchored;     // by vertex
   std::vector<State> m_failed_searches; // by vertex: the state in which it has failed
   std::vector<State> m_failed_flips;    // by edge: the sum of the corners' states
+  std::vector<int> m_colors;            // by vertex: in a search
 };
 
 } // namespace CGAL::PowerRTF::internal
