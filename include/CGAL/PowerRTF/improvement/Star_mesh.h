@@ -62,16 +62,18 @@ public:
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
             const std::vector<int>& carriers = {}, Concurrency concurrency = Sequential_tag())
       : m_concurrency(concurrency), m_projector(&projector),
-        m(mesh.points, mesh.triangles, concurrency), m_facets(mesh.points.size()),
-        m_heights(mesh.points.size(), 0), m_locked(mesh.points.size(), false),
+        m(mesh.points, mesh.triangles, concurrency),
+        m_facets(filled(concurrency, mesh.points.size(), -1)),
+        m_heights(filled(concurrency, mesh.points.size(), 0.)), m_locked(mesh.points.size(), false),
         m_movable(mesh.points.size()), m_pinned(mesh.points.size(), false),
         m_on_feature(mesh.points.size(), false), m_kept(mesh.points.size(), false),
-        m_changes(mesh.points.size(), 1), m_is_feature(m.mesh.number_of_edges(), false)
+        m_changes(filled(concurrency, mesh.points.size(), 1u)),
+        m_is_feature(m.mesh.number_of_edges(), false)
   {
     const std::size_t n = mesh.points.size();
     constexpr double rounding = 1e-3; // of a point on the surface, in units of the spacing
     const double reach = rounding * std::sqrt(projector.surface().area / double(n));
-    m.normals.resize(n);
+    resize_in_parallel(concurrency, m.normals, n);
     m.mirror = projector.surface().mirror;
     if (!mesh.places.empty()) m.set_places(mesh.places);
     for (const auto& [a, b] : mesh.feature_edges) {

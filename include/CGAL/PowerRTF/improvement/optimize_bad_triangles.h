@@ -38,9 +38,11 @@ public:
 
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
-      : m(mesh), m_guard(guard), m_anchors(mesh.size()), m_anchored(mesh.size(), 0),
-        m_failed_searches(mesh.size(), 0), m_failed_flips(mesh.working().mesh.number_of_edges(), 0),
-        m_colors(mesh.size(), no_color)
+      : m(mesh), m_guard(guard), m_anchors(filled(m.concurrency(), m.size(), Vec3d{0, 0, 0})),
+        m_anchored(filled(m.concurrency(), m.size(), 0u)),
+        m_failed_searches(filled(m.concurrency(), m.size(), State(0))),
+        m_failed_flips(filled(m.concurrency(), m.working().mesh.number_of_edges(), State(0))),
+        m_colors(filled(m.concurrency(), m.size(), int(no_color)))
   {}
 
   double badness(Face f) const { return judgment(f).badness; }

@@ -115,6 +115,15 @@ void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t 
   v.resize(n, item);
 }
 
+/// A vector of n times the item, made in the same way.
+template <class T>
+std::vector<T> filled(Concurrency concurrency, std::size_t n, const T& item)
+{
+  std::vector<T> v;
+  resize_in_parallel(concurrency, v, n, item);
+  return v;
+}
+
 /// The vectors one after the other.
 template <class T>
 std::vector<T> concatenated(Concurrency concurrency, const std::vector<std::vector<T>>& parts)
