@@ -8,10 +8,9 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
 #define CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
 
-#include <CGAL/PowerRTF/geometry/Box_rtree.h>
-#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/feature_segments.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
@@ -30,22 +29,7 @@ public:
   using Halfedge = Star_mesh::Halfedge;
 
   /// `patches`: the surface cut along its creases; the curves are its borders.
-  Feature_slider(Star_mesh& mesh, const Surface& patches) : m(mesh)
-  {
-    const std::vector<int>& opposite = patches.adjacency.opposite;
-    std::vector<Rtree_entry<int>> entries;
-    for (int h = 0; h < int(opposite.size()); ++h) {
-      if (opposite[h] != Facet_adjacency::none) continue;
-      const Segment s{patches.points[halfedge_source(patches.triangles, h)],
-                      patches.points[halfedge_target(patches.triangles, h)]};
-      Box3<double> box{s.first, s.first};
-      box.add(s.second);
-      entries.emplace_back(Rtree_box(rtree_point(box.lo), rtree_point(box.hi)),
-                           int(m_curves.size()));
-      m_curves.push_back(s);
-    }
-    m_tree = Box_rtree<int>(entries);
-  }
+  Feature_slider(Star_mesh& mesh, const Surface& patches) : m(mesh), m_curves(patches) {}
 
   void run(int rounds)
   {
@@ -72,16 +56,20 @@ public:
     });
   }
 
-private:
-  using Segment = std::pair<Vec3d, Vec3d>;
+  /// Whether `v` may slide between `a` and `b`, its neighbors on a curve, which this sets.
+  bool is_sliding(Vertex v, Vertex& a, Vertex& b) const
+  {
+    return m.is_on_feature(v) && !m.is_locked(v) && neighbors(v, a, b);
+  }
 
+private:
   using Parameters = Improvement_parameters::Sliding;
 
   /// The curve around a vertex.
   struct Path {
     Vec3d p, pa, pb; // the vertex, and its neighbors on the curve
     double scale;    // their mean distance
-    double longest;  // that one of them may become
+    double longest = std::numeric_limits<double>::infinity(); // that one of them may become
     std::vector<Segment> near;
 
     /// The place at `s` times the scale from the vertex; s > 0: toward b.
@@ -89,16 +77,7 @@ private:
     {
       const Vec3d q = s > 0 ? p + (pb - p) * (s * scale / length(pb - p))
                             : p + (pa - p) * (-s * scale / length(pa - p));
-      Vec3d best = p;
-      double least = std::numeric_limits<double>::infinity();
-      for (const Segment& segment : near) {
-        const Vec3d r = nearest_point(segment, q);
-        if (squared_length(r - q) < least) {
-          least = squared_length(r - q);
-          best = r;
-        }
-      }
-      return best;
+      return near.empty() ? p : nearest_point(near, q);
     }
 
     double longest_edge() const { return std::max(length(p - pa), length(p - pb)); }
@@ -117,25 +96,11 @@ private:
 
   Path path(Vertex v, Vertex a, Vertex b) const
   {
-    Path result{m.point(v), m.point(a), m.point(b), 0, std::numeric_limits<double>::infinity(), {}};
+    Path result;
+    result.p = m.point(v), result.pa = m.point(a), result.pb = m.point(b);
     result.scale = (length(result.pa - result.p) + length(result.pb - result.p)) / 2;
-    std::vector<int> near;
-    const auto around_p = boost::geometry::index::intersects(rtree_box(result.p, result.scale));
-    for (auto it = m_tree.qbegin(around_p); it != m_tree.qend(); ++it) near.push_back(it->second);
-    std::sort(near.begin(), near.end());
-    for (const int k : near) {
-      const Segment& s = m_curves[k];
-      if (squared_length(nearest_point(s, result.p) - result.p) < result.scale * result.scale)
-        result.near.push_back(s);
-    }
+    result.near = m_curves.near(result.p, result.scale);
     return result;
-  }
-
-  static Vec3d nearest_point(const Segment& s, const Vec3d& p)
-  {
-    const Vec3d d = s.second - s.first;
-    const double l = squared_length(d), t = l > 0 ? dot(p - s.first, d) / l : 0;
-    return s.first + d * std::min(1., std::max(0., t));
   }
 
   /// The neighbors of `v` on its curve; false if it is none, or a corner; or kept; or on a seam,
@@ -161,11 +126,6 @@ private:
       sum += e * e;
     }
     return sum;
-  }
-
-  bool is_sliding(Vertex v, Vertex& a, Vertex& b) const
-  {
-    return m.is_on_feature(v) && !m.is_locked(v) && neighbors(v, a, b);
   }
 
   void slide(Vertex v)
@@ -298,8 +258,7 @@ private:
   }
 
   Star_mesh& m;
-  std::vector<Segment> m_curves;
-  Box_rtree<int> m_tree; // of the curves' boxes
+  Feature_segments m_curves;
 };
 
 } // namespace CGAL::PowerRTF::internal
