@@ -8,6 +8,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
 using judged_run::Run;
 
 namespace {
@@ -139,6 +144,28 @@ TEST_CASE("triangles between creases are round on average")
 TEST_CASE("a plate with holes keeps its flat faces")
 {
   check_flat_faces(shapes::drilled_plate(3, 2), true, 6); // as thick as 5
+}
+
+TEST_CASE("along a round rim, edges are as far from it in their middles as at their ends")
+{
+  const judged_run::Scratch_folder folder;
+  const Run run = met_run(folder, shapes::can(360, 4), {600}); // of radius 1, from z = 0 to z = 2
+  const judge::Mesh output = judge::read(run.output);
+  for (const double z : {0., 2.}) {
+    std::vector<std::pair<double, double>> rim; // angle and radius
+    for (const auto& p : output.points)
+      if (std::abs(p.z() - z) < 1e-9 && std::hypot(p.x(), p.y()) > 0.95)
+        rim.emplace_back(std::atan2(p.y(), p.x()), std::hypot(p.x(), p.y()));
+    std::sort(rim.begin(), rim.end());
+    REQUIRE(rim.size() > 20);
+    rim.emplace_back(rim.front().first + 2 * shapes::pi, rim.front().second);
+    for (std::size_t k = 0; k + 1 < rim.size(); ++k) {
+      const double cut = 1 - std::cos((rim[k + 1].first - rim[k].first) / 2); // by a chord
+      CHECK(std::abs(rim[k].second - 1) < 0.7 * cut);
+      const double middle = (rim[k].second + rim[k + 1].second) / 2 * (1 - cut);
+      CHECK(std::abs(middle - 1) < 0.7 * cut); // 1: with the ends on the rim
+    }
+  }
 }
 
 TEST_CASE("a cone keeps its tip, in few long facets and in many")

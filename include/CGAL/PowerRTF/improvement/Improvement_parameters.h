@@ -101,6 +101,16 @@ struct Improvement_parameters {
     static constexpr double max_turn_cosine = 0.9;  ///< of a triangle
   };
 
+  /// fit_creases.h
+  struct Crease_fitting {
+    static constexpr int rounds = 3;
+    static constexpr int points_per_edge = 7; ///< where its distance is measured
+    /// In edges: how far from its middle an edge looks for its part of the curve.
+    static constexpr double reach = 0.75;
+    static constexpr double straight = 1e-4; ///< least move, in edges: along a line there is none
+    static constexpr double max_turn_cosine = 0.9; ///< of a triangle by one move
+  };
+
   /// round_mesh.h
   struct Rounding {
     static constexpr double badness_weight = 12; ///< where 1 - Q has 1

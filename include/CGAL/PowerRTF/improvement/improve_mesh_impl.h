@@ -14,7 +14,9 @@
 //     optimize
 //     if there are creases or borders, twice:
 //       slide vertices along them; optimize                                slide_features.h
-//     if there are creases: make triangles rounder on average              round_mesh.h
+//     if there are creases:
+//       make triangles rounder on average                                  round_mesh.h
+//       move vertices off bent creases, so that their edges come near      fit_creases.h
 //     move vertices to far tips of the surface and pin them; optimize      cover_tips.h
 //     fit the mesh to the surface by least squares; optimize               fit_to_surface.h
 //     release the pinned vertices of bad triangles; optimize
@@ -25,7 +27,7 @@
 //     else if places are still very far: once more, allowing worse triangles; optimize;
 //       undo that if bad triangles are left
 //     put vertices where triangles are still bad, if that makes them good
-//     if there are creases: make triangles rounder on average
+//     if there are creases: make triangles rounder on average, fit the creases
 //     move vertices to far tips where that makes no triangle bad
 //     if no faces intersect and the largest distance has hardly grown:
 //       unlock all vertices; optimize, with only what makes no faces intersect; done
@@ -40,6 +42,7 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/cover_tips.h>
+#include <CGAL/PowerRTF/improvement/fit_creases.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
@@ -134,7 +137,7 @@ private:
     optimize();
     if (has_features) slide();
     const bool is_creased = has_features && has_creases(stars);
-    if (is_creased) round(stars, Schedule::rounding_rounds);
+    if (is_creased) round(stars, Schedule::rounding_rounds, Schedule::healable_badness);
     part.next(0.63);
     m_tracker.update_all();
     part.next(0.66);
@@ -150,7 +153,7 @@ private:
     part.next(1);
     relocate(stars, optimizer);
     if (is_creased) {
-      round(stars, Schedule::last_rounding_rounds);
+      round(stars, Schedule::last_rounding_rounds, Triangle_badness::tolerable);
       m_tracker.update();
     }
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
@@ -166,10 +169,12 @@ private:
     });
   }
 
-  void round(Star_mesh& stars, int rounds)
+  // `limit`: the badness that creases may bring upon triangles when they are fitted.
+  void round(Star_mesh& stars, int rounds, double limit)
   {
     Feature_slider slider(stars, m_surface);
     Mesh_rounder(stars, slider).run(rounds);
+    Crease_fitter(stars, slider, limit).run();
   }
 
   // The triangles between locked vertices, too, as far as no faces intersect.

@@ -1,10 +1,11 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Vertices on creases and borders stay on their curves, but they may slide along them where that
-// makes their bad triangles better: between curves that run close together no other vertex can. At
-// a corner where two curves make a sharp angle, the next vertices on both slide together: away from
-// the corner bent curves open, and one alone would spoil the triangle between them.
+// Vertices on creases and borders stay on their curves, or as far from them as fit_creases.h has
+// put them, but they may slide along them where that makes their bad triangles better: between
+// curves that run close together no other vertex can. At a corner where two curves make a sharp
+// angle, the next vertices on both slide together: away from the corner bent curves open, and one
+// alone would spoil the triangle between them.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
 #define CGAL_POWER_RTF_IMPROVEMENT_SLIDE_FEATURES_H
 
@@ -56,6 +57,8 @@ public:
     });
   }
 
+  const Feature_segments& curves() const { return m_curves; }
+
   /// Whether `v` may slide between `a` and `b`, its neighbors on a curve, which this sets.
   bool is_sliding(Vertex v, Vertex& a, Vertex& b) const
   {
@@ -71,13 +74,14 @@ private:
     double scale;    // their mean distance
     double longest = std::numeric_limits<double>::infinity(); // that one of them may become
     std::vector<Segment> near;
+    Vec3d offset{0, 0, 0}; // of the vertex from the curve, where that has been fitted
 
     /// The place at `s` times the scale from the vertex; s > 0: toward b.
     Vec3d at(double s) const
     {
       const Vec3d q = s > 0 ? p + (pb - p) * (s * scale / length(pb - p))
                             : p + (pa - p) * (-s * scale / length(pa - p));
-      return near.empty() ? p : nearest_point(near, q);
+      return near.empty() ? p : nearest_point(near, q) + offset;
     }
 
     double longest_edge() const { return std::max(length(p - pa), length(p - pb)); }
@@ -100,6 +104,10 @@ private:
     result.p = m.point(v), result.pa = m.point(a), result.pb = m.point(b);
     result.scale = (length(result.pa - result.p) + length(result.pb - result.p)) / 2;
     result.near = m_curves.near(result.p, result.scale);
+    if (result.near.empty() || m.working().mesh.is_border(v)) return result;
+    const Vec3d offset = result.p - nearest_point(result.near, result.p);
+    const double rounding = Improvement_parameters::Crease_fitting::straight * result.scale;
+    if (squared_length(offset) > rounding * rounding) result.offset = offset;
     return result;
   }
 
