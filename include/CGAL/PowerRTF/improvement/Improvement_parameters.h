@@ -137,6 +137,26 @@ struct Improvement_parameters {
     static constexpr int vertices_per_place = 100;
   };
 
+  /// lower_distances.h
+  struct Lowering {
+    /// Places that are tried: so many, and one more for each so many vertices of the mesh.
+    static constexpr int max_places = 50;
+    static constexpr int vertices_per_place = 25;
+    static constexpr int rounds = 4;              ///< of searches around a place
+    static constexpr double min_distance = 0.025; ///< in h: nearer places stay
+    /// The search in the tangent plane: the first step in the mean edge of the star, how often it
+    /// is halved, and the number of steps.
+    static constexpr double first_step = 0.1;
+    static constexpr int max_halvings = 3, max_steps = 6;
+    static constexpr double first_lift = 0.5; ///< step along the normal, in the largest distance
+    /// Mean unroundness of the triangles of a star, where the largest distance, in that of the
+    /// goal, has 1; and what a move must gain.
+    static constexpr double unroundness_weight = 4, worthwhile = 0.01;
+    /// Badness that a move may bring upon a star, and the growth of more where it has that.
+    static constexpr double max_badness = 0.003, badness_growth = 1.01;
+    static constexpr double min_agreement = 0.75; ///< that a star must keep, if it had it
+  };
+
   using Fitting = Fitting_parameters;
 
   /// relocate_vertices.h

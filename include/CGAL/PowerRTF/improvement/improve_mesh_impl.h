@@ -29,6 +29,7 @@
 //     put vertices where triangles are still bad, if that makes them good
 //     if there are creases: make triangles rounder on average, fit the creases
 //     move vertices to far tips where that makes no triangle bad
+//     if there are creases: lower the largest distances                    lower_distances.h
 //     if no faces intersect and the largest distance has hardly grown:
 //       unlock all vertices; optimize, with only what makes no faces intersect; done
 //     else lock vertices of the faces that do: the one that has moved farthest, then all corners,
@@ -45,6 +46,7 @@
 #include <CGAL/PowerRTF/improvement/fit_creases.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
+#include <CGAL/PowerRTF/improvement/lower_distances.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
 #include <CGAL/PowerRTF/improvement/relocate_vertices.h>
 #include <CGAL/PowerRTF/improvement/round_mesh.h>
@@ -157,6 +159,11 @@ private:
       m_tracker.update();
     }
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
+    if (is_creased) {
+      m_tracker.update();
+      Distance_lowerer(stars, m_tracker, m_flat).run(Schedule::far_share);
+      m_tracker.update();
+    }
   }
 
   // Whether there are features that are no borders.
