@@ -46,7 +46,7 @@ public:
 
   Stars smoothed(Star_sweeps_base& sweeps, int steps) const
   {
-    Stars stars = m_mesh.flat();
+    Stars stars = flat_stars(m_mesh);
     return sweeps.smooth(stars, steps) ? stars : Stars();
   }
   /// `gain`: becomes the mean distance of the surface's vertices before, over that after.
@@ -57,7 +57,7 @@ public:
     const double before = mean_distance(tracker);
     const Flat_patches flat(m_case.surface);
     const internal::Surface_fitter fitter(mesh, tracker, flat, sweeps, 0.3);
-    Stars stars = mesh.flat();
+    Stars stars = flat_stars(mesh);
     internal::Flat_fit fit = fitter.equations(stars);
     if (!sweeps.fit(stars, fit)) return {};
     mesh.move_all(stars, fit.heights.data());

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
+#include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -239,7 +240,7 @@ TEST_CASE(
     std::vector<std::vector<int>> result;
     for (int pass = 0; pass < 4; ++pass) {
       std::vector<int> before(mesh.size(), 0), calls(mesh.size(), 0);
-      mesh.for_each_movable([&](Vertex v) {
+      for_each_movable(mesh, [&](Vertex v) {
         for (const Vertex u : m.vertices_around_target(m.halfedge(v))) before[v] += calls[u];
         ++calls[v];
       });

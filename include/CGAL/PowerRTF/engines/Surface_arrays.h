@@ -112,24 +112,17 @@ private:
       const Vertex_attributes<double>& a = view.attributes[v];
       return Vertex_attributes<Real>{to_real<Real>(a.normal), Real(a.density)};
     });
-    m_view.facet_vertices = upload(backend, m_corners, view.facet_vertices);
-    m_view.facet_nodes = upload(backend, m_facet_nodes, view.facet_nodes);
-    if (view.patches) m_view.patches = upload(backend, m_patches, view.patches);
+    m_view.facet_vertices = internal::uploaded(backend, m_corners, view.facet_vertices);
+    m_view.facet_nodes = internal::uploaded(backend, m_facet_nodes, view.facet_nodes);
+    if (view.patches) m_view.patches = internal::uploaded(backend, m_patches, view.patches);
     if (!has_tree) return;
     m_view.vertices = upload_each(backend, m_vertices,
                                   [&](std::size_t v) { return to_real<Real>(view.vertices[v]); });
-    m_view.vertex_nodes = upload(backend, m_vertex_nodes, view.vertex_nodes);
-    m_view.first_facet = upload(backend, m_first_facet, view.first_facet);
-    m_view.vertex_facets = upload(backend, m_vertex_facets, view.vertex_facets);
+    m_view.vertex_nodes = internal::uploaded(backend, m_vertex_nodes, view.vertex_nodes);
+    m_view.first_facet = internal::uploaded(backend, m_first_facet, view.first_facet);
+    m_view.vertex_facets = internal::uploaded(backend, m_vertex_facets, view.vertex_facets);
   }
 
-  /// As many items as the buffer has.
-  template <class T>
-  static const T* upload(Backend& backend, Buffer<T>& buffer, const T* items)
-  {
-    backend.upload(buffer.data(), items, buffer.size());
-    return buffer.data();
-  }
   /// The items `item(i)`.
   template <class T, class Item>
   static const T* upload_each(Backend& backend, Buffer<T>& buffer, const Item& item)
@@ -137,7 +130,7 @@ private:
     internal::Unset_vector<T> items(buffer.size());
     internal::for_each_index(Backend::concurrency(), static_cast<int>(items.size()),
                              [&](int i) { items[i] = item(i); });
-    return upload(backend, buffer, items.data());
+    return internal::uploaded(backend, buffer, items.data());
   }
 
   Surface_view<Real> m_view;

@@ -32,8 +32,9 @@ public:
   /// Makes the fields of a lattice where the engine works. The surface's normals and density are
   /// those of then.
   Make_lattice_field lattice_field_maker();
-  /// Finds facets where the engine works, if that is not on the host. Calls it into being, too.
-  Find_facets facet_finder();
+  /// Finds facets where the engine works, with the surface's normals of then, too. Empty: it works
+  /// on the host.
+  Find_facets facet_finder() { return engine().facet_finder(); }
   void set_samples(const Samples& samples, const Feature_samples& features = {});
   void build_cells() { m_engine->build_cells(); }
   bool optimize_weights(int passes) { return m_engine->optimize_weights(passes); }

@@ -75,14 +75,6 @@ CGAL_POWER_RTF_INLINE Make_lattice_field Surface_engine_base::lattice_field_make
   };
 }
 
-CGAL_POWER_RTF_INLINE Find_facets Surface_engine_base::facet_finder()
-{
-  return [this](int n, const Vec3d* points, const Vec3d* normals, double cos_angle, int* places) {
-    const Find_facets find = engine().facet_finder();
-    return find && find(n, points, normals, cos_angle, places);
-  };
-}
-
 CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
                                                             const Feature_samples& features)
 {

@@ -14,7 +14,6 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
 #include <CGAL/PowerRTF/improvement/Undoable_edits.h>
-#include <CGAL/PowerRTF/improvement/color_order.h>
 #include <CGAL/PowerRTF/internal/mixed_bits.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/Star_view.h>
@@ -344,53 +343,6 @@ public:
     m.mesh.point(v) = Working_mesh::Point(q.x, q.y, q.z);
   }
 
-  /// Calls `f(v)` for all vertices that may move, many at once: it may change `v` and read its
-  /// neighbors.
-  template <class F>
-  void for_each_movable(F&& f)
-  {
-    const Color_order order = color_order(flat(), m_concurrency);
-    for (std::size_t c = 0; c + 1 < order.first.size(); ++c)
-      for_each_chunk(m_concurrency, order.first[c + 1] - order.first[c], 64,
-                     [&](int begin, int end) {
-                       for (int k = begin; k < end; ++k)
-                         f(Vertex(order.vertices[order.first[c] + k]));
-                     });
-  }
-
-  /// All stars as plain arrays. \pre nothing is missing: no vertex has been collapsed
-  Flat_stars flat() const
-  {
-    Flat_stars flat;
-    const int n = int(size());
-    flat.first.assign(n + 1, 0);
-    for (auto array : {&flat.points, &flat.normals}) array->resize(n);
-    flat.facets.resize(n);
-    flat.kinds.resize(n);
-    for_each_index(m_concurrency, n, [&](int i) {
-      const Vertex v(i);
-      flat.points[i] = point(v);
-      flat.normals[i] = normal(v);
-      flat.facets[i] = facet(v);
-      flat.kinds[i] =
-          (is_movable(v) ? is_movable_kind : 0) | (is_on_feature(v) ? is_on_feature_kind : 0);
-      if (is_movable(v)) flat.first[i] = int(m.mesh.degree(v));
-    });
-    flat.neighbors.resize(exclusive_scan(m_concurrency, n + 1, flat.first.data()));
-    for_each_spoke(flat, [&](int k, Halfedge h) { flat.neighbors[k] = int(m.mesh.source(h)); });
-    return flat;
-  }
-  /// Calls `f(k, h)` for the spokes of all stars, many at once: their numbers in `flat`, and the
-  /// halfedges to the center.
-  template <class F>
-  void for_each_spoke(const Flat_stars& flat, F&& f) const
-  {
-    for_each_index(m_concurrency, flat.size(), [&](int v) {
-      if (flat.first[v] == flat.first[v + 1]) return;
-      int k = flat.first[v];
-      for (const Halfedge h : halfedges_around_target(Vertex(v), m.mesh)) f(k++, h);
-    });
-  }
   /// The vertices go where they are in `flat`, at these heights, or 0. \pre nothing is noted
   void move_all(const Flat_stars& flat, const double* heights = nullptr)
   {

@@ -18,13 +18,11 @@ struct Color_order {
 };
 
 template <class Backend>
-Color_order color_order_by(Backend&& backend, const Flat_stars& stars)
+Color_order color_order_by(Backend&& backend, const Flat_stars& stars, std::vector<int>& colors)
 {
-  const std::size_t n = stars.points.size();
   Color_order order;
-  order.vertices.resize(n);
-  std::vector<int> colors(n, Color_vertices::none);
-  Unset_vector<unsigned char> flags(n);
+  order.vertices.resize(stars.points.size());
+  Unset_vector<unsigned char> flags(stars.points.size());
   int flag;
   Star_view view;
   view.size = stars.size();
@@ -36,11 +34,20 @@ Color_order color_order_by(Backend&& backend, const Flat_stars& stars)
   return order;
 }
 
-inline Color_order color_order(const Flat_stars& stars, Concurrency concurrency)
+/// `colors`: see `order_by_colors()`.
+inline Color_order color_order(const Flat_stars& stars, std::vector<int>& colors,
+                               Concurrency concurrency)
 {
   return concurrency.is_parallel()
-             ? color_order_by(Host_backend<Parallel_if_available_tag>(), stars)
-             : color_order_by(Host_backend<Sequential_tag>(), stars);
+             ? color_order_by(Host_backend<Parallel_if_available_tag>(), stars, colors)
+             : color_order_by(Host_backend<Sequential_tag>(), stars, colors);
+}
+
+/// The same where none has a color yet.
+inline Color_order color_order(const Flat_stars& stars, Concurrency concurrency)
+{
+  std::vector<int> colors(stars.points.size(), Color_vertices::none);
+  return color_order(stars, colors, concurrency);
 }
 
 } // namespace CGAL::PowerRTF::internal

@@ -14,7 +14,7 @@
 #include <CGAL/PowerRTF/improvement/feature_segments.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
-#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
+#include <CGAL/PowerRTF/smoothing/can_move.h>
 
 #include <algorithm>
 #include <array>
@@ -130,13 +130,7 @@ private:
     const Star star = m.star(j.v);
     const double least = Parameters::straight * mean_edge(star, p);
     if (squared_length(j.step) < least * least) return;
-    for (const Star::Corner& c : star.corners) {
-      const Vec3d before = cross(c.a - p, c.b - p), after = cross(c.a - q, c.b - q);
-      if (!(dot(before, after) > Parameters::max_turn_cosine * length(before) * length(after)))
-        return;
-      const double badness = triangle_badness(q, c.a, c.b).badness;
-      if (badness > m_limit && badness > triangle_badness(p, c.a, c.b).badness) return;
-    }
+    if (!can_move(star, p, q, Parameters::max_turn_cosine, m_limit)) return;
     auto place = m.projector().nearest(q);
     place.point = q;
     m.move(j.v, place);

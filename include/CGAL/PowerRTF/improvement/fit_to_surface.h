@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
@@ -38,7 +39,7 @@ public:
 
   void run()
   {
-    Flat_stars stars = m.flat();
+    Flat_stars stars = flat_stars(m);
     Flat_fit fit = equations(stars);
     m_sweeps.fit(stars, fit);
     m.move_all(stars, fit.heights.data());
@@ -74,7 +75,7 @@ private:
     for_each_index(m.concurrency(), int(m.size()),
                    [&](int v) { fit.heights[v] = m.height(Vertex(v)); });
     for (auto array : {&fit.spoke_edges, &fit.spoke_faces}) array->resize(stars.neighbors.size());
-    m.for_each_spoke(stars, [&](int k, Halfedge h) {
+    for_each_spoke(m, stars, [&](int k, Halfedge h) {
       fit.spoke_edges[k] = int(mesh.edge(h));
       fit.spoke_faces[k] = int(mesh.face(h));
     });
@@ -99,14 +100,12 @@ private:
                    [&](int f) { fit.first_tracked[f] = int(m_tracker.at_face(Face(f)).size()); });
     exclusive_scan(m.concurrency(), faces + 1, fit.first_tracked.data());
     fit.tracked.resize(m_tracker.size());
-    fit.tracked_at.resize(m_tracker.size());
     for_each_index(m.concurrency(), faces, [&](int f) {
       int k = fit.first_tracked[f];
       for (const int i : m_tracker.at_face(Face(f))) {
         const auto& w = m_tracker[i];
-        fit.tracked[i] = {
-            m_tracker.point(i), m_tracker.normal(i), w.nearest, w.distance, w.weight, w.facet, f};
-        fit.tracked_at[k++] = i;
+        fit.tracked[k++] = {
+            m_tracker.point(i), m_tracker.normal(i), w.nearest, w.distance, w.weight, w.facet};
       }
     });
   }

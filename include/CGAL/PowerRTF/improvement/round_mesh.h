@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/better_flips.h>
+#include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -52,7 +53,7 @@ public:
   {
     for (int round = 0; round < rounds; ++round) {
       flip();
-      m.for_each_movable([this](Vertex v) {
+      for_each_movable(m, [this](Vertex v) {
         const State state = m.state_around(v);
         if (state != m_failed[v] && !search(v)) m_failed[v] = state;
       });

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/better_flips.h>
+#include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
@@ -30,7 +31,7 @@ public:
   void run(int steps)
   {
     flip();
-    Flat_stars stars = m.flat();
+    Flat_stars stars = flat_stars(m);
     m_sweeps.smooth(stars, steps);
     m.move_all(stars);
   }

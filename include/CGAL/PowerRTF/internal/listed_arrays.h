@@ -22,6 +22,14 @@ void allocate_listed(Backend& backend, Owner& owner, const Sizes&... sizes)
                         sizes...);
 }
 
+/// Uploads as many items as the buffer has. \returns where they are
+template <class Backend, class Buffer, class T>
+T* uploaded(Backend& backend, Buffer& buffer, const T* items)
+{
+  backend.upload(buffer.data(), items, buffer.size());
+  return buffer.data();
+}
+
 template <class Owner, class Array>
 constexpr std::size_t item_size(Array Owner::*)
 {

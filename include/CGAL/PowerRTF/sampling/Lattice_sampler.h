@@ -64,7 +64,7 @@ public:
   }
 
   /// `find`: see `sample_surface()`.
-  Samples run(const Make_lattice_field& make, const Find_facets& find = {})
+  Samples run(const Make_lattice_field& make, const Find_facets& find)
   {
     internal::Progress_part part(0.05);
     make_nodes();
@@ -323,23 +323,29 @@ private:
   internal::Unset_vector<int> nearest_facets(const Candidates& candidates,
                                              const Find_facets& find) const
   {
-    const Lattice_nodes& nodes = m_levels.front();
     const int n = static_cast<int>(candidates.size());
-    internal::Unset_vector<int> facets(n); // at first their places in the tree
-    internal::Unset_vector<Vec3d> points(n), normals(n);
+    internal::Unset_vector<int> facets(n);
+    const auto point = [&](int k) { return m_cube.to_outside(candidates[k].point); };
+    const auto normal = [&](int k) {
+      return to_double(m_levels.front().normals[candidates[k].node]);
+    };
+    const auto near = [&](int k) { return m_facets[candidates[k].node]; };
+    if (find) {
+      internal::Unset_vector<Vec3d> points(n), normals(n);
+      m_backend.for_each(n, [&](int k) {
+        points[k] = point(k);
+        normals[k] = normal(k);
+        facets[k] = m_tree.place(near(k));
+      });
+      if (find(n, points.data(), normals.data(), cos_same_side, facets.data())) {
+        m_backend.for_each(n, [&](int k) {
+          if (facets[k] >= 0) facets[k] = m_tree.order()[facets[k]];
+        });
+        return facets;
+      }
+    }
     m_backend.for_each(n, [&](int k) {
-      points[k] = m_cube.to_outside(candidates[k].point);
-      normals[k] = to_double(nodes.normals[candidates[k].node]);
-      facets[k] = m_tree.place(m_facets[candidates[k].node]);
-    });
-    const bool are_found =
-        find && find(n, points.data(), normals.data(), cos_same_side, facets.data());
-    m_backend.for_each(n, [&](int k) {
-      if (!are_found)
-        facets[k] =
-            m_tree.nearest(points[k], normals[k], cos_same_side, m_tree.order()[facets[k]]).facet;
-      else if (facets[k] >= 0)
-        facets[k] = m_tree.order()[facets[k]];
+      facets[k] = m_tree.nearest(point(k), normal(k), cos_same_side, near(k)).facet;
     });
     return facets;
   }

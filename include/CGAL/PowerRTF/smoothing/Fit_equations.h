@@ -14,7 +14,7 @@
 #include <CGAL/PowerRTF/smoothing/Smoothing_parameters.h>
 #include <CGAL/PowerRTF/smoothing/Star_view.h>
 #include <CGAL/PowerRTF/smoothing/Symmetric_matrix.h>
-#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
+#include <CGAL/PowerRTF/smoothing/can_move.h>
 
 #include <cmath>
 #include <cstddef>
@@ -35,7 +35,6 @@ struct Tracked_place {
   double distance;
   float weight; ///< area of the surface that it stands for
   int facet;    ///< of the surface
-  int face;     ///< of the mesh
 };
 
 /// A point of the mesh is to move by `distance` along `direction`, to a place of the surface.
@@ -61,12 +60,10 @@ struct Fit_equations {
   Star_view stars;
   const int* spoke_edges = nullptr;
   const int* spoke_faces = nullptr;
-  const int* corners = nullptr; ///< three per face, counter-clockwise; -1: the face is removed
+  const int* corners = nullptr; ///< three per face, counter-clockwise
   const Mesh_edge* edges = nullptr;
-  // of each face the tracked points that are nearest to it
-  const int* first_tracked = nullptr;
-  const int* tracked_at = nullptr;
-  const Tracked_place* tracked = nullptr;
+  const int* first_tracked = nullptr;     ///< of each face, and the end
+  const Tracked_place* tracked = nullptr; ///< by the face to which they are nearest
   const unsigned char* is_wide = nullptr; ///< per facet: it lies in a wide flat patch
   double tangential_weight = 0, tracked_weight = 0;
   double badness_limit = 0; ///< that a move may bring upon a triangle that was better
@@ -82,15 +79,12 @@ struct Fit_equations {
   CGAL_POWER_RTF_HD void set_centroid(int f) const
   {
     constexpr double third = 1 / 3.;
-    centroids[f] = {};
-    if (corners[3 * f] >= 0) centroids[f] = target(f, {third, third, third}, area(f) * 9 / 20);
+    centroids[f] = target(f, {third, third, third}, area(f) * 9 / 20);
   }
 
   CGAL_POWER_RTF_HD void set_middle(int e) const
   {
     const Mesh_edge& edge = edges[e];
-    middles[e] = {};
-    if (edge.left < 0 && edge.right < 0) return;
     const double a =
         (edge.left < 0 ? 0 : area(edge.left)) + (edge.right < 0 ? 0 : area(edge.right));
     const int f = edge.left < 0 ? edge.right : edge.left;
@@ -120,7 +114,7 @@ struct Fit_equations {
       note_level(sum, v, centroid, (1 / 3.) * (to_source + to_apex));
       sum.add({rounded(n), float(-stars.height(v)), centroid.weight / 9, 0}, 1);
       for (int t = first_tracked[f]; t < first_tracked[f + 1]; ++t)
-        sum.add(tracked_target(tracked_at[t]), weight_at(tracked_at[t], v));
+        sum.add(target(tracked[t]), weight_at(tracked[t], f, v));
     }
     const bool is_flat = sum.level > Parameters::flat_share * sum.around;
     sum.matrix.add_identity(tangential_weight * sum.weight);
@@ -144,8 +138,8 @@ struct Fit_equations {
       if (f < 0) return;
       add(centroids[f], 1 / 3., 1 / 3.);
       for (int t = first_tracked[f]; t < first_tracked[f + 1]; ++t)
-        add(tracked_target(tracked_at[t]), weight_at(tracked_at[t], edge.source),
-            weight_at(tracked_at[t], edge.target));
+        add(target(tracked[t]), weight_at(tracked[t], f, edge.source),
+            weight_at(tracked[t], f, edge.target));
     };
     add_face(edge.left);
     add_face(edge.right);
@@ -174,15 +168,8 @@ struct Fit_equations {
       const Vec3d& n = stars.surface.facet_normals[stars.facet(v)];
       q -= dot(step, n) * n;
     }
-    bool is_good = true;
-    stars.star(v).for_each([&](const Star_view::Corner& c) {
-      const Vec3d before = cross(c.a - p, c.b - p), after = cross(c.a - q, c.b - q);
-      const double badness = triangle_badness(q, c.a, c.b).badness;
-      is_good = is_good &&
-                dot(before, after) > Parameters::max_turn_cosine * length(before) * length(after) &&
-                !(badness > badness_limit && badness > triangle_badness(p, c.a, c.b).badness);
-    });
-    if (is_good) stars.move_off(v, q);
+    if (can_move(stars.star(v), p, q, Parameters::max_turn_cosine, badness_limit))
+      stars.move_off(v, q);
   }
 
 private:
@@ -216,18 +203,16 @@ private:
     return {float(v.x), float(v.y), float(v.z)};
   }
 
-  CGAL_POWER_RTF_HD Fit_target tracked_target(int i) const
+  CGAL_POWER_RTF_HD Fit_target target(const Tracked_place& w) const
   {
-    const Tracked_place& w = tracked[i];
     const Vec3d direction = w.distance > 0 ? (w.point - w.nearest) * (1 / w.distance) : w.normal;
     return {rounded(direction), float(w.distance), float(tracked_weight * w.weight), w.facet};
   }
 
-  /// Of the place of the mesh that is nearest to a tracked point: its coordinate at a corner.
-  CGAL_POWER_RTF_HD double weight_at(int i, int v) const
+  /// Of the place of face `f` that is nearest to a tracked point: its coordinate at a corner.
+  CGAL_POWER_RTF_HD double weight_at(const Tracked_place& w, int f, int v) const
   {
-    const Tracked_place& w = tracked[i];
-    const int* const t = corners + 3 * w.face;
+    const int* const t = corners + 3 * f;
     double beta, gamma;
     barycentric_coordinates(w.nearest, stars.point(t[0]), stars.point(t[1]), stars.point(t[2]),
                             beta, gamma);
@@ -276,7 +261,7 @@ private:
     int facet = stars.facet(guide);
     double least = squared_length(stars.point(guide) - p);
     for (int t = first_tracked[f]; t < first_tracked[f + 1]; ++t) {
-      const Tracked_place& w = tracked[tracked_at[t]];
+      const Tracked_place& w = tracked[t];
       const double d = squared_length(w.point - p);
       if (!(d < least) || !(dot(w.normal, n) > Parameters::sheet_cosine) ||
           !stars.surface.are_on_one_patch(w.facet, stars.facet(guide)))
@@ -310,7 +295,6 @@ struct Flat_fit {
   Unset_vector<int> corners; ///< three per face
   Unset_vector<Mesh_edge> edges;
   std::vector<int> first_tracked;
-  Unset_vector<int> tracked_at;
   Unset_vector<Tracked_place> tracked;
   Unset_vector<unsigned char> is_wide;
   double tangential_weight = 0, tracked_weight = 0, badness_limit = 0;

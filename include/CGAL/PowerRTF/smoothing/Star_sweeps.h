@@ -46,24 +46,20 @@ struct Descent_arrays {
   Surface_descent upload(Backend& backend, const Surface_descent& s)
   {
     allocate_listed(backend, *this, s);
-    const auto uploaded = [&backend](auto& to, const auto* from) {
-      backend.upload(to.data(), from, to.size());
-      return to.data();
-    };
     Surface_descent there = s;
-    there.corners = uploaded(corners, s.corners);
-    there.opposite = uploaded(opposite, s.opposite);
-    there.order = uploaded(order, s.order);
-    there.places = uploaded(places, s.places);
+    there.corners = uploaded(backend, corners, s.corners);
+    there.opposite = uploaded(backend, opposite, s.opposite);
+    there.order = uploaded(backend, order, s.order);
+    there.places = uploaded(backend, places, s.places);
     if (s.patches) {
-      there.patches = uploaded(patches, s.patches);
-      there.tree.patches = uploaded(tree_patches, s.tree.patches);
+      there.patches = uploaded(backend, patches, s.patches);
+      there.tree.patches = uploaded(backend, tree_patches, s.tree.patches);
     }
-    there.points = uploaded(points, s.points);
-    there.vertex_normals = uploaded(vertex_normals, s.vertex_normals);
-    there.facet_normals = uploaded(facet_normals, s.facet_normals);
-    there.tree.facets = uploaded(facets, s.tree.facets);
-    there.tree.facet_nodes = uploaded(nodes, s.tree.facet_nodes);
+    there.points = uploaded(backend, points, s.points);
+    there.vertex_normals = uploaded(backend, vertex_normals, s.vertex_normals);
+    there.facet_normals = uploaded(backend, facet_normals, s.facet_normals);
+    there.tree.facets = uploaded(backend, facets, s.tree.facets);
+    there.tree.facet_nodes = uploaded(backend, nodes, s.tree.facet_nodes);
     return there;
   }
 };
@@ -96,23 +92,14 @@ struct Star_arrays {
   Star_view upload(Backend& backend, const Flat_stars& stars)
   {
     allocate_listed(backend, *this, stars.points.size(), stars.neighbors.size());
-    const auto upload = [&backend](auto& to, const auto& from) {
-      backend.upload(to.data(), from.data(), from.size());
-    };
-    upload(first, stars.first);
-    upload(neighbors, stars.neighbors);
-    upload(facets, stars.facets);
-    upload(kinds, stars.kinds);
-    upload(points, stars.points);
-    upload(normals, stars.normals);
     Star_view view;
     view.size = stars.size();
-    view.first = first.data();
-    view.neighbors = neighbors.data();
-    view.kinds = kinds.data();
-    view.points = points.data();
-    view.normals = normals.data();
-    view.facets = facets.data();
+    view.first = uploaded(backend, first, stars.first.data());
+    view.neighbors = uploaded(backend, neighbors, stars.neighbors.data());
+    view.kinds = uploaded(backend, kinds, stars.kinds.data());
+    view.points = uploaded(backend, points, stars.points.data());
+    view.normals = uploaded(backend, normals, stars.normals.data());
+    view.facets = uploaded(backend, facets, stars.facets.data());
     return view;
   }
 };
@@ -124,7 +111,7 @@ struct Fit_arrays {
   using Buffer = typename Backend::template Buffer<T>;
 
   Buffer<double> heights;
-  Buffer<int> spoke_edges, spoke_faces, corners, first_tracked, tracked_at;
+  Buffer<int> spoke_edges, spoke_faces, corners, first_tracked;
   Buffer<Mesh_edge> edges;
   Buffer<Tracked_place> tracked;
   Buffer<unsigned char> is_wide;
@@ -143,7 +130,6 @@ struct Fit_arrays {
     for (auto array : {&A::spoke_edges, &A::spoke_faces}) f(array, fit.spoke_edges.size());
     f(&A::corners, 3 * faces);
     f(&A::first_tracked, faces + 1);
-    f(&A::tracked_at, fit.tracked.size());
     f(&A::edges, edges);
     f(&A::tracked, fit.tracked.size());
     f(&A::is_wide, fit.is_wide.size());
@@ -157,21 +143,16 @@ struct Fit_arrays {
   Fit_equations upload(Backend& backend, const Star_view& stars, const Flat_fit& fit)
   {
     allocate_listed(backend, *this, fit);
-    const auto uploaded = [&backend](auto& to, const auto& from) {
-      backend.upload(to.data(), from.data(), from.size());
-      return to.data();
-    };
     Fit_equations equations;
     equations.stars = stars;
-    equations.stars.heights = uploaded(heights, fit.heights);
-    equations.spoke_edges = uploaded(spoke_edges, fit.spoke_edges);
-    equations.spoke_faces = uploaded(spoke_faces, fit.spoke_faces);
-    equations.corners = uploaded(corners, fit.corners);
-    equations.edges = uploaded(edges, fit.edges);
-    equations.first_tracked = uploaded(first_tracked, fit.first_tracked);
-    equations.tracked_at = uploaded(tracked_at, fit.tracked_at);
-    equations.tracked = uploaded(tracked, fit.tracked);
-    equations.is_wide = uploaded(is_wide, fit.is_wide);
+    equations.stars.heights = uploaded(backend, heights, fit.heights.data());
+    equations.spoke_edges = uploaded(backend, spoke_edges, fit.spoke_edges.data());
+    equations.spoke_faces = uploaded(backend, spoke_faces, fit.spoke_faces.data());
+    equations.corners = uploaded(backend, corners, fit.corners.data());
+    equations.edges = uploaded(backend, edges, fit.edges.data());
+    equations.first_tracked = uploaded(backend, first_tracked, fit.first_tracked.data());
+    equations.tracked = uploaded(backend, tracked, fit.tracked.data());
+    equations.is_wide = uploaded(backend, is_wide, fit.is_wide.data());
     equations.tangential_weight = fit.tangential_weight;
     equations.tracked_weight = fit.tracked_weight;
     equations.badness_limit = fit.badness_limit;

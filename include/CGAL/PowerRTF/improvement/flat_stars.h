@@ -1,0 +1,72 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Loops over all stars of a mesh, and the stars as plain arrays.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_FLAT_STARS_H
+#define CGAL_POWER_RTF_IMPROVEMENT_FLAT_STARS_H
+
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/color_order.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/smoothing/Star_view.h>
+
+#include <cstddef>
+
+namespace CGAL::PowerRTF::internal {
+
+/// Calls `f(k, h)` for the spokes of all stars, many at once: their numbers in `stars`, and the
+/// halfedges to the center.
+template <class F>
+void for_each_spoke(const Star_mesh& mesh, const Flat_stars& stars, F&& f)
+{
+  for_each_index(mesh.concurrency(), stars.size(), [&](int v) {
+    if (stars.first[v] == stars.first[v + 1]) return;
+    int k = stars.first[v];
+    for (const auto h : halfedges_around_target(Star_mesh::Vertex(v), mesh.working().mesh))
+      f(k++, h);
+  });
+}
+
+/// \pre nothing is missing: no vertex has been collapsed
+inline Flat_stars flat_stars(const Star_mesh& mesh)
+{
+  Flat_stars stars;
+  const auto& topology = mesh.working().mesh;
+  const int n = int(mesh.size());
+  stars.first.assign(n + 1, 0);
+  for (auto array : {&stars.points, &stars.normals}) array->resize(n);
+  stars.facets.resize(n);
+  stars.kinds.resize(n);
+  for_each_index(mesh.concurrency(), n, [&](int i) {
+    const Star_mesh::Vertex v(i);
+    stars.points[i] = mesh.point(v);
+    stars.normals[i] = mesh.normal(v);
+    stars.facets[i] = mesh.facet(v);
+    stars.kinds[i] = (mesh.is_movable(v) ? is_movable_kind : 0) |
+                     (mesh.is_on_feature(v) ? is_on_feature_kind : 0);
+    if (mesh.is_movable(v)) stars.first[i] = int(topology.degree(v));
+  });
+  stars.neighbors.resize(exclusive_scan(mesh.concurrency(), n + 1, stars.first.data()));
+  for_each_spoke(mesh, stars, [&](int k, Star_mesh::Halfedge h) {
+    stars.neighbors[k] = int(topology.source(h));
+  });
+  return stars;
+}
+
+/// Calls `f(v)` for all vertices that may move, many at once: it may change `v` and read its
+/// neighbors.
+template <class F>
+void for_each_movable(const Star_mesh& mesh, F&& f)
+{
+  const Color_order order = color_order(flat_stars(mesh), mesh.concurrency());
+  for (std::size_t c = 0; c + 1 < order.first.size(); ++c)
+    for_each_chunk(mesh.concurrency(), order.first[c + 1] - order.first[c], 64,
+                   [&](int begin, int end) {
+                     for (int k = begin; k < end; ++k)
+                       f(Star_mesh::Vertex(order.vertices[order.first[c] + k]));
+                   });
+}
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_FLAT_STARS_H
