@@ -8,6 +8,7 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 #define CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 
+#include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/tracked_points.h>
@@ -41,18 +42,18 @@ public:
       : m_mesh(&mesh),
         m_tree_search_distance(Parameters::tree_search_distance *
                                std::sqrt(mesh.projector().surface().area / double(mesh.size()))),
-        m_seen(mesh.size(), 0),
-        m_points(tracked_points(surface(), mesh.projector().tree(),
-                                Parameters::max_points_per_vertex * mesh.size(),
-                                mesh.concurrency()))
+        m_changed(mesh), m_points(tracked_points(surface(), mesh.projector().tree(),
+                                                 Parameters::max_points_per_vertex * mesh.size(),
+                                                 mesh.concurrency()))
   {
     find_far();
+    assign();
   }
 
   /// After the mesh has become another one with the same number of faces.
   void update_all()
   {
-    m_seen.assign(m_mesh->size(), 0);
+    m_changed.add_all();
     update();
   }
 
@@ -90,18 +91,19 @@ public:
   /// After any changes of the mesh.
   void update()
   {
-    const int vertices = int(m_mesh->size());
-    std::vector<char> changed(vertices); // by vertex: its star
-    for_each_index(m_mesh->concurrency(), vertices,
-                   [&](int i) { changed[i] = has_changed_around(Vertex(i)); });
-    for_each_index(m_mesh->concurrency(), size(), [&](int i) {
-      Tracked_point& w = m_points[i];
-      const auto [a, b, c] = m_mesh->working().corners(w.face);
-      if (changed[a] || changed[b] || changed[c]) descend(w);
-    });
-    for_each_index(m_mesh->concurrency(), vertices,
-                   [&](int i) { m_seen[i] = m_mesh->changes(Vertex(i)); });
-    find_far();
+    const std::vector<int> changed = m_changed.take();
+    const std::vector<int> near =
+        m_changed.are_few(changed) ? points_near_few(changed) : points_near_many(changed);
+    for_each_index(m_mesh->concurrency(), int(near.size()),
+                   [&](int k) { descend(m_points[near[k]]); });
+    const std::vector<int> far = find_far();
+    constexpr std::size_t points_per_change = 8; // where it pays to go through those alone
+    if (points_per_change * (near.size() + far.size()) > m_points.size()) {
+      assign();
+    } else {
+      for (const int i : near) reassign(i);
+      for (const int i : far) reassign(i);
+    }
   }
 
   /// The largest distance of what is nearest to the star of `v`, with `v` at `p`; or any that is no
@@ -131,13 +133,10 @@ public:
       if (topology().is_border(h)) continue;
       const auto here = at_face(topology().face(h));
       tracked.insert(tracked.end(), here.begin(), here.end());
-      m_moved[topology().face(h)].clear();
     }
     for (const int i : tracked) {
       search_faces(m_points[i], faces, v, m_mesh->point(v));
-      const Face f = topology().face(m_points[i].face);
-      const auto there = at_face(f);
-      m_moved.try_emplace(f, there.begin(), there.end()).first->second.push_back(i);
+      reassign(i);
     }
   }
 
@@ -185,34 +184,55 @@ private:
     });
   }
 
-  // Since the last update.
-  bool has_changed_around(Vertex v) const
+  // The points at faces near vertices that have changed: next to these, or next to a neighbor.
+  std::vector<int> points_near_few(const std::vector<int>& changed) const
   {
-    const auto has_changed = [this](Vertex u) { return m_mesh->changes(u) != m_seen[u]; };
-    if (has_changed(v) || topology().is_isolated(v)) return has_changed(v);
-    for (const Halfedge h : halfedges_around_target(v, topology()))
-      if (has_changed(topology().source(h))) return true;
-    return false;
+    std::vector<int> points;
+    for (const Face f : faces_around(m_mesh->working(), changed, 1)) {
+      const auto here = at_face(f);
+      points.insert(points.end(), here.begin(), here.end());
+    }
+    return points;
   }
 
-  // Those that seem to be far are searched for in the whole mesh.
-  void find_far()
+  std::vector<int> points_near_many(const std::vector<int>& changed) const
   {
-    std::vector<int> far = farther_than(m_tree_search_distance);
-    if (!far.empty()) descend_from_carriers(far);
-    far = farther_than(m_tree_search_distance);
-    if (!far.empty()) search_mesh(far);
-    assign();
+    std::vector<char> has_changed(m_mesh->size()), is_near(m_mesh->size());
+    for_each_index(m_mesh->concurrency(), int(changed.size()),
+                   [&](int k) { has_changed[changed[k]] = true; });
+    for_each_index(m_mesh->concurrency(), int(m_mesh->size()), [&](int i) {
+      const Vertex v(i);
+      is_near[v] = has_changed[v];
+      if (is_near[v] || topology().is_isolated(v)) return;
+      for (const Halfedge h : halfedges_around_target(v, topology()))
+        if (has_changed[topology().source(h)]) is_near[v] = true;
+    });
+    return select(m_mesh->concurrency(), size(), [&](int i) {
+      const auto [a, b, c] = m_mesh->working().corners(m_points[i].face);
+      return is_near[a] || is_near[b] || is_near[c];
+    });
+  }
+
+  // Those that seem to be far are searched for in the whole mesh. Returns them.
+  std::vector<int> find_far()
+  {
+    const std::vector<int> far = farther_than(m_tree_search_distance);
+    if (far.empty()) return far;
+    descend_from_carriers(far);
+    const std::vector<int> still_far = farther_than(m_tree_search_distance);
+    if (!still_far.empty()) search_mesh(still_far);
+    return far;
   }
 
   // \pre all faces are there: what has been taken out has been put back elsewhere
   void search_mesh(const std::vector<int>& some)
   {
     const Concurrency concurrency = m_mesh->concurrency();
-    if (some.size() <= few)
-      for (const int i : some)
-        if (m_points[i].distance == disagreement)
-          m_points[i].distance = least_distance(m_points[i]);
+    std::vector<int> unknown;
+    for (const int i : some)
+      if (m_points[i].distance == disagreement) unknown.push_back(i);
+    if (unknown.size() <= few)
+      for (const int i : unknown) m_points[i].distance = least_distance(m_points[i]);
     const std::optional<Reaches> reaches = find_reaches(some);
     const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
       return !reaches || is_in_reach(Face(f), some, *reaches);
@@ -250,11 +270,11 @@ private:
     std::vector<Child_boxes> nodes;
   };
 
-  // Of few points; of many, or where nothing is known, none: all faces count.
+  // None where not all have an end: all faces count.
   std::optional<Reaches> find_reaches(const std::vector<int>& some) const
   {
     const auto is_known = [this](int i) { return m_points[i].distance < disagreement; };
-    if (some.size() > few || !std::all_of(some.begin(), some.end(), is_known)) return {};
+    if (!std::all_of(some.begin(), some.end(), is_known)) return {};
     constexpr double rounding = 1e-6; // to single precision
     const Packed_tree_layout tree(static_cast<int>(some.size()));
     return Reaches{tree, child_boxes(tree, [&](int k) {
@@ -284,9 +304,26 @@ private:
   void assign()
   {
     m_moved.clear();
+    m_face.resize(size());
+    for_each_index(m_mesh->concurrency(), size(),
+                   [&](int i) { m_face[i] = topology().face(m_points[i].face); });
     m_at_face.emplace(
         m_mesh->concurrency(), size(), topology().num_faces(),
-        [this](int i) { return int(topology().face(m_points[i].face)); }, [](int i) { return i; });
+        [this](int i) { return int(m_face[i]); }, [](int i) { return i; });
+  }
+
+  void reassign(int i)
+  {
+    const Face from = std::exchange(m_face[i], topology().face(m_points[i].face));
+    if (m_face[i] == from) return;
+    const auto points = [this](Face f) -> std::vector<int>& {
+      const auto now = at_face(f);
+      return m_moved.try_emplace(f, now.begin(), now.end()).first->second;
+    };
+    std::vector<int>& before = points(from);
+    before.erase(std::find(before.begin(), before.end(), i));
+    std::vector<int>& after = points(m_face[i]);
+    after.insert(std::upper_bound(after.begin(), after.end(), i), i);
   }
 
   bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c) const
@@ -379,8 +416,9 @@ private:
 
   const Star_mesh* m_mesh;
   double m_tree_search_distance; // the least distance that is searched for in the whole mesh
-  std::vector<unsigned> m_seen;  // by vertex: its changes at the last update
+  Changed_vertices m_changed;    // since the last update
   Unset_vector<Tracked_point> m_points;
+  Unset_vector<Face> m_face;                          // by point: as it was assigned
   std::optional<Buckets<int>> m_at_face;              // the points by face
   std::unordered_map<Face, std::vector<int>> m_moved; // since then: all points of such faces
 };

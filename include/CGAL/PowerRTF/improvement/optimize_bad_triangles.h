@@ -9,6 +9,7 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_OPTIMIZE_BAD_TRIANGLES_H
 
 #include <CGAL/PowerRTF/extraction/Intersection_guard.h>
+#include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
@@ -42,23 +43,20 @@ public:
         m_anchored(filled(m.concurrency(), m.size(), 0u)),
         m_failed_searches(filled(m.concurrency(), m.size(), State(0))),
         m_failed_flips(filled(m.concurrency(), m.working().mesh.number_of_edges(), State(0))),
-        m_colors(filled(m.concurrency(), m.size(), int(no_color)))
+        m_colors(filled(m.concurrency(), m.size(), int(no_color))), m_bad(mesh)
   {}
 
   double badness(Face f) const { return judgment(f).badness; }
 
   /// Whether a triangle is worse than tolerable.
-  bool is_needed() const { return !faces_worse_than(Triangle_badness::tolerable).empty(); }
+  bool is_needed() { return !faces_worse_than(Triangle_badness::tolerable).empty(); }
 
-  /// Sorted.
-  std::vector<Face> faces_worse_than(double limit) const
+  /// Sorted. \pre `limit` >= 0
+  std::vector<Face> faces_worse_than(double limit)
   {
-    const auto& mesh = m.working().mesh;
     std::vector<Face> faces;
-    for (const int f : select(m.concurrency(), int(mesh.num_faces()), [&](int f) {
-           return !mesh.is_removed(Face(f)) && badness(Face(f)) > limit;
-         }))
-      faces.push_back(Face(f));
+    for (const Face f : m_bad.find([this](Face f) { return badness(f) > 0; }))
+      if (badness(f) > limit) faces.push_back(f);
     return faces;
   }
 
@@ -351,6 +349,7 @@ private:
   std::vector<State> m_failed_searches; // by vertex: the state in which it has failed
   std::vector<State> m_failed_flips;    // by edge: the sum of the corners' states
   std::vector<int> m_colors;            // by vertex: in a search
+  Watched_faces m_bad;
 };
 
 } // namespace CGAL::PowerRTF::internal

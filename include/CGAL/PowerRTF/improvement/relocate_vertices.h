@@ -33,7 +33,7 @@ public:
   using Edge = Star_mesh::Edge;
 
   Vertex_relocator(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, Distance_tracker& tracker)
-      : m(mesh), m_optimizer(optimizer), m_tracker(tracker),
+      : m(mesh), m_optimizer(optimizer), m_tracker(tracker), m_steep(mesh),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size())))
   {}
 
@@ -102,7 +102,7 @@ public:
   }
 
   /// The largest distance that is worth a look, or 0.
-  double farthest() const
+  double farthest()
   {
     const std::vector<Tip> tips = find_tips(1);
     return tips.empty() ? 0 : tips.front().distance;
@@ -128,7 +128,7 @@ private:
   }
 
   // The farthest first; empty if none is far.
-  std::vector<Tip> find_tips(double share) const
+  std::vector<Tip> find_tips(double share)
   {
     double least = Parameters::min_distance * m_spacing;
     std::vector<Tip> all;
@@ -136,13 +136,14 @@ private:
       all.push_back({m_tracker[i].distance, m_tracker.point(i), m_tracker[i].nearest,
                      m_tracker[i].face, false});
     const auto& mesh = m.working().mesh;
-    for (const int e : select(m.concurrency(), int(mesh.num_edges()), [&](int e) {
-           return !mesh.is_removed(Edge(e)) && m.is_free(Edge(e)) &&
-                  is_steep(mesh.halfedge(Edge(e))) && across(mesh.halfedge(Edge(e))).second > least;
-         })) {
-      const Halfedge h = mesh.halfedge(Edge(e));
-      const auto [point, distance] = across(h);
-      all.push_back({distance, point, middle(h), h, true});
+    const std::vector<Edge> steep = steep_edges();
+    std::vector<std::pair<Vec3d, double>> far(steep.size());
+    for_each_index(m.concurrency(), int(steep.size()),
+                   [&](int k) { far[k] = across(mesh.halfedge(steep[k])); });
+    for (std::size_t k = 0; k < steep.size(); ++k) {
+      const auto& [point, distance] = far[k];
+      const Halfedge h = mesh.halfedge(steep[k]);
+      if (distance > least) all.push_back({distance, point, middle(h), h, true});
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Tip& s, const Tip& t) { return s.distance > t.distance; });
@@ -156,6 +157,22 @@ private:
       places.push_back(tip.point);
     }
     return tips;
+  }
+
+  // Those that may be flipped, sorted.
+  std::vector<Edge> steep_edges()
+  {
+    const auto& mesh = m.working().mesh;
+    std::vector<Edge> edges;
+    const auto is_wanted = [&](Halfedge h) { return m.is_free(mesh.edge(h)) && is_steep(h); };
+    for (const Working_mesh::Face f : m_steep.find([&](Working_mesh::Face f) {
+           const Halfedge h = mesh.halfedge(f);
+           return is_wanted(h) || is_wanted(mesh.next(h)) || is_wanted(mesh.prev(h));
+         }))
+      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
+        if (is_wanted(h)) edges.push_back(mesh.edge(h));
+    sort_uniquely(edges);
+    return edges;
   }
 
   bool is_steep(Halfedge h) const
@@ -366,19 +383,17 @@ private:
   {
     const auto& mesh = m.working().mesh;
     const double radius = Parameters::intersection_radius * m_spacing;
-    std::vector<Working_mesh::Face> faces;
-    for (const int i : select(m.concurrency(), int(mesh.num_faces()), [&](int i) {
-           const Working_mesh::Face f(i);
-           return !mesh.is_removed(f) &&
-                  squared_length(m.point(mesh.target(mesh.halfedge(f))) - p) < radius * radius;
-         }))
-      faces.push_back(Working_mesh::Face(i));
-    return !Intersection_finder(m.working()).find(faces).empty();
+    const std::vector<int> near = select(m.concurrency(), int(m.size()), [&](int v) {
+      return squared_length(m.point(Vertex(v)) - p) < radius * radius &&
+             !mesh.is_removed(Vertex(v));
+    });
+    return !Intersection_finder(m.working()).find(faces_around(m.working(), near, 0)).empty();
   }
 
   Star_mesh& m;
   Bad_triangle_optimizer& m_optimizer;
   Distance_tracker& m_tracker;
+  Watched_faces m_steep; // have an edge that may be flipped and is steep
   double m_spacing, m_tolerable = 0;
 };
 
