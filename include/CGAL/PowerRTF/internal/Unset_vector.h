@@ -3,6 +3,9 @@
 #ifndef CGAL_POWER_RTF_INTERNAL_UNSET_VECTOR_H
 #define CGAL_POWER_RTF_INTERNAL_UNSET_VECTOR_H
 
+#include <CGAL/PowerRTF/internal/huge_pages.h>
+
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -24,6 +27,12 @@ struct Unset_allocator : std::allocator<T> {
   Unset_allocator(const Unset_allocator<U>&)
   {}
 
+  T* allocate(std::size_t n)
+  {
+    T* const memory = std::allocator<T>::allocate(n);
+    prefer_huge_pages(memory, n * sizeof(T));
+    return memory;
+  }
   template <class U>
   void construct(U*)
   {}

@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_INTERNAL_PARALLEL_H
 
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/huge_pages.h>
 
 #include <CGAL/tags.h>
 
@@ -107,6 +108,7 @@ void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t 
   if (concurrency.is_parallel() && n > v.capacity()) {
     v.reserve(n);
     const auto memory = reinterpret_cast<char*>(v.data());
+    prefer_huge_pages(memory, n * sizeof(T));
     const int pages = static_cast<int>(n * sizeof(T) / page);
     for_each_chunk(concurrency, pages, pages_per_chunk, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) memory[k * page] = 0;
