@@ -54,16 +54,23 @@ private:
   std::vector<unsigned> m_seen; // by vertex: its changes
 };
 
-/// The faces around the vertices and, so many times, their neighbors; sorted.
-inline std::vector<Working_mesh::Face> faces_around(const Working_mesh& working,
-                                                    const std::vector<int>& vertices, int rings)
+/// The vertices and those that are at most so many edges away; sorted. None that has no edge.
+inline std::vector<Working_mesh::Vertex>
+vertices_around(const Working_mesh& working, const std::vector<int>& vertices, int rings)
 {
   std::vector<Working_mesh::Vertex> around;
   for (const int v : vertices)
     if (const Working_mesh::Vertex u(v); !working.mesh.is_isolated(u)) around.push_back(u);
   working.add_neighbors(around, rings);
+  return around;
+}
+
+/// The faces at these; sorted.
+inline std::vector<Working_mesh::Face> faces_around(const Working_mesh& working,
+                                                    const std::vector<int>& vertices, int rings)
+{
   std::vector<Working_mesh::Face> faces;
-  for (const auto v : around)
+  for (const auto v : vertices_around(working, vertices, rings))
     for (const auto h : halfedges_around_target(v, working.mesh))
       if (!working.mesh.is_border(h)) faces.push_back(working.mesh.face(h));
   sort_uniquely(faces);

@@ -8,6 +8,8 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 #define CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 
+#include <CGAL/PowerRTF/geometry/Cell_marks.h>
+#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
@@ -268,6 +270,7 @@ private:
   struct Reaches {
     Packed_tree_layout tree;
     std::vector<Child_boxes> nodes;
+    Cell_marks cells;
   };
 
   // None where not all have an end: all faces count.
@@ -276,12 +279,17 @@ private:
     const auto is_known = [this](int i) { return m_points[i].distance < disagreement; };
     if (!std::all_of(some.begin(), some.end(), is_known)) return {};
     constexpr double rounding = 1e-6; // to single precision
-    const Packed_tree_layout tree(static_cast<int>(some.size()));
-    return Reaches{tree, child_boxes(tree, [&](int k) {
-                     const double r = (1 + rounding) * m_points[some[k]].distance + rounding;
-                     const Vec3d p = point(some[k]), reach{r, r, r};
-                     return Box3<double>{p - reach, p + reach};
-                   })};
+    const int size = static_cast<int>(some.size());
+    std::vector<Box3<double>> boxes(size);
+    for_each_index(m_mesh->concurrency(), size, [&](int k) {
+      const double r = (1 + rounding) * m_points[some[k]].distance + rounding;
+      const Vec3d p = point(some[k]), reach{r, r, r};
+      boxes[k] = {p - reach, p + reach};
+    });
+    const Packed_tree_layout tree(size);
+    Cell_marks cells(box_around(m_mesh->concurrency(), size, boxes));
+    for (const Box3<double>& box : boxes) cells.add(box);
+    return Reaches{tree, child_boxes(tree, [&](int k) { return boxes[k]; }), std::move(cells)};
   }
 
   // Whether the face may be nearer to one of the points than what was found.
@@ -291,6 +299,7 @@ private:
     Box3<double> box{a, a};
     box.add(b);
     box.add(c);
+    if (!reaches.cells.touches(box)) return false;
     bool is_near = false;
     visit_near(
         reaches.tree, reaches.nodes.data(), Box_query(box), [&] { return is_near ? -1.f : 0.f; },

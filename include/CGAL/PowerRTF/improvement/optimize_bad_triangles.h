@@ -14,6 +14,7 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
@@ -39,11 +40,9 @@ public:
 
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
-      : m(mesh), m_guard(guard), m_anchors(filled(m.concurrency(), m.size(), Vec3d{0, 0, 0})),
-        m_anchored(filled(m.concurrency(), m.size(), 0u)),
-        m_failed_searches(filled(m.concurrency(), m.size(), State(0))),
-        m_failed_flips(filled(m.concurrency(), m.working().mesh.number_of_edges(), State(0))),
-        m_colors(filled(m.concurrency(), m.size(), int(no_color))), m_bad(mesh)
+      : m(mesh), m_guard(guard), m_anchors(m.size()), m_anchored(m.size()),
+        m_failed_searches(m.size()), m_failed_flips(m.working().mesh.number_of_edges()),
+        m_colors(m.size()), m_bad(mesh)
   {}
 
   double badness(Face f) const { return judgment(f).badness; }
@@ -108,7 +107,6 @@ private:
   }
 
   using Parameters = Improvement_parameters::Optimization;
-  static constexpr int no_color = -1;
 
   // The corners and their neighbors.
   std::vector<Vertex> vertices_around(const std::vector<Face>& faces) const
@@ -204,13 +202,13 @@ private:
       return false;
     };
     for (const Vertex v : vertices) {
-      int color = 0;
+      int color = 1;
       while (is_taken(v, color)) ++color;
       m_colors[v] = color;
-      classes.resize(std::max(classes.size(), std::size_t(color) + 1));
-      classes[color].push_back(v);
+      classes.resize(std::max(classes.size(), std::size_t(color)));
+      classes[color - 1].push_back(v);
     }
-    for (const Vertex v : vertices) m_colors[v] = no_color;
+    for (const Vertex v : vertices) m_colors[v] = 0;
     return classes;
   }
 
@@ -344,11 +342,11 @@ private:
   Star_mesh& m;
   Intersection_guard* m_guard; // or none
   unsigned m_run = 0;
-  std::vector<Vec3d> m_anchors;         // by vertex: since the run of `m_anchored`
-  std::vector<unsigned> m_anchored;     // by vertex
-  std::vector<State> m_failed_searches; // by vertex: the state in which it has failed
-  std::vector<State> m_failed_flips;    // by edge: the sum of the corners' states
-  std::vector<int> m_colors;            // by vertex: in a search
+  Zero_vector<Vec3d> m_anchors;         // by vertex: since the run of `m_anchored`
+  Zero_vector<unsigned> m_anchored;     // by vertex
+  Zero_vector<State> m_failed_searches; // by vertex: the state in which it has failed
+  Zero_vector<State> m_failed_flips;    // by edge: the sum of the corners' states
+  Zero_vector<int> m_colors;            // by vertex: in a search; or 0
   Watched_faces m_bad;
 };
 

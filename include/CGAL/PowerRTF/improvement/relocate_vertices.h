@@ -33,7 +33,7 @@ public:
   using Edge = Star_mesh::Edge;
 
   Vertex_relocator(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, Distance_tracker& tracker)
-      : m(mesh), m_optimizer(optimizer), m_tracker(tracker), m_steep(mesh),
+      : m(mesh), m_optimizer(optimizer), m_tracker(tracker), m_steep(mesh), m_spare_changed(mesh),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size())))
   {}
 
@@ -257,15 +257,14 @@ private:
   }
 
   // The vertices in flat parts that leave the best triangles behind, apart from `places`.
-  std::vector<Vertex> find_spare(std::vector<Vec3d> places) const
+  std::vector<Vertex> find_spare(std::vector<Vec3d> places)
   {
-    std::vector<double> badness(m.size());
-    for_each_index(m.concurrency(), int(m.size()),
-                   [&](int v) { badness[v] = best_collapse(Vertex(v)).first; });
+    update_spare_badness();
     std::vector<std::pair<double, Vertex>> candidates;
-    for (const int v : select(m.concurrency(), int(m.size()),
-                              [&](int v) { return badness[v] < Parameters::max_collapse_badness; }))
-      candidates.push_back({badness[v], Vertex(v)});
+    for (const int v : select(m.concurrency(), int(m.size()), [&](int v) {
+           return m_spare_badness[v] < Parameters::max_collapse_badness;
+         }))
+      candidates.push_back({m_spare_badness[v], Vertex(v)});
     sort(m.concurrency(), candidates.begin(), candidates.end());
     std::vector<Vertex> spare;
     for (const auto& [b, v] : candidates)
@@ -275,6 +274,19 @@ private:
         if (int(spare.size()) == Parameters::max_tips * Parameters::max_tries) break;
       }
     return spare;
+  }
+
+  // What it would cost to take a vertex out depends on it and its neighbors, and their edges.
+  void update_spare_badness()
+  {
+    const std::vector<int> changed = m_spare_changed.take();
+    const auto update = [this](Vertex v) { m_spare_badness[v] = best_collapse(v).first; };
+    if (m_spare_changed.are_few(changed)) {
+      for (const Vertex v : vertices_around(m.working(), changed, 1)) update(v);
+    } else {
+      m_spare_badness.resize(m.size());
+      for_each_index(m.concurrency(), int(m.size()), [&](int v) { update(Vertex(v)); });
+    }
   }
 
   // The halfedge from v that leaves the best triangles when it is collapsed, and the badness of the
@@ -393,7 +405,9 @@ private:
   Star_mesh& m;
   Bad_triangle_optimizer& m_optimizer;
   Distance_tracker& m_tracker;
-  Watched_faces m_steep; // have an edge that may be flipped and is steep
+  Watched_faces m_steep;                // have an edge that may be flipped and is steep
+  Changed_vertices m_spare_changed;     // since the following was found
+  Unset_vector<double> m_spare_badness; // by vertex: see `best_collapse()`
   double m_spacing, m_tolerable = 0;
 };
 
