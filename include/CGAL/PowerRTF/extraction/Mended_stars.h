@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -340,13 +341,13 @@ private:
 
   bool has_topology_of_surface()
   {
-    if (m_topology.component.empty()) m_topology = surface_topology(m_surface, ConcurrencyTag());
+    if (!m_topology) m_topology = known_topology(m_surface, ConcurrencyTag());
     const auto ordered_star = [this](int v) {
       Fan s = star(v);
       sort_around(s);
       return s;
     };
-    return are_homeomorphic(m_topology, fan_topology(m_size, ordered_star, ConcurrencyTag()),
+    return are_homeomorphic(*m_topology, fan_topology(m_size, ordered_star, ConcurrencyTag()),
                             m_samples.facets);
   }
 
@@ -378,7 +379,7 @@ private:
   std::vector<Triangle> m_made_triangles; // of the pieces, sorted
   std::vector<Triangle_at> m_made;        // the same at their corners, sorted
   Extracted_mesh m_mesh;
-  Topology m_topology; // of the surface, once it was needed
+  std::shared_ptr<const Topology> m_topology; // of the surface, once it was needed
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -15,22 +15,6 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// The components of an oriented 2-manifold.
-struct Topology {
-  std::vector<int> component; ///< of each facet, or of each vertex
-  std::vector<Component_topology> components;
-
-  int size() const { return static_cast<int>(components.size()); }
-};
-
-inline Topology surface_topology(const Surface& surface, Concurrency concurrency)
-{
-  auto [component, components] = facet_components(surface.adjacency, concurrency);
-  std::vector<Component_topology> topologies =
-      component_topologies(surface, component, components, concurrency);
-  return {std::move(component), std::move(topologies)};
-}
-
 /// Of `vertices` vertices. `star(v)`: the triangles at v in their order around it, as
 /// `sort_around()` makes it.
 template <class Star_at>

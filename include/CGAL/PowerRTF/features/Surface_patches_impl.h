@@ -27,13 +27,16 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
     : m_whole(surface)
 {
   const std::size_t n = options.number_of_samples;
+  surface.topology = {};
+  if (!surface.is_closed_up())
+    surface.topology.value = internal::known_topology(surface, concurrency);
   if (surface.adjacency.non_manifold_edges == 0 &&
       surface.contacts.empty()) // else its curves tell how many they need
     require_enough_samples(surface, n, concurrency);
   set_output_grid(surface, options);
   const bool is_one_patch = surface.creases.empty() && surface.contacts.empty() &&
-                            surface.adjacency.border_edges == 0 &&
-                            facet_components(surface.adjacency, concurrency).second == 1;
+                            surface.adjacency.border_edges == 0 && surface.topology.value &&
+                            surface.topology.value->size() == 1;
   // Means over the nearest vertices would depend on how finely a facet is split.
   const bool splits = options.attributes == Attributes::facet;
   if (is_one_patch && !(splits && has_long_bent_facets(surface, n, concurrency))) {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,27 @@ void sort_uniquely(Items& items)
   std::sort(items.begin(), items.end());
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
+
+namespace internal {
+
+struct Topology;
+
+/// The topology of a surface, or none. A copy has none: what is copied is going to change.
+struct Known_topology {
+  std::shared_ptr<const Topology> value;
+
+  Known_topology() = default;
+  Known_topology(const Known_topology&) {}
+  Known_topology(Known_topology&&) = default;
+  Known_topology& operator=(const Known_topology&)
+  {
+    value.reset();
+    return *this;
+  }
+  Known_topology& operator=(Known_topology&&) = default;
+};
+
+} // namespace internal
 
 /// The facets across each edge. Halfedge `3 f + i` runs from corner `i` to corner `i + 1` of facet
 /// `f`.
@@ -103,8 +125,9 @@ struct Surface {
   /// Of the half of a symmetric surface, which is above: its border on the plane is where it goes
   /// on as its own mirror image.
   std::optional<Mirror_plane> mirror;
-  std::size_t mirror_samples = 0; ///< to be on the plane; 0: as many as their spacing gives
-  double area = 0;                ///< sum of the facets' areas
+  std::size_t mirror_samples = 0;    ///< to be on the plane; 0: as many as their spacing gives
+  internal::Known_topology topology; ///< once the facets stay as they are: `known_topology()`
+  double area = 0;                   ///< sum of the facets' areas
   Normalization normalization;
 
   /// Whether it must be cut to be an oriented 2-manifold.

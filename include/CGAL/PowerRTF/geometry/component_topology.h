@@ -9,9 +9,11 @@
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,7 +105,9 @@ component_topologies(const Surface& surface, const std::vector<int>& component, 
 {
   const int facets = static_cast<int>(surface.triangles.size()),
             vertices = static_cast<int>(surface.points.size());
-  std::vector<int> facet_at(vertices, -1), next_on_border(vertices, -1);
+  const bool has_border = surface.adjacency.border_edges > 0;
+  std::vector<int> facet_at = internal::filled(concurrency, vertices, -1), next_on_border;
+  if (has_border) next_on_border.assign(vertices, -1);
   internal::for_each_index(concurrency, facets, [&](int f) {
     for (int h = 3 * f; h < 3 * f + 3; ++h) {
       const int v = halfedge_source(surface.triangles, h);
@@ -116,7 +120,7 @@ component_topologies(const Surface& surface, const std::vector<int>& component, 
   std::vector<long> characteristics(components, 0); // six times
   internal::add_by_component(
       concurrency, vertices, component_at,
-      [&](int v) { return internal::six_times_vertex_share(next_on_border[v] >= 0); },
+      [&](int v) { return internal::six_times_vertex_share(has_border && next_on_border[v] >= 0); },
       characteristics);
   internal::add_by_component(
       concurrency, facets, [&](int f) { return component[f]; },
@@ -125,14 +129,37 @@ component_topologies(const Surface& surface, const std::vector<int>& component, 
       characteristics, internal::count_loops(std::move(next_on_border), components, component_at));
 }
 
+namespace internal {
+
+/// The components of an oriented 2-manifold.
+struct Topology {
+  std::vector<int> component; ///< of each facet, or of each vertex
+  std::vector<Component_topology> components;
+
+  int size() const { return static_cast<int>(components.size()); }
+};
+
+/// `surface.topology`, or, where there is none, what it would be.
+inline std::shared_ptr<const Topology> known_topology(const Surface& surface,
+                                                      Concurrency concurrency)
+{
+  if (surface.topology.value) return surface.topology.value;
+  auto [component, components] = facet_components(surface.adjacency, concurrency);
+  std::vector<Component_topology> topologies =
+      component_topologies(surface, component, components, concurrency);
+  return std::make_shared<const Topology>(Topology{std::move(component), std::move(topologies)});
+}
+
+} // namespace internal
+
 /// \throws Invalid_input_error if `n` vertices cannot have the topology of `surface`; it names the
 ///   component that needs most
 inline void require_enough_samples(const Surface& surface, std::size_t n,
                                    internal::Concurrency concurrency = Sequential_tag())
 {
-  const auto [component, count] = facet_components(surface.adjacency, concurrency);
-  const std::vector<Component_topology> components =
-      component_topologies(surface, component, count, concurrency);
+  const auto topology = internal::known_topology(surface, concurrency);
+  const std::vector<int>& component = topology->component;
+  const std::vector<Component_topology>& components = topology->components;
   std::size_t sum = 0;
   for (const Component_topology& c : components) sum += c.least_samples();
   if (n >= sum) return;

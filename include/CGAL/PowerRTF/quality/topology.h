@@ -198,16 +198,15 @@ inline Topology_statistics manifold_topology(const Surface& surface,
                                              Concurrency concurrency = Sequential_tag())
 {
   if (surface.is_closed_up()) // its borders may have no direction
-    return topology(surface.triangles, concurrency);
-  const auto [component, components] = facet_components(surface.adjacency, concurrency);
+    return PowerRTF::topology(surface.triangles, concurrency);
+  const auto topology = known_topology(surface, concurrency);
   Topology_statistics result;
   result.vertices = surface.points.size();
   result.faces = surface.triangles.size();
-  result.components = components;
+  result.components = topology->components.size();
   result.border_edges = surface.adjacency.border_edges;
   result.edges = (3 * result.faces + result.border_edges) / 2;
-  for (const Component_topology& c :
-       component_topologies(surface, component, components, concurrency)) {
+  for (const Component_topology& c : topology->components) {
     result.border_loops += c.border_loops;
     result.euler_characteristic += c.euler_characteristic;
   }

@@ -110,17 +110,16 @@ inline double density_mass(const Surface& surface, int f)
 } // namespace internal
 
 /// Shares `n` samples, those of `features` among them, by the components' masses; each gets as many
-/// as its topology needs if `n` allows. \param component of each facet
+/// as its topology needs if `n` allows. \param topology of the surface
 inline std::vector<Component_share> component_shares(const Surface& surface, std::size_t n,
                                                      const Feature_samples& features,
-                                                     const std::vector<int>& component,
-                                                     int components,
+                                                     const internal::Topology& topology,
                                                      internal::Concurrency concurrency)
 {
+  const std::vector<int>& component = topology.component;
+  const int components = topology.size();
   std::vector<std::size_t> least;
-  for (const Component_topology& c :
-       component_topologies(surface, component, components, concurrency))
-    least.push_back(c.least_samples());
+  for (const Component_topology& c : topology.components) least.push_back(c.least_samples());
   const double mass = density_integral(surface, concurrency);
   std::vector<double> masses(components, 0);
   if (components == 1)

@@ -30,9 +30,10 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
   internal::Progress_part part(0.02);
   using Backend = Host_backend<ConcurrencyTag>;
   Backend backend;
-  const auto [component, components] = facet_components(surface.adjacency, backend.concurrency());
+  const auto topology = internal::known_topology(surface, backend.concurrency());
+  const std::vector<int>& component = topology->component;
   const std::vector<Component_share> shares = component_shares(
-      surface, options.number_of_samples, features, component, components, backend.concurrency());
+      surface, options.number_of_samples, features, *topology, backend.concurrency());
   part.next(0.99);
   Samples samples;
   if (off_lattice) *off_lattice = 0;
@@ -52,7 +53,7 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
     samples = internal::draw_samples(surface, options, features, component, shares,
                                      backend.concurrency());
   }
-  if (components > 1)
+  if (topology->size() > 1)
     for (const int f : samples.facets) samples.patches.push_back(component[f]);
   samples.weights.assign(samples.size(), 0);
   return samples;
@@ -67,9 +68,10 @@ Lattice_fields lattice_fields(const Surface& surface, const Remeshing_options& o
     throw Invalid_input_error("the samples begin as a lattice only where sampling is lattice");
   using Backend = Host_backend<ConcurrencyTag>;
   Backend backend;
-  const auto [component, components] = facet_components(surface.adjacency, backend.concurrency());
+  const auto topology = internal::known_topology(surface, backend.concurrency());
+  const std::vector<int>& component = topology->component;
   const std::vector<Component_share> shares = component_shares(
-      surface, options.number_of_samples, features, component, components, backend.concurrency());
+      surface, options.number_of_samples, features, *topology, backend.concurrency());
   return Lattice_sampler<Backend>(backend, surface, tree, features, component, shares,
                                   options.random_seed)
       .fields();
