@@ -22,6 +22,7 @@
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
+#include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
@@ -50,8 +51,9 @@ public:
   /// for the surface, or it is not as symmetric as it has to be.
   PowerRTF_remesher(PowerRTF::Surface surface, const Options& options, const Report& report = {})
       : m_surface(std::move(surface)), m_options(with_number_of_samples(options, report)),
-        m_report(report), m_whole(PowerRTF::split_off_image(m_surface, m_options, m_report,
-                                                            typename Traits::Concurrency_tag())),
+        m_report(report), m_watch(std::in_place, m_report.seconds.surface),
+        m_whole(PowerRTF::split_off_image(m_surface, m_options, m_report,
+                                          typename Traits::Concurrency_tag())),
         m_patches(m_surface, m_options, typename Traits::Concurrency_tag()),
         m_engine(m_patches.surface(), m_options)
   {
@@ -59,6 +61,7 @@ public:
     m_report.min_angle = m_options.min_angle;
     m_report.max_angle = m_options.max_angle;
     m_report.feature_samples = m_patches.features().size();
+    m_watch.reset();
   }
 
   PowerRTF_remesher(const PowerRTF_remesher&) = delete; // the engine refers to the surface
@@ -346,6 +349,7 @@ private:
   PowerRTF::Surface m_surface; // that samples are distributed on
   Options m_options;
   Report m_report;
+  std::optional<PowerRTF::internal::Stopwatch> m_watch; // of the constructor
   std::optional<PowerRTF::Surface> m_whole; // of which that is the half; none: it is the whole
   PowerRTF::Surface_patches m_patches;
   Engine m_engine;
