@@ -6,9 +6,9 @@
 #define CGAL_POWER_RTF_ENGINES_SURFACE_ENGINE_IMPL_H
 
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
-#include <CGAL/PowerRTF/engines/packed_surface.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/pack_surface.h>
 
 #include <cmath>
 #include <cstddef>
@@ -62,7 +62,8 @@ CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
 CGAL_POWER_RTF_INLINE Engine_base& Surface_engine_base::engine()
 {
   if (!m_engine) { // only now the surface's normals and density are what they will be
-    m_packed = internal::packed_surface(m_surface, facet_tree(), m_options, m_concurrency);
+    m_packed = internal::packed_surface(m_surface, facet_tree(), asks_for_vertices(m_options),
+                                        m_concurrency);
     m_engine = m_make(m_packed, m_options);
   }
   return *m_engine;
