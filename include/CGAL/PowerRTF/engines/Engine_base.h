@@ -20,7 +20,6 @@
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -59,9 +58,7 @@ class Engine_base {
 public:
   virtual ~Engine_base() = default;
   /// As `Make_lattice_field`. The engine has to live as long as the result.
-  virtual std::unique_ptr<Lattice_field_base>
-  make_lattice_field(const std::vector<Lattice_nodes>& levels, bool is_even,
-                     std::uint64_t seed) = 0;
+  virtual std::unique_ptr<Lattice_field_base> make_lattice_field(const Lattice_plan& plan) = 0;
   /// Takes the samples with cells into spatial order; the others keep theirs. Weights become 0.
   virtual void set_samples(const Engine_samples& samples) = 0;
   virtual void build_cells() = 0;

@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -71,9 +70,7 @@ CGAL_POWER_RTF_INLINE Engine_base& Surface_engine_base::engine()
 
 CGAL_POWER_RTF_INLINE Make_lattice_field Surface_engine_base::lattice_field_maker()
 {
-  return [this](const std::vector<Lattice_nodes>& levels, bool is_even, std::uint64_t seed) {
-    return engine().make_lattice_field(levels, is_even, seed);
-  };
+  return [this](const Lattice_plan& plan) { return engine().make_lattice_field(plan); };
 }
 
 CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
