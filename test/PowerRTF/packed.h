@@ -6,7 +6,7 @@
 #define CGAL_POWER_RTF_TEST_PACKED_H
 
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
-#include <CGAL/PowerRTF/engines/packed_surface.h>
+#include <CGAL/PowerRTF/geometry/pack_surface.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <CGAL/tags.h>
@@ -23,9 +23,7 @@ struct Packed {
 
   explicit Packed(const CGAL::PowerRTF::Surface& s)
       : tree(s.points, s.triangles, s.facet_patches),
-        surface(CGAL::PowerRTF::internal::packed_surface(
-            s, tree, CGAL::PowerRTF::Remeshing_options::paper_preset())),
-        arrays(backend, surface)
+        surface(CGAL::PowerRTF::internal::packed_surface(s, tree, true)), arrays(backend, surface)
   {}
   Packed(const Packed&) = delete;
   const CGAL::PowerRTF::Surface_view<Real>& view() const { return arrays.view(); }

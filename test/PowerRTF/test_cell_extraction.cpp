@@ -274,18 +274,22 @@ TEST_CASE("the topology of a surface is the known one")
   for (const Shape& shape : plain_shapes()) {
     CAPTURE(shape.name);
     const Topology_statistics expected = topology(shape.surface.triangles);
-    const auto found = internal::surface_topology(shape.surface, Parallel_if_available_tag());
-    CHECK(found.size() == int(expected.components));
-    CHECK(found.component == facet_components(shape.surface.adjacency).first);
+    Surface surface = shape.surface;
+    const auto found = internal::known_topology(surface, Parallel_if_available_tag());
+    CHECK(found->size() == int(expected.components));
+    CHECK(found->component == facet_components(shape.surface.adjacency).first);
+    surface.topology.value = found;
+    CHECK(internal::known_topology(surface, Sequential_tag()) == found);
+    CHECK(internal::known_topology(Surface(surface), Sequential_tag()) != found);
     long sum = 0, loops = 0;
-    for (const Component_topology& c : found.components) {
+    for (const Component_topology& c : found->components) {
       sum += c.euler_characteristic;
       loops += c.border_loops;
     }
     CHECK(sum == expected.euler_characteristic);
     CHECK(loops == long(expected.border_loops));
   }
-  CHECK(internal::surface_topology(Surface(), Sequential_tag()).size() == 0);
+  CHECK(internal::known_topology(Surface(), Sequential_tag())->size() == 0);
 }
 
 TEST_CASE("a piece of a surface is a 2-manifold with the samples on it")

@@ -11,13 +11,13 @@
 #include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/pack_surface.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -62,26 +62,29 @@ namespace {
 
 using Tag = CGAL::Parallel_if_available_tag;
 
-/// A lattice of the CPU, from nodes that differ from the true ones by at most a rounding; number 0
-/// from these themselves.
+/// A lattice of the CPU, on a surface that differs from the true one by at most a rounding; number
+/// 0 on this one itself.
 Samples lattice_but_for_rounding(const Case& c, const Start& start, unsigned number)
 {
-  Host_backend<Tag> backend;
-  std::vector<Lattice_nodes> moved;
+  const Surface& surface = start.patches->surface();
+  const Facet_tree tree(surface.points, surface.triangles, surface.facet_patches);
+  Packed_surface packed = internal::packed_surface(surface, tree, false);
+  std::vector<Facet_corners<double>> facets(packed.facets.facets,
+                                            packed.facets.facets + surface.triangles.size());
+  packed.facets.facets = facets.data();
   std::mt19937 random(number);
-  std::uniform_real_distribution<float> ulp(-6e-8f, 6e-8f); // of 1, which no coordinate exceeds
-  const auto move = [&](float& x) { x += number == 0 ? 0 : ulp(random); };
-  const auto make = [&](const std::vector<Lattice_nodes>& levels, bool is_even,
-                        std::uint64_t seed) {
-    moved = levels;
-    for (Lattice_nodes& nodes : moved)
-      for (auto vectors : {&nodes.points, &nodes.normals})
-        for (Vec3f& v : *vectors)
-          for (float* x : {&v.x, &v.y, &v.z}) move(*x);
-    return std::make_unique<Lattice_field<Host_backend<Tag>>>(backend, moved, is_even, seed);
+  std::uniform_real_distribution<double> ulp(-6e-8, 6e-8); // of 1, which no coordinate exceeds
+  const auto move = [&](Vec3d& v) {
+    if (number > 0) v += Vec3d{ulp(random), ulp(random), ulp(random)};
   };
-  return sample_surface<Tag>(start.patches->surface(), c.options, start.patches->features(),
-                             nullptr, nullptr, make);
+  for (Facet_corners<double>& f : facets)
+    for (Vec3d* corner : {&f.a, &f.b, &f.c}) move(*corner);
+  for (Vertex_attributes<double>& a : packed.attributes) move(a.normal);
+  Host_backend<Tag> backend;
+  const auto make = [&](const Lattice_plan& plan) {
+    return std::make_unique<Lattice_field<Host_backend<Tag>>>(backend, packed.view(), plan);
+  };
+  return sample_surface<Tag>(surface, c.options, start.patches->features(), &tree, nullptr, make);
 }
 
 /// Whether most samples are at the same places, and both arrangements as regular.

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_lattice.h"
+#include "packed.h"
 #include "relative_distances.h"
 #include "shapes.h"
 #include "sweeps.h"
@@ -8,7 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
-#include <CGAL/PowerRTF/sampling/Surface_strata.h>
+#include <CGAL/PowerRTF/sampling/plan_lattice.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
 
@@ -137,16 +138,36 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
 
 namespace {
 
+using Backend = Host_backend<CGAL::Sequential_tag>;
+
 /// Of each node of a flat piece, whether no point is nearer than 0.7 of the spacing.
-std::vector<unsigned char> gaps_without(const Chosen_points& points, const Lattice_view& view)
+std::vector<unsigned char> gaps_without(const std::vector<Seen_point>& points,
+                                        const Lattice_view& view)
 {
   std::vector<unsigned char> gaps(view.free);
   for (int i = 0; i < view.free; ++i)
-    gaps[i] = std::none_of(points.points.begin(), points.points.end(), [&](const Seen_point& p) {
+    gaps[i] = std::none_of(points.begin(), points.end(), [&](const Seen_point& p) {
       return length(to_double(p.point) - to_double(view.points[i])) <=
              0.7 * double(view.spacing(i));
     });
   return gaps;
+}
+
+template <class Buffer>
+auto items_of(const Buffer& buffer)
+{
+  return std::vector(buffer.data(), buffer.data() + buffer.size());
+}
+
+Chosen_points<Backend> chosen(Backend& backend, const std::vector<int>& nodes,
+                              const std::vector<Seen_point>& points)
+{
+  Chosen_points<Backend> result;
+  result.nodes.allocate(backend, nodes.size());
+  result.points.allocate(backend, points.size());
+  std::copy(nodes.begin(), nodes.end(), result.nodes.data());
+  std::copy(points.begin(), points.end(), result.points.data());
+  return result;
 }
 
 } // namespace
@@ -154,28 +175,18 @@ std::vector<unsigned char> gaps_without(const Chosen_points& points, const Latti
 TEST_CASE("a flat piece gets one lattice, whatever it begins from")
 {
   const Surface surface = shapes::make_surface(shapes::plane_patch(7, 7));
-  const Component_share share{450, surface.area, surface.area / 450};
-  const Surface_strata strata(surface, std::vector<int>(surface.triangles.size(), 0), {share},
-                              CGAL::Sequential_tag());
-  std::vector<Lattice_nodes> levels;
-  for (int count = 2700; count > 32; count /= 2) {
-    Lattice_nodes nodes;
-    nodes.resize(count, 0);
-    for (int i = 0; i < count; ++i) {
-      const auto [f, w] = strata.place(i, count, 0);
-      const auto corner = [&, facet = f](int k) {
-        return surface.points[surface.triangles[facet][k]];
-      };
-      nodes.points[i] = to_real<float>(w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2));
-      nodes.normals[i] = {0, 0, 1};
-      nodes.components[i] = 0;
-      nodes.spacing[i] = float(std::sqrt(2 / std::sqrt(3.) * share.cell_mass));
-    }
-    levels.push_back(nodes);
-  }
-  Host_backend<CGAL::Sequential_tag> backend;
+  const Packed<double> packed(surface);
+  const std::vector<int> component(surface.triangles.size(), 0);
+  Lattice_plan plan =
+      lattice_plan(surface, {{0, 0, 0}, 1}, packed.tree, {}, component,
+                   {{450, surface.area, surface.area / 450}}, 0, CGAL::Sequential_tag());
+  plan.free.clear();
+  for (std::size_t count = 2700; count > 32; count /= 2) plan.free.push_back(count);
+  plan.sites.resize(plan.free.size());
+  Backend backend;
   for (unsigned seed = 0; seed < 3; ++seed) {
-    Lattice_field<Host_backend<CGAL::Sequential_tag>> field(backend, levels, true, seed);
+    plan.seed = seed;
+    Lattice_field<Backend> field(backend, packed.view(), plan);
     field.solve(1);
     const Lattice_view view = field.view();
     double worst = 0;
@@ -193,21 +204,22 @@ TEST_CASE("a flat piece gets one lattice, whatever it begins from")
         ++edges;
       });
     CHECK(agree > 0.97 * edges); // but for some dislocations
-    Chosen_points points = field.points();
-    CHECK(field.count_twins(points) < points.nodes.size() / 20);
-    CHECK(gaps_without(points, view) == field.gaps(points));
-    points.nodes.resize(points.nodes.size() / 2);
-    points.points.resize(points.nodes.size());
+    const std::size_t count = field.find_points();
+    std::vector<int> nodes = items_of(field.points().nodes);
+    std::vector<Seen_point> points = items_of(field.points().points);
+    CHECK(field.count_twins(field.points()) < nodes.size() / 20);
+    CHECK(count + field.count_twins(field.points()) == nodes.size());
+    CHECK(gaps_without(points, view) == items_of(field.gaps(field.points())));
+    nodes.resize(nodes.size() / 2);
+    points.resize(nodes.size());
+    const std::size_t twins = field.count_twins(chosen(backend, nodes, points));
     for (const int k : {0, 5, 9}) { // again, seen by others from farther away
-      points.nodes.push_back(points.nodes[k] + 1);
-      points.points.push_back({points.points[k].point, points.points[k].distance + 0.1f});
+      nodes.push_back(nodes[k] + 1);
+      points.push_back({points[k].point, points[k].distance + 0.1f});
     }
-    CHECK(gaps_without(points, view) == field.gaps(points));
-    const std::size_t twins = field.count_twins(points);
-    CHECK(twins >= 3);
-    points.nodes.resize(points.nodes.size() - 3);
-    points.points.resize(points.nodes.size());
-    CHECK(field.count_twins(points) + 3 == twins);
+    const Chosen_points<Backend> more = chosen(backend, nodes, points);
+    CHECK(gaps_without(points, view) == items_of(field.gaps(more)));
+    CHECK(field.count_twins(more) == twins + 3);
   }
 }
 

@@ -80,8 +80,7 @@ TEST_CASE("the facets at each vertex")
   for (const shapes::Soup& soup : {shapes::octahedron(), shapes::plane_patch(4, 3)}) {
     const Surface s = shapes::make_surface(soup);
     const Facet_tree tree(s.points, s.triangles);
-    const Packed_surface packed =
-        internal::packed_surface(s, tree, Remeshing_options::paper_preset());
+    const Packed_surface packed = internal::packed_surface(s, tree, true);
     const std::vector<int>& first = packed.first_facet;
     REQUIRE(first.size() == s.points.size() + 1);
     CHECK(packed.vertex_facets.size() == 3 * s.triangles.size());

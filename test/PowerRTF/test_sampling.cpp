@@ -361,6 +361,35 @@ std::vector<int> eliminated_in_turn(const Candidates& candidates, std::size_t n)
 
 } // namespace
 
+TEST_CASE("the graph has all that see each other, in order")
+{
+  Random_source random(3);
+  Candidates candidates;
+  for (int i = 0; i < 1700; ++i) { // several parts of the graph
+    const Vec3d point{2 * random() - 1, 2 * random() - 1, 0.1 * random()};
+    const double radius = i % 100 == 0 ? 0.3 : 0.01 + 0.02 * random();
+    candidates.push_back({point, {0, 0, i % 5 == 0 ? -1. : 1.}, radius});
+  }
+  for (const double cos_angle : {0.5, -2.}) {
+    const internal::Candidate_graph graph =
+        internal::candidate_graph(candidates, cos_angle, CGAL::Parallel_if_available_tag());
+    std::vector<int> order(graph.order.begin(), graph.order.end());
+    std::sort(order.begin(), order.end());
+    for (int i = 0; i < int(candidates.size()); ++i) CHECK(order[i] == i);
+    for (int k = 0; k < int(candidates.size()); ++k) {
+      std::vector<int> expected, found;
+      for (int l = 0; l < int(candidates.size()); ++l) {
+        const auto &a = candidates[graph.order[k]], &b = candidates[graph.order[l]];
+        if (l != k && length(a.point - b.point) < a.radius + b.radius &&
+            dot(a.normal, b.normal) >= cos_angle)
+          expected.push_back(l);
+      }
+      graph.for_each_neighbor(k, [&](const auto& neighbor) { found.push_back(neighbor.place); });
+      CHECK(found == expected);
+    }
+  }
+}
+
 TEST_CASE("elimination against its definition")
 {
   for (unsigned seed = 0; seed < 3; ++seed) {

@@ -64,7 +64,7 @@ TEST_CASE("the topology of components is compared one by one")
       return star;
     };
     return internal::are_homeomorphic(
-        internal::surface_topology(s, Parallel_if_available_tag()),
+        *internal::known_topology(s, Parallel_if_available_tag()),
         internal::fan_topology(int(mesh.points.size()), star, Sequential_tag()), facets);
   };
   using namespace shapes;

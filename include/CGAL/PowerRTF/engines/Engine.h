@@ -22,7 +22,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -74,10 +73,9 @@ public:
     for (auto array : {&E::m_status, &E::m_is_left_out}) f(array, cells);
   }
 
-  std::unique_ptr<Lattice_field_base> make_lattice_field(const std::vector<Lattice_nodes>& levels,
-                                                         bool is_even, std::uint64_t seed) override
+  std::unique_ptr<Lattice_field_base> make_lattice_field(const Lattice_plan& plan) override
   {
-    return std::make_unique<Lattice_field<Backend>>(m_backend, levels, is_even, seed);
+    return std::make_unique<Lattice_field<Backend>>(m_backend, m_surface.view(), plan);
   }
   void set_samples(const Engine_samples& samples) override;
   void build_cells() override;

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
+#include <CGAL/PowerRTF/geometry/Packed_surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
@@ -19,41 +20,10 @@
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// The surface as an engine gets it: its vertices in their order, its facets in that of their tree,
-/// which owns them and has to live as long.
-struct Packed_surface {
-  Surface_view<double> facets;                                  ///< the tree's
-  internal::Unset_vector<int> facet_vertices;                   ///< three per facet
-  internal::Unset_vector<Vertex_attributes<double>> attributes; ///< per vertex
-  double area = 0;
-  // For rules that ask for the nearest vertices; else empty:
-  std::vector<Vec3d> vertices;
-  std::vector<Child_boxes> vertex_nodes; ///< of a `Packed_tree_layout` over the vertices
-  /// The facets at vertex v are `vertex_facets[first_facet[v]]` and so on to `first_facet[v + 1]`
-  /// (places in the tree, by increasing number in the surface).
-  std::vector<int> first_facet, vertex_facets;
-
-  /// All of it; lives as long as this.
-  Surface_view<double> view() const
-  {
-    Surface_view<double> all = facets;
-    all.facet_vertices = facet_vertices.data();
-    all.attributes = attributes.data();
-    if (vertices.empty()) return all;
-    all.vertices = vertices.data();
-    all.vertex_nodes = vertex_nodes.data();
-    all.vertex_tree = Packed_tree_layout(int(vertices.size()));
-    all.first_facet = first_facet.data();
-    all.vertex_facets = vertex_facets.data();
-    return all;
-  }
-};
 
 /// Whether a rule looks at the vertices nearest to a point.
 inline bool asks_for_vertices(const Remeshing_options& options)
@@ -88,9 +58,7 @@ class Engine_base {
 public:
   virtual ~Engine_base() = default;
   /// As `Make_lattice_field`. The engine has to live as long as the result.
-  virtual std::unique_ptr<Lattice_field_base>
-  make_lattice_field(const std::vector<Lattice_nodes>& levels, bool is_even,
-                     std::uint64_t seed) = 0;
+  virtual std::unique_ptr<Lattice_field_base> make_lattice_field(const Lattice_plan& plan) = 0;
   /// Takes the samples with cells into spatial order; the others keep theirs. Weights become 0.
   virtual void set_samples(const Engine_samples& samples) = 0;
   virtual void build_cells() = 0;

@@ -23,9 +23,10 @@ std::size_t Engine<R, B, C>::bytes(const Run_sizes& sizes, const Remeshing_optio
   const bool has_lbfgs = options.position_method == Position_method::lbfgs;
   const bool has_newton = options.weight_method == Weight_method::newton;
   // The lattice goes before the samples come, and the steps of L-BFGS before Newton's.
-  const std::size_t sampling = options.sampling == Sampling::lattice
-                                   ? Lattice_field<B>::bytes(sizes.samples, sizes.is_even)
-                                   : 0;
+  const std::size_t sampling =
+      options.sampling == Sampling::lattice
+          ? Lattice_field<B>::bytes(sizes.samples, sizes.facets, sizes.is_even)
+          : 0;
   const bool has_features = sizes.has_patches; // which creases part
   const std::size_t samples = bytes_of_listed<Engine>(n, n, sizes.has_patches, has_features) +
                               C::bytes(n, has_features) + B::sort_bytes(n);

@@ -6,13 +6,12 @@
 #define CGAL_POWER_RTF_ENGINES_SURFACE_ENGINE_IMPL_H
 
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
-#include <CGAL/PowerRTF/engines/packed_surface.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/pack_surface.h>
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -62,7 +61,8 @@ CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
 CGAL_POWER_RTF_INLINE Engine_base& Surface_engine_base::engine()
 {
   if (!m_engine) { // only now the surface's normals and density are what they will be
-    m_packed = internal::packed_surface(m_surface, facet_tree(), m_options, m_concurrency);
+    m_packed = internal::packed_surface(m_surface, facet_tree(), asks_for_vertices(m_options),
+                                        m_concurrency);
     m_engine = m_make(m_packed, m_options);
   }
   return *m_engine;
@@ -70,9 +70,7 @@ CGAL_POWER_RTF_INLINE Engine_base& Surface_engine_base::engine()
 
 CGAL_POWER_RTF_INLINE Make_lattice_field Surface_engine_base::lattice_field_maker()
 {
-  return [this](const std::vector<Lattice_nodes>& levels, bool is_even, std::uint64_t seed) {
-    return engine().make_lattice_field(levels, is_even, seed);
-  };
+  return [this](const Lattice_plan& plan) { return engine().make_lattice_field(plan); };
 }
 
 CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,

@@ -101,7 +101,7 @@ CGAL_POWER_RTF_HD constexpr float epsilon<float>()
 } // namespace internal
 
 template <class Real>
-inline Vec3<Real> to_real(const Vec3d& p)
+CGAL_POWER_RTF_HD inline Vec3<Real> to_real(const Vec3d& p)
 {
   return {Real(p.x), Real(p.y), Real(p.z)};
 }

@@ -5,10 +5,14 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_LATTICE_FIELD_H
 #define CGAL_POWER_RTF_SAMPLING_LATTICE_FIELD_H
 
+#include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
+#include <CGAL/PowerRTF/sampling/Lattice_level.h>
+#include <CGAL/PowerRTF/sampling/Lattice_plan.h>
+#include <CGAL/PowerRTF/sampling/lattice_candidates.h>
 #include <CGAL/PowerRTF/sampling/lattice_gaps.h>
+#include <CGAL/PowerRTF/sampling/lattice_points.h>
 #include <CGAL/PowerRTF/sampling/orientation_field.h>
 #include <CGAL/PowerRTF/sampling/position_field.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -47,53 +51,60 @@ struct Set_crests {
   }
 };
 
-struct Mark_chosen {
-  Choose_points choose;
-  unsigned char* result;
-  CGAL_POWER_RTF_HD void operator()(int i) const { result[i] = choose(i); }
-};
+/// Points of the lattice, and the node that each is nearest to, in increasing order.
+template <class Backend>
+struct Chosen_points {
+  typename Backend::template Buffer<int> nodes;
+  typename Backend::template Buffer<Seen_point> points;
 
-struct Find_mean_points {
-  Lattice_view view;
-  const Seen_point* seen;
-  const int* nodes;
-  Seen_point* result;
-  CGAL_POWER_RTF_HD void operator()(int k) const
-  {
-    result[k] = {mean_seen_point(view, seen, nodes[k]), seen[nodes[k]].distance};
-  }
+  int size() const { return static_cast<int>(nodes.size()); }
 };
 
 /// Each level is solved from the next coarser one's result by Jacobi's sweeps, so the fields are
 /// the same for any number of threads.
 template <class Backend>
 class Lattice_field final : public Lattice_field_base {
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
 public:
-  /// As `Make_lattice_field`. A backend of the host keeps references to the nodes.
-  Lattice_field(Backend& backend, const std::vector<Lattice_nodes>& levels, bool is_even,
-                std::uint64_t seed)
-      : m_backend(backend), m_is_turning(!is_even), m_seed(seed)
+  /// As `Make_lattice_field`; the nodes are points of `surface`, which the backend sees.
+  template <class Real>
+  Lattice_field(Backend& backend, const Surface_view<Real>& surface, const Lattice_plan& plan)
+      : m_backend(backend), m_plan(plan)
   {
+    m_bases.set(m_backend, plan.strata.bases);
+    m_components.set(m_backend, plan.strata.components);
+    m_sums.set(m_backend, plan.strata.sums);
+    m_shares.set(m_backend, plan.shares);
     float reach = neighbor_reach;
-    for (const Lattice_nodes& nodes : levels) {
-      m_levels.emplace_back();
-      m_levels.back().set_nodes(m_backend, nodes, reach);
+    for (std::size_t l = 0; l < plan.free.size(); ++l) {
+      const auto make_nodes = [&](Level& level) {
+        m_backend.for_each(
+            level.free, Make_node<Real>{surface, strata(), plan.cube, m_shares.data(), level.free,
+                                        plan.seed_of(l), level.points.data(), level.normals.data(),
+                                        level.components.data(), level.spacing.data()});
+      };
+      m_levels.emplace_back(m_backend, plan.free[l], plan.sites[l], reach, make_nodes);
       reach *= 2;
     }
   }
 
   /// The most that fields for so many points hold at a time on a device: while the finest level's
-  /// points are placed, or chosen.
-  static std::size_t bytes(std::size_t points, bool is_even)
+  /// points are placed, or chosen, or become candidates.
+  static std::size_t bytes(std::size_t points, std::size_t facets, bool is_even)
   {
     const std::vector<std::size_t> sizes = lattice_levels(points);
     const std::size_t n = sizes.front(), coarser = sizes.size() > 1 ? sizes[1] : 0;
-    std::size_t sum = Level::edges_bytes(n) + Level::solved_bytes(n, !is_even);
-    for (const std::size_t size : sizes) sum += Level::given_bytes(size);
+    std::size_t sum = Level::edges_bytes(n) + Level::solved_bytes(n, !is_even) +
+                      facets * (2 * sizeof(int) + sizeof(double));
+    for (const std::size_t size : sizes) sum += Level::node_bytes(size);
+    const std::size_t selecting = n * (sizeof(unsigned char) + sizeof(int));
+    const std::size_t chosen = points * (sizeof(int) + sizeof(Seen_point));
     const std::size_t placing = n * sizeof(Stored_waves) + Level::solved_bytes(coarser, !is_even);
-    const std::size_t choosing = n * (sizeof(Seen_point) + sizeof(unsigned char) + sizeof(int)) +
-                                 points * sizeof(Seen_point);
-    return sum + (std::max)(placing, choosing);
+    const std::size_t choosing = n * sizeof(Seen_point) + selecting + chosen;
+    const std::size_t gathering = chosen + selecting + points * sizeof(Sample_candidate);
+    return sum + (std::max)({placing, choosing, gathering});
   }
 
   void solve(float factor) override
@@ -115,50 +126,56 @@ public:
     }
   }
 
-  Chosen_points points() override
+  std::size_t find_points() override
   {
-    const Lattice_view view = this->view();
-    Buffer<Seen_point> seen, means;
-    Buffer<unsigned char> is_chosen;
-    Buffer<int> nodes;
-    seen.allocate(m_backend, view.size);
-    is_chosen.allocate(m_backend, view.free);
-    m_backend.for_each(view.size, See_points{view, seen.data()});
-    m_backend.for_each(view.free, Mark_chosen{{view, seen.data()}, is_chosen.data()});
-    nodes.allocate(m_backend, view.free);
-    const int size = m_backend.select(view.free, is_chosen.data(), nodes.data());
-    means.allocate(m_backend, size);
-    m_backend.for_each(size, Find_mean_points{view, seen.data(), nodes.data(), means.data()});
-    Chosen_points chosen;
-    chosen.nodes.resize(size);
-    chosen.points.resize(size);
-    m_backend.download(chosen.nodes.data(), nodes.data(), size);
-    m_backend.download(chosen.points.data(), means.data(), size);
-    return chosen;
+    choose_points();
+    return m_chosen.size() - count_twins(m_chosen);
   }
 
-  std::size_t count_twins(const Chosen_points& points) override
+  Sample_candidates candidates() override
+  {
+    Buffer<unsigned char> is_wanted = gaps(m_chosen);
+    return candidates(m_chosen.size(), is_wanted);
+  }
+
+  Sample_candidates nodes_of(const std::vector<unsigned char>& is_wanted) override
+  {
+    const Lattice_view view = this->view();
+    Given<unsigned char> of_component;
+    of_component.set(m_backend, is_wanted);
+    Buffer<unsigned char> of_node;
+    of_node.allocate(m_backend, view.free);
+    m_backend.for_each(view.free,
+                       Mark_components{view.components, of_component.data(), of_node.data()});
+    return candidates(0, of_node);
+  }
+
+  /// Those that were found last.
+  const Chosen_points<Backend>& points() const { return m_chosen; }
+
+  /// How many of some points have another one nearly at the same place.
+  std::size_t count_twins(const Chosen_points<Backend>& points)
   {
     const Placing placing(m_backend, view(), points, 0);
     Buffer<unsigned char> is_twin;
     Buffer<int> twins;
-    is_twin.allocate(m_backend, points.nodes.size());
-    twins.allocate(m_backend, points.nodes.size());
-    const int size = static_cast<int>(points.nodes.size());
-    m_backend.for_each(size, Mark_twin{placing.view(), is_twin.data()});
-    return m_backend.select(size, is_twin.data(), twins.data());
+    is_twin.allocate(m_backend, points.size());
+    twins.allocate(m_backend, points.size());
+    m_backend.for_each(points.size(), Mark_twin{placing.view(), is_twin.data()});
+    return m_backend.select(points.size(), is_twin.data(), twins.data());
   }
 
-  std::vector<unsigned char> gaps(const Chosen_points& points) override
+  /// Of each free node, whether none of the points and of the sites on creases and borders is near,
+  /// or its component has no lattice.
+  Buffer<unsigned char> gaps(const Chosen_points<Backend>& points)
   {
     const Lattice_view view = this->view();
     const Placing placing(m_backend, view, points, view.size - view.free);
     Buffer<unsigned char> is_gap;
     is_gap.allocate(m_backend, view.free);
-    m_backend.for_each(view.free, Mark_gap{placing.view(), is_gap.data()});
-    std::vector<unsigned char> gaps(view.free);
-    m_backend.download(gaps.data(), is_gap.data(), gaps.size());
-    return gaps;
+    m_backend.for_each(view.free,
+                       Mark_gap_or_small{{placing.view(), is_gap.data()}, m_shares.data()});
+    return is_gap;
   }
 
   /// Of the finest level.
@@ -169,18 +186,16 @@ private:
   static constexpr int coarsest_sweeps = 100, direction_sweeps = 10, wave_sweeps = 12,
                        last_wave_sweeps = 8;
   static constexpr float wave_acceleration = 1.6f; // without: 30 and 15 sweeps
-  static constexpr int turning_sweeps = 3;
-  static constexpr float neighbor_reach = 1.04f;    // of 4 nodes per point: 15 others are within
-  static constexpr float cos_neighbor_angle = 0.2f; // nodes on the other side of a sheet are none
+  static constexpr float neighbor_reach = 1.04f;   // of 4 nodes per point: 15 others are within
 
-  template <class T>
-  using Buffer = typename Backend::template Buffer<T>;
+  using Level = Lattice_level<Backend>;
 
-  /// An array of the nodes where the backend sees it.
+  /// An array of the host's where the backend sees it.
   template <class T>
   class Given {
   public:
-    void set(Backend& backend, const internal::Unset_vector<T>& from)
+    template <class Items>
+    void set(Backend& backend, const Items& from)
     {
       m_data = from.data();
       if constexpr (!Backend::is_host) {
@@ -200,18 +215,16 @@ private:
   class Placing {
   public:
     /// Of the points, and the first `sites` sites.
-    Placing(Backend& backend, const Lattice_view& nodes, const Chosen_points& points, int sites)
+    Placing(Backend& backend, const Lattice_view& nodes, const Chosen_points<Backend>& points,
+            int sites)
         : m_nodes(nodes)
     {
-      const int given = static_cast<int>(points.nodes.size()), size = given + sites;
+      const int given = points.size(), size = given + sites;
       m_seen_from.allocate(backend, size);
-      m_seen.allocate(backend, given);
       m_points.allocate(backend, size);
       m_distances.allocate(backend, size);
-      backend.upload(m_seen_from.data(), points.nodes.data(), given);
-      backend.upload(m_seen.data(), points.points.data(), given);
-      backend.for_each(size, Place_points{nodes, given, m_seen.data(), m_seen_from.data(),
-                                          m_points.data(), m_distances.data()});
+      backend.for_each(size, Place_points{nodes, given, points.nodes.data(), points.points.data(),
+                                          m_seen_from.data(), m_points.data(), m_distances.data()});
       m_tree.emplace(backend, m_points.data(), size);
     }
 
@@ -223,121 +236,25 @@ private:
   private:
     Lattice_view m_nodes;
     Buffer<int> m_seen_from;
-    Buffer<Seen_point> m_seen;
     Buffer<Vec3d> m_points;
     Buffer<float> m_distances;
     std::optional<Point_tree<Backend, double>> m_tree;
-  };
-
-  struct Level {
-    int size = 0, free = 0;
-    Given<Vec3f> points, normals;
-    Given<int> components;
-    Given<float> spacing;
-    float scale = 1, reach = 0;
-    const Phasor* site_directions = nullptr; // where the nodes were given
-    Given<unsigned char> is_directed;
-    Buffer<Vec3f> turning, axes;
-    Buffer<Lattice_edge> edges;
-    Buffer<Stored_waves> waves;
-
-    Lattice_view view()
-    {
-      Lattice_view v;
-      v.size = size;
-      v.free = free;
-      v.points = points.data();
-      v.normals = normals.data();
-      v.components = components.data();
-      v.node_spacing = spacing.data();
-      v.scale = scale;
-      v.edges = edges.data();
-      v.turning = turning.size() > 0 ? turning.data() : nullptr;
-      v.axes = axes.data();
-      v.waves = waves.data();
-      return v;
-    }
-
-    /// Calls `f(array, nodes' array)`, but for those of sites.
-    template <class F>
-    static void for_each_given(F&& f)
-    {
-      f(&Level::points, &Lattice_nodes::points);
-      f(&Level::normals, &Lattice_nodes::normals);
-      f(&Level::components, &Lattice_nodes::components);
-      f(&Level::spacing, &Lattice_nodes::spacing);
-    }
-    // What n free nodes take on a device: as they come; in between; until the finer level has it.
-    static std::size_t given_bytes(std::size_t n)
-    {
-      std::size_t bytes = 0;
-      for_each_given([&](auto array, auto) { bytes += n * internal::item_size(array); });
-      return bytes;
-    }
-    static std::size_t edges_bytes(std::size_t n)
-    {
-      return n * Lattice_view::degree * sizeof(Lattice_edge);
-    }
-    static std::size_t solved_bytes(std::size_t n, bool is_turning)
-    {
-      return n * ((is_turning ? 2 : 1) * sizeof(Vec3f) + sizeof(Stored_waves));
-    }
-
-    void set_nodes(Backend& backend, const Lattice_nodes& nodes, float neighbor_reach)
-    {
-      size = nodes.size();
-      free = nodes.free;
-      reach = neighbor_reach;
-      for_each_given([&](auto to, auto from) { (this->*to).set(backend, nodes.*from); });
-      site_directions = nodes.directions.data();
-      is_directed.set(backend, nodes.is_directed);
-    }
-
-    void find_turning(Backend& backend)
-    {
-      turning.allocate(backend, size);
-      backend.for_each(size, Set_turning{view()});
-      Buffer<Vec3f> next_turning;
-      next_turning.allocate(backend, size);
-      for (int sweep = 0; sweep < turning_sweeps; ++sweep) {
-        backend.for_each(size, Smooth_turning{view(), next_turning.data()});
-        std::swap(turning, next_turning);
-      }
-    }
-
-    /// If they are not known.
-    void find_neighbors(Backend& backend)
-    {
-      if (edges.size() > 0) return;
-      edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
-      const Point_tree tree(backend, points.data(), size);
-      backend.for_each(tree.view().leaves(),
-                       Find_lattice_neighbors{view(), tree.view(), cos_neighbor_angle, reach});
-    }
-
-    /// Frees what finer levels need no longer.
-    void release()
-    {
-      turning = {};
-      axes = {};
-      waves = {};
-    }
   };
 
   /// `coarser`: has axes; null: there is none.
   void orient(Level& level, Level* coarser, int sweeps)
   {
     level.axes.allocate(m_backend, level.size);
-    if (m_is_turning) level.find_turning(m_backend);
+    if (!m_plan.is_even) level.find_turning(m_backend);
     Buffer<Phasor> directions, next;
     for (Buffer<Phasor>* b : {&directions, &next}) b->allocate(m_backend, level.size);
-    m_backend.upload(directions.data() + level.free, level.site_directions,
-                     level.size - level.free);
+    m_backend.upload(directions.data() + level.free, level.sites->directions.data(),
+                     level.sites->size());
     const Lattice_view view = level.view();
     if (coarser)
       m_backend.for_each(view.free, Refine_direction{coarser->view(), view, directions.data()});
     else
-      m_backend.for_each(view.free, Draw_direction{view, m_seed, directions.data()});
+      m_backend.for_each(view.free, Draw_direction{view, m_plan.seed, directions.data()});
     m_backend.for_each(view.size, Set_direction_edges{view});
     internal::Progress_part part(0);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -369,10 +286,55 @@ private:
     }
   }
 
+  Strata_view strata() const
+  {
+    return {static_cast<int>(m_plan.strata.bases.size()), m_bases.data(), m_components.data(),
+            m_sums.data()};
+  }
+
+  void choose_points()
+  {
+    const Lattice_view view = this->view();
+    Buffer<Seen_point> seen;
+    Buffer<unsigned char> is_chosen;
+    Buffer<int> nodes;
+    seen.allocate(m_backend, view.size);
+    is_chosen.allocate(m_backend, view.free);
+    m_backend.for_each(view.size, See_points{view, seen.data()});
+    m_backend.for_each(view.free,
+                       Mark_chosen{{view, seen.data()}, m_shares.data(), is_chosen.data()});
+    nodes.allocate(m_backend, view.free);
+    const int size = m_backend.select(view.free, is_chosen.data(), nodes.data());
+    m_chosen.nodes.allocate(m_backend, size);
+    m_chosen.points.allocate(m_backend, size);
+    m_backend.for_each(size, Find_mean_points{view, seen.data(), nodes.data(),
+                                              m_chosen.nodes.data(), m_chosen.points.data()});
+  }
+
+  /// The first `points` of the lattice's, and the free nodes that are wanted.
+  Sample_candidates candidates(int points, const Buffer<unsigned char>& is_wanted)
+  {
+    const Lattice_view view = this->view();
+    Buffer<int> nodes;
+    Buffer<Sample_candidate> candidates;
+    nodes.allocate(m_backend, view.free);
+    const int size = points + m_backend.select(view.free, is_wanted.data(), nodes.data());
+    candidates.allocate(m_backend, size);
+    m_backend.for_each(size, Make_candidate{view, strata(), m_plan.seed_of(0), points,
+                                            m_chosen.nodes.data(), m_chosen.points.data(),
+                                            nodes.data(), candidates.data()});
+    Sample_candidates result(size);
+    m_backend.download(result.data(), candidates.data(), result.size());
+    return result;
+  }
+
   Backend& m_backend;
-  bool m_is_turning;
-  std::uint64_t m_seed;
+  const Lattice_plan& m_plan;
+  Given<int> m_bases, m_components; // the plan's strata
+  Given<double> m_sums;
+  Given<Component_share> m_shares;
   std::deque<Level> m_levels; // from fine to coarse
+  Chosen_points<Backend> m_chosen;
 };
 
 } // namespace CGAL::PowerRTF

@@ -3,7 +3,7 @@
 //
 // Samples that begin as a hexagonal lattice wherever the surface lets them:
 //
-//   put nodes on the surface, `nodes_per_lattice_point` times as many as samples
+//   put nodes on the surface, `nodes_per_lattice_point` times as many as samples (plan_lattice.h)
 //   find the directions of the rows on them (orientation_field.h)
 //   repeat: find the places of the lattice's points (position_field.h), count them, and scale the
 //     spacing, until there are n of them but for 3.5 %
@@ -14,18 +14,18 @@
 #define CGAL_POWER_RTF_SAMPLING_LATTICE_SAMPLER_H
 
 #include <CGAL/PowerRTF/features/Feature_samples.h>
-#include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/errors.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
 #include <CGAL/PowerRTF/sampling/Lattice_fields.h>
-#include <CGAL/PowerRTF/sampling/Surface_strata.h>
+#include <CGAL/PowerRTF/sampling/Lattice_plan.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
 #include <CGAL/PowerRTF/sampling/lattice_defects.h>
-#include <CGAL/PowerRTF/sampling/lattice_points.h>
+#include <CGAL/PowerRTF/sampling/plan_lattice.h>
 #include <CGAL/PowerRTF/sampling/sample_elimination.h>
 
 #include <algorithm>
@@ -33,19 +33,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// A point that may become a sample.
-struct Sample_candidate {
-  Vec3d point;
-  int node;       ///< where the lattice is seen from
-  float distance; ///< of the two, relative to the spacing; -1: the point is the node
-};
 
 template <class Backend>
 class Lattice_sampler {
@@ -55,11 +45,12 @@ public:
                   const Feature_samples& features, const std::vector<int>& component,
                   const std::vector<Component_share>& shares, std::uint64_t seed)
       : m_backend(backend), m_surface(surface), m_tree(tree), m_features(features),
-        m_component(component), m_shares(shares), m_seed(seed), m_cube(surface)
+        m_component(component), m_shares(shares), m_seed(seed),
+        m_cube(cube_around(surface, backend.concurrency()))
   {
     for (const Component_share& share : shares) {
       m_size += share.samples;
-      if (share.samples >= min_lattice) m_lattice_size += share.samples;
+      if (has_lattice(share)) m_lattice_size += share.samples;
     }
   }
 
@@ -67,38 +58,45 @@ public:
   Samples run(const Make_lattice_field& make, const Find_facets& find)
   {
     internal::Progress_part part(0.05);
-    make_nodes();
+    const Lattice_plan plan = this->plan();
+    std::vector<std::vector<int>> candidates;
     {
-      const auto field = make(m_levels, has_uniform_density(m_surface), m_seed);
+      const auto field = make(plan);
       part.next(0.8);
       find_points(*field);
       part.next(0.85);
-      add_candidates(*field);
+      m_candidates = field->candidates();
+      candidates = candidates_of_components(*field);
     }
-    m_levels.resize(1);
     part.next(1);
-    return eliminate(find);
+    return eliminate(candidates, plan.sites.front(), find);
   }
 
   /// Samples of the last run that are no points of the lattice.
   std::size_t off_lattice() const { return m_off_lattice; }
 
-  /// What `run()` begins with, made by this backend.
-  Lattice_fields fields()
+  /// What `run()` begins with, made by this backend. `surface`: in the order of the tree.
+  Lattice_fields fields(const Surface_view<double>& surface)
   {
-    make_nodes();
-    Lattice_field<Backend> field(m_backend, m_levels, has_uniform_density(m_surface), m_seed);
+    const Lattice_plan plan = this->plan();
+    Lattice_field<Backend> field(m_backend, surface, plan);
     find_points(field);
-    set_candidates([](int) { return false; });
-    return described(field.view());
+    m_candidates = field.candidates();
+    m_candidates.resize(field.points().size());
+    return described(field);
   }
 
 private:
   static constexpr double tolerance = 0.035;
   static constexpr int max_scalings = 2;
-  static constexpr std::size_t min_lattice = 50; // samples of a component
-  static constexpr double max_beyond = 0.05;     // a border, relative to the spacing
-  static constexpr double cos_same_side = 0.2;   // of normals
+  static constexpr double max_beyond = 0.05;   // a border, relative to the spacing
+  static constexpr double cos_same_side = 0.2; // of normals
+
+  Lattice_plan plan() const
+  {
+    return lattice_plan(m_surface, m_cube, m_tree, m_features, m_component, m_shares, m_seed,
+                        m_backend.concurrency());
+  }
 
   /// The fields, and the points with their number scaled to what is wanted.
   void find_points(Lattice_field_base& field)
@@ -110,8 +108,7 @@ private:
       part.next(1 - 0.3 / (step + 1)); // mostly one step does
       field.solve(static_cast<float>(scale));
       part.next(1 - 0.2 / (step + 1));
-      choose_points(field);
-      const double count = static_cast<double>(m_chosen.nodes.size() - field.count_twins(m_chosen));
+      const double count = static_cast<double>(field.find_points());
       const double wanted = static_cast<double>(m_lattice_size);
       if (step == max_scalings || std::fabs(count - wanted) <= tolerance * wanted || count == 0)
         break;
@@ -119,199 +116,90 @@ private:
     }
   }
 
-  void make_nodes()
+  /// The places of each component's candidates. Where these are too few, because no lattice fits,
+  /// all its nodes are added.
+  std::vector<std::vector<int>> candidates_of_components(Lattice_field_base& field)
   {
-    const Surface_strata strata(m_surface, m_component, m_shares, m_backend.concurrency());
-    const double most = nodes_per_lattice_point * static_cast<double>(m_size);
-    if (most + static_cast<double>(m_features.sites.size()) >= Lattice_edge::none)
-      throw Invalid_input_error(
-          std::to_string(m_size) +
-          " samples are more than a lattice can have: use another `sampling`");
-    for (const std::size_t count : lattice_levels(m_size)) {
-      const std::size_t stride = std::size_t(1) << m_levels.size(); // twice as far apart each
-      const std::size_t sites = (m_features.sites.size() + stride - 1) / stride;
-      m_levels.emplace_back();
-      add_strata(strata, static_cast<int>(count), sites, m_levels.back());
-      add_sites(stride, m_levels.back());
-    }
-  }
-
-  /// Free nodes, and room for sites.
-  void add_strata(const Surface_strata& strata, int count, std::size_t sites, Lattice_nodes& nodes)
-  {
-    const std::size_t level = m_levels.size();
-    if (level == 1) m_facets.resize(count);
-    nodes.resize(count, sites);
-    m_backend.for_each(count, [&](int i) {
-      const auto [f, w] = strata.place(i, count, m_seed + level);
-      const Triangle& t = m_surface.triangles[f];
-      const auto& p = m_surface.points;
-      set_node(i, w[0] * p[t[0]] + w[1] * p[t[1]] + w[2] * p[t[2]],
-               interpolated_normal(m_surface, f, w), interpolated_density(m_surface, f, w),
-               m_component[f], nodes);
-      if (level == 1) m_facets[i] = f;
-    });
-  }
-
-  /// Every `stride`-th of the sites on creases and borders. The lattice's rows follow these where
-  /// they do not turn.
-  void add_sites(std::size_t stride, Lattice_nodes& nodes)
-  {
-    constexpr double straight = 0.8; // cosine
-    const Samples& sites = m_features.sites;
-    std::vector<int> before(sites.size(), -1);
-    for (std::size_t s = 0; s < sites.size(); ++s)
-      if (m_features.next[s] >= 0) before[m_features.next[s]] = static_cast<int>(s);
-    m_backend.for_each(nodes.size() - nodes.free, [&](int k) {
-      const int i = nodes.free + k, at = static_cast<int>(k * stride);
-      set_node(i, sites.points[at], sites.normals[at], sites.density[at],
-               m_component[sites.facets[at]], nodes);
-      nodes.directions[k] = {};
-      nodes.is_directed[k] = 0;
-      const auto way = [&](int from, int to) {
-        return from < 0 || to < 0 ? Vec3d{0, 0, 0}
-                                  : normalized(sites.points[to] - sites.points[from]);
-      };
-      const Vec3d in = way(before[at], at), out = way(at, m_features.next[at]);
-      if (!(dot(in, out) > straight)) return;
-      const Tangent_frame<double> frame(sites.normals[at]);
-      const Vec3d along = in + out;
-      nodes.is_directed[k] = 1;
-      nodes.directions[k] = unit(sixth_power(unit(
-          {static_cast<float>(dot(along, frame.u)), static_cast<float>(dot(along, frame.v))})));
-    });
-  }
-
-  void set_node(int i, const Vec3d& point, const Vec3d& normal, double density, int component,
-                Lattice_nodes& nodes) const
-  {
-    nodes.points[i] = to_real<float>(m_cube.to_inside(point));
-    nodes.normals[i] = to_real<float>(normal);
-    nodes.components[i] = component;
-    const double cell = m_shares[component].cell_mass / density; // sqrt(3) / 2 h^2
-    nodes.spacing[i] = static_cast<float>(m_cube.scale * std::sqrt(2 / std::sqrt(3.) * cell));
-  }
-
-  void choose_points(Lattice_field_base& field)
-  {
-    m_chosen = field.points();
-    const std::vector<int> kept =
-        internal::select(m_backend.concurrency(), static_cast<int>(m_chosen.nodes.size()),
-                         [&](int k) { return has_lattice(m_chosen.nodes[k]); });
-    if (kept.size() == m_chosen.nodes.size()) return;
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      m_chosen.nodes[k] = m_chosen.nodes[kept[k]];
-      m_chosen.points[k] = m_chosen.points[kept[k]];
-    }
-    m_chosen.nodes.resize(kept.size());
-    m_chosen.points.resize(kept.size());
-  }
-
-  bool has_lattice(int node) const
-  {
-    return m_shares[m_levels.front().components[node]].samples >= min_lattice;
-  }
-
-  /// The lattice's points, and the nodes in its gaps.
-  void add_candidates(Lattice_field_base& field)
-  {
-    const std::vector<unsigned char> is_gap = field.gaps(m_chosen);
-    set_candidates([&](int i) { return !has_lattice(i) || is_gap[i]; });
-  }
-
-  /// Makes candidates of the lattice's points, then of the free nodes that are wanted.
-  template <class IsWanted>
-  void set_candidates(IsWanted is_wanted)
-  {
-    const int points = static_cast<int>(m_chosen.nodes.size());
-    const std::vector<int> nodes = wanted_nodes(is_wanted);
-    m_candidates.resize(points + nodes.size());
-    m_backend.for_each(static_cast<int>(m_candidates.size()), [&](int k) {
-      if (k >= points) {
-        m_candidates[k] = candidate(nodes[k - points]);
-        return;
-      }
-      const Seen_point& p = m_chosen.points[k];
-      m_candidates[k] = {to_double(p.point), m_chosen.nodes[k], p.distance};
-    });
-  }
-
-  template <class IsWanted>
-  std::vector<int> wanted_nodes(IsWanted is_wanted) const
-  {
-    return internal::select(m_backend.concurrency(), m_levels.front().free, is_wanted);
-  }
-  Sample_candidate candidate(int node) const
-  {
-    return {to_double(m_levels.front().points[node]), node, -1};
-  }
-
-  /// The samples of each component from its candidates.
-  Samples eliminate(const Find_facets& find)
-  {
-    const Lattice_nodes& nodes = m_levels.front();
     std::vector<std::vector<int>> candidates = candidates_of_components();
-    const std::vector<int> others = wanted_nodes([&](int i) { // no lattice fits
-      const int c = nodes.components[i];
-      return candidates[c].size() < m_shares[c].samples;
-    });
-    for (const int i : others) m_candidates.push_back(candidate(i));
-    if (!others.empty()) candidates = candidates_of_components();
-    std::vector<std::vector<int>> sites(m_shares.size());
-    for (int i = nodes.free; i < nodes.size(); ++i) sites[nodes.components[i]].push_back(i);
-    std::vector<std::vector<Sample_candidate>> chosen(m_shares.size());
-    for (std::size_t c = 0; c < m_shares.size(); ++c) {
-      const std::vector<int> places =
-          chosen_candidates(candidates[c], sites[c], m_shares[c].samples);
-      chosen[c].resize(places.size());
-      m_backend.for_each(static_cast<int>(places.size()),
-                         [&](int k) { chosen[c][k] = m_candidates[candidates[c][places[k]]]; });
-    }
-    const auto all = internal::concatenated(m_backend.concurrency(), chosen);
-    m_off_lattice =
-        internal::select(m_backend.concurrency(), static_cast<int>(all.size()), [&](int k) {
-          return all[k].distance < 0;
-        }).size();
-    return on_surface(all, find);
+    std::vector<unsigned char> lacks(m_shares.size());
+    for (std::size_t c = 0; c < lacks.size(); ++c)
+      lacks[c] = candidates[c].size() < m_shares[c].samples;
+    if (std::find(lacks.begin(), lacks.end(), 1) == lacks.end()) return candidates;
+    const Sample_candidates others = field.nodes_of(lacks);
+    m_candidates.insert(m_candidates.end(), others.begin(), others.end());
+    return candidates_of_components();
   }
 
   std::vector<std::vector<int>> candidates_of_components() const
   {
     std::vector<std::vector<int>> candidates(m_shares.size());
     if (m_shares.size() == 1) { // mostly
-      candidates[0].resize(m_candidates.size());
-      std::iota(candidates[0].begin(), candidates[0].end(), 0);
+      candidates[0] = all_candidates();
       return candidates;
     }
     for (std::size_t k = 0; k < m_candidates.size(); ++k)
-      candidates[m_levels.front().components[m_candidates[k].node]].push_back(static_cast<int>(k));
+      candidates[m_candidates[k].node.component].push_back(static_cast<int>(k));
     return candidates;
   }
 
-  /// The places of `n` of the candidates of a component.
-  std::vector<int> chosen_candidates(const std::vector<int>& candidates,
-                                     const std::vector<int>& sites, std::size_t n)
+  std::vector<int> all_candidates() const
   {
-    if (n == 0) return {};
-    const Lattice_nodes& nodes = m_levels.front();
-    const std::size_t free = candidates.size();
-    internal::Elimination_candidates all(free + sites.size());
-    m_backend.for_each(static_cast<int>(all.size()), [&](int k) {
-      const bool is_free = k < static_cast<int>(free);
-      const int i = is_free ? m_candidates[candidates[k]].node : sites[k - free];
-      all[k] = {is_free ? m_candidates[candidates[k]].point : to_double(nodes.points[i]),
-                to_double(nodes.normals[i]), 0.5 * double(nodes.spacing[i])};
-    });
-    return eliminate_samples(all, 0, n, sites.size(), m_backend.concurrency());
+    std::vector<int> all;
+    internal::resize_in_parallel(m_backend.concurrency(), all, m_candidates.size());
+    m_backend.for_each(static_cast<int>(all.size()), [&](int k) { all[k] = k; });
+    return all;
   }
 
-  template <class Candidates>
-  Samples on_surface(const Candidates& candidates, const Find_facets& find = {}) const
+  /// The samples of each component from its candidates.
+  Samples eliminate(const std::vector<std::vector<int>>& candidates, const Lattice_sites& sites,
+                    const Find_facets& find)
   {
-    const internal::Unset_vector<int> facets = nearest_facets(candidates, find);
-    internal::Unset_vector<Facet_place> places(candidates.size());
-    m_backend.for_each(static_cast<int>(places.size()),
-                       [&](int k) { places[k] = place_on_surface(candidates[k], facets[k]); });
+    std::vector<std::vector<int>> sites_of(m_shares.size());
+    for (std::size_t s = 0; s < sites.size(); ++s)
+      sites_of[sites.components[s]].push_back(static_cast<int>(s));
+    std::vector<std::vector<int>> chosen(m_shares.size());
+    for (std::size_t c = 0; c < m_shares.size(); ++c)
+      chosen[c] = chosen_candidates(candidates[c], sites, sites_of[c], m_shares[c].samples);
+    const std::vector<int> all = internal::concatenated(m_backend.concurrency(), chosen);
+    m_off_lattice =
+        internal::select(m_backend.concurrency(), static_cast<int>(all.size()), [&](int k) {
+          return m_candidates[all[k]].distance < 0;
+        }).size();
+    return on_surface(all, find);
+  }
+
+  /// `n` of the candidates of a component, whose sites are those in `sites_of`.
+  std::vector<int> chosen_candidates(const std::vector<int>& candidates, const Lattice_sites& sites,
+                                     const std::vector<int>& sites_of, std::size_t n)
+  {
+    if (n == 0) return {};
+    const int free = static_cast<int>(candidates.size());
+    internal::Elimination_candidates all(free + sites_of.size());
+    m_backend.for_each(static_cast<int>(all.size()), [&](int k) {
+      if (k < free) {
+        const Sample_candidate& c = m_candidates[candidates[k]];
+        all[k] = {to_double(c.point), to_double(c.node.normal), 0.5 * double(c.node.spacing)};
+      } else {
+        const int s = sites_of[k - free];
+        all[k] = {to_double(sites.points[s]), to_double(sites.normals[s]),
+                  0.5 * double(sites.spacing[s])};
+      }
+    });
+    std::vector<int> chosen =
+        eliminate_samples(all, 0, n, sites_of.size(), m_backend.concurrency());
+    m_backend.for_each(static_cast<int>(chosen.size()),
+                       [&](int k) { chosen[k] = candidates[chosen[k]]; });
+    return chosen;
+  }
+
+  /// The candidates that were chosen.
+  Samples on_surface(const std::vector<int>& chosen, const Find_facets& find) const
+  {
+    const internal::Unset_vector<int> facets = nearest_facets(chosen, find);
+    internal::Unset_vector<Facet_place> places(chosen.size());
+    m_backend.for_each(static_cast<int>(places.size()), [&](int k) {
+      places[k] = place_on_surface(m_candidates[chosen[k]], facets[k]);
+    });
     Samples samples;
     internal::add_samples(m_surface, places, samples, m_backend.concurrency());
     return samples;
@@ -319,23 +207,22 @@ private:
 
   /// The facets that are nearest to the candidates, on the nodes' side of a sheet; -1: there is
   /// none.
-  template <class Candidates>
-  internal::Unset_vector<int> nearest_facets(const Candidates& candidates,
+  internal::Unset_vector<int> nearest_facets(const std::vector<int>& chosen,
                                              const Find_facets& find) const
   {
-    const int n = static_cast<int>(candidates.size());
+    const int n = static_cast<int>(chosen.size());
     internal::Unset_vector<int> facets(n);
-    const auto point = [&](int k) { return m_cube.to_outside(candidates[k].point); };
-    const auto normal = [&](int k) {
-      return to_double(m_levels.front().normals[candidates[k].node]);
+    const auto candidate = [&](int k) -> const Sample_candidate& {
+      return m_candidates[chosen[k]];
     };
-    const auto near = [&](int k) { return m_facets[candidates[k].node]; };
+    const auto point = [&](int k) { return m_cube.to_outside(to_double(candidate(k).point)); };
+    const auto normal = [&](int k) { return to_double(candidate(k).node.normal); };
     if (find) {
       internal::Unset_vector<Vec3d> points(n), normals(n);
       m_backend.for_each(n, [&](int k) {
         points[k] = point(k);
         normals[k] = normal(k);
-        facets[k] = m_tree.place(near(k));
+        facets[k] = candidate(k).node.facet;
       });
       if (find(n, points.data(), normals.data(), cos_same_side, facets.data())) {
         m_backend.for_each(n, [&](int k) {
@@ -345,7 +232,8 @@ private:
       }
     }
     m_backend.for_each(n, [&](int k) {
-      facets[k] = m_tree.nearest(point(k), normal(k), cos_same_side, near(k)).facet;
+      const int near = m_tree.order()[candidate(k).node.facet];
+      facets[k] = m_tree.nearest(point(k), normal(k), cos_same_side, near).facet;
     });
     return facets;
   }
@@ -354,13 +242,13 @@ private:
   /// point of the lattice beyond a border, whose nearest point is on it.
   Facet_place place_on_surface(const Sample_candidate& candidate, int f) const
   {
-    const Lattice_nodes& nodes = m_levels.front();
-    Vec3d point = m_cube.to_outside(candidate.point);
-    if (f < 0) f = m_facets[candidate.node];
-    const double h = double(nodes.spacing[candidate.node]) / m_cube.scale;
+    const Lattice_node& node = candidate.node;
+    Vec3d point = m_cube.to_outside(to_double(candidate.point));
+    if (f < 0) f = m_tree.order()[node.facet];
+    const double h = double(node.spacing) / m_cube.scale;
     if (beyond(point, f) > max_beyond * h) {
-      point = m_cube.to_outside(to_double(nodes.points[candidate.node]));
-      f = m_facets[candidate.node];
+      point = m_cube.to_outside(to_double(node.point));
+      f = m_tree.order()[node.facet];
     }
     const auto [a, b, c] = corners(f);
     double beta, gamma;
@@ -383,8 +271,9 @@ private:
   }
 
   /// The fields for those who want to look at them.
-  Lattice_fields described(const Lattice_view& view) const
+  Lattice_fields described(Lattice_field<Backend>& field) const
   {
+    const Lattice_view view = field.view();
     Lattice_fields fields;
     for (int i = 0; i < view.size; ++i) {
       fields.nodes.push_back(m_cube.to_outside(to_double(view.points[i])));
@@ -399,8 +288,9 @@ private:
       fields.indices[i] = orientation_index(view, loop);
       fields.dislocations[i] = fields.indices[i] == 0 ? dislocation(view, loop) : 0;
     });
-    for (const Sample_candidate& c : m_candidates) fields.point_nodes.push_back(c.node);
-    fields.points = on_surface(m_candidates).points;
+    const int* const nodes = field.points().nodes.data();
+    fields.point_nodes.assign(nodes, nodes + field.points().size());
+    fields.points = on_surface(all_candidates(), {}).points;
     return fields;
   }
 
@@ -411,12 +301,9 @@ private:
   const std::vector<int>& m_component;
   const std::vector<Component_share>& m_shares;
   std::uint64_t m_seed;
-  Surface_cube m_cube; // the nodes' coordinates are inside
+  Surface_cube m_cube;                                           // of the nodes
   std::size_t m_size = 0, m_lattice_size = 0, m_off_lattice = 0; // samples
-  std::vector<Lattice_nodes> m_levels;                           // from fine to coarse
-  std::vector<int> m_facets; // of the free nodes of the finest level
-  Chosen_points m_chosen;    // of components with a lattice
-  internal::Unset_vector<Sample_candidate> m_candidates;
+  Sample_candidates m_candidates;
 };
 
 } // namespace CGAL::PowerRTF

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/geometry/component_topology.h>
+#include <CGAL/PowerRTF/sampling/Component_share.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,6 @@
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// What a component of the surface gets.
-struct Component_share {
-  std::size_t samples = 0; ///< without those on creases and borders
-  double mass = 0;         ///< the integral of the density
-  double cell_mass = 0;    ///< what is a sample's of it
-};
 
 namespace internal {
 

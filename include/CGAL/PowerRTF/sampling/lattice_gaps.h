@@ -30,14 +30,15 @@ struct Placed_points {
 struct Place_points {
   Lattice_view nodes;
   int given;
-  const Seen_point* seen; ///< those given; the nodes that these are seen from are set
+  const int* given_from; ///< the node that each of these is seen from
+  const Seen_point* seen;
   int* seen_from;
   Vec3d* points;
   float* distances;
 
   CGAL_POWER_RTF_HD void operator()(int p) const
   {
-    if (p >= given) seen_from[p] = nodes.free + p - given;
+    seen_from[p] = p < given ? given_from[p] : nodes.free + p - given;
     points[p] = to_double(p < given ? seen[p].point : nodes.points[seen_from[p]]);
     distances[p] = p < given ? seen[p].distance : 0;
   }

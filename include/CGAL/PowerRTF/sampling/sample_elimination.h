@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_SAMPLE_ELIMINATION_H
 #define CGAL_POWER_RTF_SAMPLING_SAMPLE_ELIMINATION_H
 
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/candidate_graph.h>
 
@@ -32,8 +33,10 @@ public:
   Sample_elimination(Candidate_graph&& graph, std::size_t fixed, Concurrency concurrency)
       : m_graph(std::move(graph)), m_concurrency(concurrency),
         m_size(static_cast<int>(m_graph.order.size())), m_free(m_size - static_cast<int>(fixed)),
-        m_is_alive(m_size, 1), m_weight(m_size, 0)
-  {}
+        m_is_alive(m_size), m_weight(m_size)
+  {
+    for_each_index(concurrency, m_size, [&](int k) { m_is_alive[k] = 1; });
+  }
 
   /// The free candidates that are left, increasing: `n`, or more that do not see each other.
   std::vector<int> run(std::size_t n)
@@ -51,7 +54,7 @@ public:
     std::nth_element(m_gone.begin(), end, m_gone.end(),
                      [&](int j, int k) { return comes_before(j, k); });
     for (auto k = end; k != m_gone.end(); ++k) m_is_alive[*k] = 1;
-    std::vector<char> is_left(m_size);
+    Unset_vector<char> is_left(m_size);
     for_each_index(m_concurrency, m_size,
                    [&](int k) { is_left[m_graph.order[k]] = m_is_alive[k] && is_free(k); });
     return select(m_concurrency, m_size, [&](int i) { return is_left[i]; });
@@ -65,8 +68,9 @@ private:
   template <class F>
   void for_each_alive_neighbor(int k, F&& f) const
   {
-    for (std::size_t e = m_graph.first[k]; e < m_graph.first[k + 1]; ++e)
-      if (m_is_alive[m_graph.neighbors[e].place]) f(m_graph.neighbors[e]);
+    m_graph.for_each_neighbor(k, [&](const auto& neighbor) {
+      if (m_is_alive[neighbor.place]) f(neighbor);
+    });
   }
 
   /// Weights are summed anew, not updated by subtraction: the last two neighbors have the same
@@ -88,10 +92,15 @@ private:
     return result;
   }
 
-  void eliminate(int k)
+  /// The items with `is_wanted(item)`.
+  template <class Is_wanted>
+  std::vector<int> selected(const std::vector<int>& items, const Is_wanted& is_wanted) const
   {
-    m_is_alive[k] = 0;
-    m_gone.push_back(k);
+    std::vector<int> result = select(m_concurrency, static_cast<int>(items.size()),
+                                     [&](int a) { return is_wanted(items[a]); });
+    for_each_index(m_concurrency, static_cast<int>(result.size()),
+                   [&](int b) { result[b] = items[result[b]]; });
+    return result;
   }
 
   /// A weight that some more than `count` of the candidates have, as far as a part of them shows.
@@ -119,16 +128,13 @@ private:
       return m_is_alive[k] && is_free(k) && m_weight[k] >= least;
     });
     for (int round = 0; round < max_rounds && !active.empty(); ++round) {
-      const int size = static_cast<int>(active.size());
-      for (const int a : select(m_concurrency, size, [&](int a) { return is_first(active[a]); }))
-        eliminate(active[a]);
-      for_each_index(m_concurrency, size, [&](int a) { update_weight(active[a]); });
-      std::vector<int> left;
-      for (const int a : select(m_concurrency, size, [&](int a) {
-             return m_is_alive[active[a]] && m_weight[active[a]] >= least;
-           }))
-        left.push_back(active[a]);
-      active.swap(left);
+      const std::vector<int> first = selected(active, [&](int k) { return is_first(k); });
+      for_each_index(m_concurrency, static_cast<int>(first.size()),
+                     [&](int a) { m_is_alive[first[a]] = 0; });
+      m_gone.insert(m_gone.end(), first.begin(), first.end());
+      for_each_index(m_concurrency, static_cast<int>(active.size()),
+                     [&](int a) { update_weight(active[a]); });
+      active = selected(active, [&](int k) { return m_is_alive[k] && m_weight[k] >= least; });
     }
     eliminate_in_turn(active, least);
   }
@@ -148,7 +154,8 @@ private:
       update_weight(k);
       if (m_weight[k] < least) continue;
       if (entry(k) == before) {
-        eliminate(k);
+        m_is_alive[k] = 0;
+        m_gone.push_back(k);
       } else {
         heap.emplace_back(entry(k), k);
         std::push_heap(heap.begin(), heap.end());
@@ -159,8 +166,8 @@ private:
   Candidate_graph m_graph;
   Concurrency m_concurrency;
   int m_size, m_free;
-  std::vector<char> m_is_alive;
-  std::vector<double> m_weight; // of those that have gone, the last one
+  Unset_vector<char> m_is_alive;
+  Unset_vector<double> m_weight; // of those that have gone, the last one
   std::vector<int> m_gone;
 };
 

@@ -6,14 +6,17 @@
 #define CGAL_POWER_RTF_SAMPLING_SAMPLE_SURFACE_IMPL_H
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/pack_surface.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/option_table.h>
+#include <CGAL/PowerRTF/sampling/Lattice_field.h>
+#include <CGAL/PowerRTF/sampling/Lattice_plan.h>
 #include <CGAL/PowerRTF/sampling/Lattice_sampler.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
+#include <CGAL/PowerRTF/sampling/unroll_surface.h>
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,8 +45,10 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
     if (!tree) tree = &own_tree.emplace(surface.points, surface.triangles, surface.facet_patches);
     Lattice_sampler<Backend> sampler(backend, surface, *tree, features, component, shares,
                                      options.random_seed);
-    const Make_lattice_field own_make = [&](const auto& levels, bool is_even, std::uint64_t seed) {
-      return std::make_unique<Lattice_field<Backend>>(backend, levels, is_even, seed);
+    Packed_surface packed;
+    const Make_lattice_field own_make = [&](const Lattice_plan& plan) {
+      packed = internal::packed_surface(surface, *tree, false, backend.concurrency());
+      return std::make_unique<Lattice_field<Backend>>(backend, packed.view(), plan);
     };
     samples = sampler.run(make ? make : own_make, find);
     if (off_lattice) *off_lattice = sampler.off_lattice();
@@ -72,9 +77,11 @@ Lattice_fields lattice_fields(const Surface& surface, const Remeshing_options& o
   const std::vector<int>& component = topology->component;
   const std::vector<Component_share> shares = component_shares(
       surface, options.number_of_samples, features, *topology, backend.concurrency());
+  const Packed_surface packed =
+      internal::packed_surface(surface, tree, false, backend.concurrency());
   return Lattice_sampler<Backend>(backend, surface, tree, features, component, shares,
                                   options.random_seed)
-      .fields();
+      .fields(packed.view());
 }
 
 } // namespace CGAL::PowerRTF

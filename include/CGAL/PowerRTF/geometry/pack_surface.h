@@ -1,12 +1,12 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The surface as an engine gets it.
-#ifndef CGAL_POWER_RTF_ENGINES_PACKED_SURFACE_H
-#define CGAL_POWER_RTF_ENGINES_PACKED_SURFACE_H
+// What engines work on is made from a surface and the tree of its facets.
+#ifndef CGAL_POWER_RTF_GEOMETRY_PACK_SURFACE_H
+#define CGAL_POWER_RTF_GEOMETRY_PACK_SURFACE_H
 
-#include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/geometry/Packed_surface.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -37,9 +37,9 @@ inline void add_vertex_tree(const Surface& surface, const Facet_tree& tree, Pack
       result.vertex_facets[end[v]++] = tree.place(static_cast<int>(f));
 }
 
-/// What an engine needs of `surface`; `tree`: of its facets.
+/// `tree`: of the surface's facets; `has_vertex_tree`: for rules that ask for the nearest vertices.
 inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& tree,
-                                     const Remeshing_options& options,
+                                     bool has_vertex_tree,
                                      Concurrency concurrency = Sequential_tag())
 {
   Packed_surface result;
@@ -54,10 +54,10 @@ inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& t
     const Triangle& t = surface.triangles[tree.order()[k]];
     std::copy(t.begin(), t.end(), &result.facet_vertices[3 * k]);
   });
-  if (asks_for_vertices(options)) add_vertex_tree(surface, tree, result);
+  if (has_vertex_tree) add_vertex_tree(surface, tree, result);
   return result;
 }
 
 } // namespace CGAL::PowerRTF::internal
 
-#endif // CGAL_POWER_RTF_ENGINES_PACKED_SURFACE_H
+#endif // CGAL_POWER_RTF_GEOMETRY_PACK_SURFACE_H
