@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_INTERNAL_PARALLEL_H
 
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/scan.h>
 
 #include <CGAL/tags.h>
 
@@ -19,7 +20,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -178,20 +178,13 @@ T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
 template <class T>
 T exclusive_scan(Concurrency concurrency, int n, T* values)
 {
-  constexpr int chunk = 4096;
-  std::vector<T> first((n + chunk - 1) / chunk + 1, T(0)); // of each chunk, and the end
-  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
-    first[begin / chunk + 1] = std::accumulate(values + begin, values + end, T(0));
-  });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
-    T sum = first[begin / chunk];
-    for (int i = begin; i < end; ++i) {
-      const T value = values[i];
-      values[i] = std::min(sum, first[begin / chunk + 1]); // rounding leads no further
-      sum += value;
-    }
-  });
+  const int chunks = Scan_chunk::count(n);
+  std::vector<T> first(scan_sums(n), T(0)); // of each chunk, and the end
+  const Add_up_chunk<T> add_up{n, values, first.data() + 1};
+  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { add_up(c); });
+  Add_up<T>{chunks + 1, first.data()}(0);
+  const Scan_in_chunk<T> scan{n, values, first.data()};
+  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { scan(c); });
   return first.back();
 }
 
