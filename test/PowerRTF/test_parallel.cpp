@@ -69,7 +69,13 @@ TEST_CASE("what is selected keeps its order")
     for (const Concurrency& concurrency : both) {
       std::vector<int> expected;
       for (int i = 0; i < n; i += 3) expected.push_back(i);
-      CHECK(select(concurrency, n, [](int i) { return i % 3 == 0; }) == expected);
+      const auto is_wanted = [](int i) { return i % 3 == 0; };
+      CHECK(select(concurrency, n, is_wanted) == expected);
+      std::vector<int> taken;
+      select(
+          concurrency, n, is_wanted, [&](int count) { taken.assign(count, -1); },
+          [&](int k, int i) { taken[k] = i; });
+      CHECK(taken == expected);
     }
 }
 

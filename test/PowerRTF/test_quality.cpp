@@ -14,6 +14,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -109,6 +110,52 @@ TEST_CASE("angles that are asked for are guarantees: met up to the bound, missed
   CHECK(missed(45, 80).size() == 2);
 }
 
+TEST_CASE("triangle quality: angles are found only where they count, the numbers are those of all")
+{
+  std::mt19937 random(5);
+  const auto unit = [&] { return random() / 4294967296.; };
+  for (const double height : {1., 1e-3, 1e-9, 0.}) { // up to needles and flat ones
+    Soup s = shapes::icosphere(1);
+    for (Vec3d& p : s.points) p.z *= height;
+    for (int k = 0; k < 3000; ++k) {
+      const int first = int(s.points.size());
+      for (int c = 0; c < 3; ++c) s.points.push_back({unit(), height * unit(), height * unit()});
+      s.points.back() += s.points[first] * double(k % 2);
+      s.triangles.push_back({first, first + 1, first + 2});
+    }
+    const double degrees = 45 / std::atan(1.0);
+    double least = 60, most = 60, sum = 0, below = 0, above = 0, part = 0;
+    for (std::size_t f = 0; f < s.triangles.size(); ++f) {
+      double smallest = 180, largest = 0;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3d &a = s.points[s.triangles[f][0]], &b = s.points[s.triangles[f][1]],
+                    &c = s.points[s.triangles[f][2]];
+        const Vec3d e[3] = {c - b, a - c, b - a};
+        const double angle =
+            std::atan2(length(cross(e[0], e[1])), -dot(e[(k + 1) % 3], e[(k + 2) % 3])) * degrees;
+        smallest = std::min(smallest, angle);
+        largest = std::max(largest, angle);
+        if (!(length(cross(e[0], e[1])) > 0)) smallest = 0, largest = 180;
+      }
+      least = std::min(least, smallest);
+      most = std::max(most, largest);
+      part += smallest;
+      below += smallest < 30;
+      above += largest > 90 && smallest > 0;
+      if (f % 1024 < 1023 && f + 1 < s.triangles.size()) continue; // the chunks of a reduction
+      sum += part;
+      part = 0;
+    }
+    const auto n = double(s.triangles.size());
+    const Quality_statistics q = triangle_quality(s.points, s.triangles);
+    CHECK(q.theta_min == least);
+    CHECK(q.theta_max == most);
+    CHECK(q.theta_min_avg == sum / n);
+    CHECK(q.below_30 == below / n);
+    CHECK(q.above_90 == above / n);
+  }
+}
+
 TEST_CASE("triangle quality: no triangle, no area")
 {
   CHECK(triangle_quality({}, {}).q_avg == 0);
@@ -143,6 +190,14 @@ TEST_CASE("edge lengths: every edge once")
     CHECK(o.min == Approx(std::sqrt(2.)));
     CHECK(o.max == Approx(std::sqrt(2.)));
   }
+  const Soup sphere = shapes::ellipsoid(1, 0.7, 0.4, 3); // closed: each edge from one of its facets
+  const Edge_length_statistics any = edge_lengths(sphere.points, sphere.triangles),
+                               closed = edge_lengths(sphere.points, sphere.triangles,
+                                                     CGAL::Sequential_tag(), true);
+  CHECK(closed.mean == Approx(any.mean));
+  CHECK(closed.median == any.median);
+  CHECK(closed.min == any.min);
+  CHECK(closed.max == any.max);
   CHECK(edge_lengths({}, {}).mean == 0);
   CHECK(edge_lengths({}, {}).min == 0);
 }
@@ -197,6 +252,50 @@ TEST_CASE("topology: borders")
   CHECK(one.non_manifold_vertices == 0);
   CHECK(topology({}).faces == 0);
   CHECK(topology({}).components == 0);
+}
+
+TEST_CASE("topology: that of an oriented manifold is what is counted of any triangles")
+{
+  using namespace shapes;
+  const auto vertices = [](const Soup& s) { return int(s.points.size()); };
+  const Soup with_gaps = [] { // unused vertices
+    Soup s = permuted(joined(torus(20, 9, 1, .4), plane_patch(3, 4)), 2);
+    for (Triangle& t : s.triangles)
+      for (int& v : t) v *= 2;
+    s.points.resize(2 * s.points.size());
+    return s;
+  }();
+  for (const Soup& s :
+       {icosphere(3), annulus(17), permuted(open_cylinder(9, 4, 1, 2), 1), two_spheres(2),
+        with_gaps, without_last(box(3)), without_last(torus(5, 4, 1, .3)),
+        Soup{{{}, {}, {}}, {{0, 1, 2}}}, Soup{{{}, {}, {}}, {{0, 1, 2}, {2, 1, 0}}}}) {
+    const Topology_statistics expected =
+        internal::soup_topology(s.triangles, vertices(s), CGAL::Sequential_tag());
+    const auto t =
+        internal::oriented_topology(s.triangles, vertices(s), CGAL::Parallel_if_available_tag());
+    REQUIRE(t);
+    CHECK(t->vertices == expected.vertices);
+    CHECK(t->edges == expected.edges);
+    CHECK(t->faces == expected.faces);
+    CHECK(t->components == expected.components);
+    CHECK(t->border_edges == expected.border_edges);
+    CHECK(t->border_loops == expected.border_loops);
+    CHECK(t->euler_characteristic == expected.euler_characteristic);
+    CHECK(expected.non_manifold_edges + expected.non_manifold_vertices == 0);
+    CHECK(expected.oriented);
+  }
+  using Triangles = std::vector<Triangle>;
+  for (const Triangles& defective :
+       {Triangles{{0, 1, 2}, {0, 3, 4}}, Triangles{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}},
+        Triangles{{0, 1, 2}, {0, 1, 3}}, Triangles{{0, 1, 2}, {0, 1, 2}}, Triangles{{0, 1, 1}},
+        Triangles{{0, 1, 2}, {2, 3, 2}}, permuted(moebius_strip(20), 1).triangles,
+        Triangles{{0, 1, 2}, {0, 2, 1}, {0, 3, 4}, {0, 4, 3}}})
+    CHECK_FALSE(internal::oriented_topology(defective, 100, CGAL::Sequential_tag()));
+  Triangles fan; // at a vertex of many facets
+  for (int k = 1; k < 200; ++k) fan.push_back({0, k, k + 1});
+  CHECK_FALSE(internal::oriented_topology(fan, 201, CGAL::Sequential_tag()));
+  CHECK(topology(fan).border_edges == 201);
+  CHECK(topology(fan).border_loops == 1);
 }
 
 TEST_CASE("the topology of a surface is that of its triangles")

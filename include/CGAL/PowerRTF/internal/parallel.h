@@ -151,6 +151,42 @@ std::vector<int> select(Concurrency concurrency, int n, F&& is_wanted)
   return concatenated(concurrency, parts);
 }
 
+/// Replaces each of n values, none negative, by the sum of those before it. The sums never fall.
+/// \returns the sum of all
+template <class T>
+T exclusive_scan(Concurrency concurrency, int n, T* values)
+{
+  const int chunks = Scan_chunk::count(n);
+  std::vector<T> first(scan_sums(n), T(0)); // of each chunk, and the end
+  const Add_up_chunk<T> add_up{n, values, first.data() + 1};
+  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { add_up(c); });
+  Add_up<T>{chunks + 1, first.data()}(0);
+  const Scan_in_chunk<T> scan{n, values, first.data()};
+  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { scan(c); });
+  return first.back();
+}
+
+/// Calls `make_room(count)` with the number of the items i of [0, n) with `is_wanted(i)`, then
+/// `take(k, i)` for each, where k counts them in order. Asks twice: for what takes no time.
+template <class Is_wanted, class Make_room, class Take>
+void select(Concurrency concurrency, int n, Is_wanted&& is_wanted, Make_room&& make_room,
+            Take&& take)
+{
+  constexpr int chunk = 4096;
+  std::vector<int> first((n + chunk - 1) / chunk + 1, 0);
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    int count = 0;
+    for (int i = begin; i < end; ++i) count += bool(is_wanted(i));
+    first[begin / chunk] = count;
+  });
+  make_room(exclusive_scan(concurrency, static_cast<int>(first.size()), first.data()));
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    int k = first[begin / chunk];
+    for (int i = begin; i < end; ++i)
+      if (is_wanted(i)) take(k++, i);
+  });
+}
+
 /// Folds `accumulate(partial, i)` over the indices of each chunk, then `join(total, partial)` over
 /// the chunks in order.
 template <class T, class Accumulate, class Join>
@@ -171,21 +207,6 @@ template <class ConcurrencyTag, class T, class Accumulate, class Join>
 T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
 {
   return reduce(ConcurrencyTag(), n, zero, accumulate, join);
-}
-
-/// Replaces each of n values, none negative, by the sum of those before it. The sums never fall.
-/// \returns the sum of all
-template <class T>
-T exclusive_scan(Concurrency concurrency, int n, T* values)
-{
-  const int chunks = Scan_chunk::count(n);
-  std::vector<T> first(scan_sums(n), T(0)); // of each chunk, and the end
-  const Add_up_chunk<T> add_up{n, values, first.data() + 1};
-  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { add_up(c); });
-  Add_up<T>{chunks + 1, first.data()}(0);
-  const Scan_in_chunk<T> scan{n, values, first.data()};
-  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { scan(c); });
-  return first.back();
 }
 
 /// Sorts items that all differ.
