@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The two-sided distance between an engine's surface and a mesh, where a backend works, in double
-// precision: it judges results. Trees, samples and sums are those of `surface_distance()`.
+// precision: it judges results. Trees, samples and sums are those of `surface_distance()`; on a GPU
+// numbers differ by rounding, which may also take a sample to the facet next to its own.
 #ifndef CGAL_POWER_RTF_ENGINES_SURFACE_DISTANCES_H
 #define CGAL_POWER_RTF_ENGINES_SURFACE_DISTANCES_H
 

@@ -60,10 +60,11 @@ struct Scan_in_chunk {
   CGAL_POWER_RTF_HD void operator()(int c) const
   {
     const Scan_chunk chunk(c, n);
+    const T end = first[c + 1];
     T sum = first[c];
     for (int i = chunk.begin; i < chunk.end; ++i) {
       const T value = values[i];
-      values[i] = first[c + 1] < sum ? first[c + 1] : sum; // rounding leads no further
+      values[i] = end < sum ? end : sum; // rounding leads no further
       sum += value;
     }
   }
