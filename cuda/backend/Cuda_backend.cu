@@ -116,8 +116,8 @@ double Cuda_backend::seconds() const
 
 namespace {
 
-/// The first bit of the keys that counts for n items.
-int first_bit(int n)
+/// The first bit of the keys that counts in a coarse order of n items.
+int coarse_bit(int n)
 {
   // Cubes about a quarter of the samples' spacing wide; a pass of the sort takes eight bits.
   int levels = 2;
@@ -127,17 +127,19 @@ int first_bit(int n)
 
 /// Sorts, or, if there is no scratch, writes how many bytes that needs.
 void sort_pairs(unsigned char* scratch, std::size_t& bytes, const std::uint64_t* keys,
-                std::uint64_t* sorted, const int* places, int* order, int n, cudaStream_t stream)
+                std::uint64_t* sorted, const int* places, int* order, int n, int first_bit,
+                cudaStream_t stream)
 {
-  check(cub::DeviceRadixSort::SortPairs(scratch, bytes, keys, sorted, places, order, n,
-                                        first_bit(n), 63, stream),
+  check(cub::DeviceRadixSort::SortPairs(scratch, bytes, keys, sorted, places, order, n, first_bit,
+                                        63, stream),
         "sorting");
 }
 
+/// Of all bits: fewer need no more.
 std::size_t sort_scratch_bytes(int n)
 {
   std::size_t bytes = 0;
-  sort_pairs(nullptr, bytes, nullptr, nullptr, nullptr, nullptr, n, nullptr);
+  sort_pairs(nullptr, bytes, nullptr, nullptr, nullptr, nullptr, n, 0, nullptr);
   return bytes;
 }
 
@@ -150,13 +152,14 @@ std::size_t Cuda_backend::sort_bytes(int n)
   return internal::bytes_of_listed<Sort_arrays>(n, sort_scratch_bytes(n));
 }
 
-void Cuda_backend::sort_order(int n, std::uint64_t* keys, int* order)
+void Cuda_backend::sort_order(int n, std::uint64_t* keys, int* order, bool is_coarse)
 {
   std::size_t bytes = sort_scratch_bytes(n);
   internal::allocate_listed(*this, m_sort, n, bytes);
   int* const places = m_sort.places.data();
   for_each(n, [=] __device__(int i) { places[i] = i; });
-  sort_pairs(m_sort.scratch.data(), bytes, keys, m_sort.keys.data(), places, order, n, stream());
+  sort_pairs(m_sort.scratch.data(), bytes, keys, m_sort.keys.data(), places, order, n,
+             is_coarse ? coarse_bit(n) : 0, stream());
 }
 
 int Cuda_backend::select(int n, const unsigned char* is_wanted, int* items)

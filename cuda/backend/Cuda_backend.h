@@ -197,9 +197,9 @@ public:
     return true;
   }
 
-  /// The order of n points along the Hilbert curve, by their codes; those in one small cube keep
-  /// theirs. `keys` are lost.
-  void sort_order(int n, std::uint64_t* keys, int* order);
+  /// The order of n items by their keys, equal ones by number. `is_coarse`: of points by their
+  /// codes along the Hilbert curve, where those in one small cube keep theirs.
+  void sort_order(int n, std::uint64_t* keys, int* order, bool is_coarse = false);
 
   /// Writes the items i of [0, n) with `is_wanted[i]` in order. \returns their number
   int select(int n, const unsigned char* is_wanted, int* items);

@@ -113,7 +113,7 @@ void Cell_builder<Real>::sort(const Sites_arrays<Real>& arrays)
 {
   if (m_sites == 0) return;
   find_hilbert_keys(m_backend, m_sites, arrays.sites, m_keys.data());
-  m_backend.sort_order(m_sites, m_keys.data(), m_order.data());
+  m_backend.sort_order(m_sites, m_keys.data(), m_order.data(), true);
   if (m_has_features) link_features(arrays);
   ++m_stamps.order;
   m_sorted_positions = m_stamps.positions;

@@ -157,7 +157,7 @@ public:
     const Site<Real>* const s = sites.data();
     std::uint64_t* const k = keys.data();
     m_backend.for_each(size(), [=] __device__(int i) { k[i] = hilbert_code(s[i].point); });
-    m_backend.sort_order(size(), keys.data(), order.data());
+    m_backend.sort_order(size(), keys.data(), order.data(), true);
     const auto permute = [&](auto& buffer) {
       auto* const to = buffer.data();
       using T = std::remove_pointer_t<decltype(to)>;

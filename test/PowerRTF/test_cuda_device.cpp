@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/pack_surface.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
 
 #include <algorithm>
@@ -232,28 +233,33 @@ TEST_CASE("distances are those that the CPU finds")
 {
   const Case c = cases()[0];
   const Start start(c);
-  Cuda_engine<float> engine(start.patches->surface(), c.options);
-  engine.set_samples(start.samples, start.patches->features());
-  const Find_distances find = engine.distance_finder();
-  const shapes::Soup fine = shapes::torus(200, 100, 0.6, 0.2),
-                     single = {{{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}}, {{0, 1, 2}}};
-  for (const shapes::Soup& s : {c.soup, fine, single}) {
-    const Facet_tree tree(s.points, s.triangles);
-    for (const int n : {1, 7, 5000, 300000}) { // by lanes, and a thread for each
-      CAPTURE(n);
-      std::mt19937 random(n);
-      const auto unit = [&random] { return random() / 4294967296.; };
-      std::vector<Vec3d> points;
-      for (int i = 0; i < n; ++i) points.push_back({unit(), unit(), unit()});
-      std::vector<double> squared(n, -1);
-      REQUIRE(find(tree.all_patches(), n, points.data(), squared.data()));
-      double worst = 0;
-      for (int i = 0; i < n; ++i)
-        worst = std::max(worst,
-                         std::fabs(squared[i] - tree.nearest_anywhere(points[i]).squared_distance));
-      CHECK(worst < 1e-15);
+  const Surface& surface = start.patches->surface();
+  const shapes::Soup single = {{{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}}, {{0, 1, 2}}};
+  const auto check = [&](auto&& engine) {
+    engine.set_samples(start.samples, start.patches->features());
+    for (const shapes::Soup& s : {c.soup, shapes::torus(200, 100, 0.6, 0.2), single,
+                                  shapes::torus(800, 400, 0.6, 0.2)}) { // a thread for each vertex
+      CAPTURE(s.triangles.size());
+      const auto distance = [&](const Find_distances& find) {
+        return surface_distance(surface.points, surface.triangles, engine.facet_tree(), s.points,
+                                s.triangles, CGAL::Parallel_if_available_tag(), false, find);
+      };
+      int found = 0;
+      const Find_distances find = engine.distance_finder();
+      const Distance_statistics expected = distance({}), d = distance([&](auto&&... arguments) {
+                                                           const bool is_found = find(arguments...);
+                                                           found += is_found;
+                                                           return is_found;
+                                                         });
+      CHECK(found == 1);
+      constexpr double rounding = 1e-5; // per cent; it may take a sample to the next facet
+      CHECK(std::fabs(d.mean - expected.mean) < rounding);
+      CHECK(std::fabs(d.rms - expected.rms) < rounding);
+      CHECK(std::fabs(d.max - expected.max) < rounding);
     }
-  }
+  };
+  check(Cuda_engine<float>(surface, c.options));
+  check(Cuda_engine<double>(surface, c.options));
 }
 
 TEST_CASE("facets are as near as those that the CPU finds")

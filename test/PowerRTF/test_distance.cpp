@@ -4,7 +4,8 @@
 // The distance of two surfaces against closed forms.
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/engines/facet_distances.h>
+#include <CGAL/PowerRTF/engines/face_order.h>
+#include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 
@@ -134,25 +135,100 @@ TEST_CASE("distance: spheres, and invariance")
   CHECK(distance(Soup(), fine).max == 0);
 }
 
-TEST_CASE("distance: found by a backend")
+TEST_CASE("distance: a backend has the faces in the order of their tree")
+{
+  Host_backend<CGAL::Sequential_tag> backend;
+  for (const Soup& s :
+       {shapes::torus(70, 50, 0.6, 0.2), shapes::plane_patch(30, 40),
+        shapes::permuted(shapes::icosphere(4), 1), Soup{{{1, 1, 1}}, {{0, 0, 0}}}}) {
+    const int n = int(s.triangles.size());
+    std::vector<int> order(n);
+    internal::order_faces(backend, s.points.data(), n, s.triangles.front().data(), order.data());
+    CHECK(order == Facet_tree(s.points, s.triangles).order());
+  }
+}
+
+TEST_CASE("distance: samples share the area evenly")
+{
+  const Soup s = shapes::permuted(shapes::torus(40, 13, 0.6, 0.3), 2);
+  const Facet_tree tree(s.points, s.triangles);
+  const internal::Surface_samples all(s.points, s.triangles, tree, CGAL::Sequential_tag());
+  constexpr int n = 5000;
+  std::vector<int> count(s.triangles.size());
+  for (int i = 0; i < n; ++i) {
+    const auto nearest = tree.nearest_anywhere(all.samples(n)(i));
+    CHECK(nearest.squared_distance < 1e-28);
+    ++count[nearest.facet];
+  }
+  double area = 0;
+  const auto area_of = [&](const Triangle& t) {
+    const Vec3d &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]];
+    return length(cross(b - a, c - a)) / 2;
+  };
+  for (const Triangle& t : s.triangles) area += area_of(t);
+  for (std::size_t f = 0; f < s.triangles.size(); ++f)
+    CHECK(std::fabs(count[f] - n * area_of(s.triangles[f]) / area) < 1);
+}
+
+namespace {
+
+/// As an engine finds them.
+template <class Tag>
+Find_distances finder(const Facet_tree& tree, const std::vector<int>& corners_by_place)
+{
+  return [&](const Mesh_arrays& surface, const Mesh_arrays& mesh, int samples,
+             Two_sided_distances& result) {
+    Host_backend<Tag> backend;
+    Surface_view<double> there = tree.view();
+    there.facet_vertices = corners_by_place.data();
+    return internal::surface_distances(backend, there, surface, mesh, samples, result);
+  };
+}
+
+void check_same(const Distance_statistics& a, const Distance_statistics& b)
+{
+  CHECK(a.mean == b.mean);
+  CHECK(a.rms == b.rms);
+  CHECK(a.max == b.max);
+  CHECK(a.bound == b.bound);
+  for (int k = 0; k < 3; ++k) CHECK(a.farthest[k] == b.farthest[k]);
+}
+
+} // namespace
+
+TEST_CASE("distance: found by a backend, to the last bit")
+{
+  using Tag = CGAL::Parallel_if_available_tag;
+  const Soup fine = shapes::icosphere(4), coarse = shapes::icosphere(2);
+  Soup with_unused = shapes::permuted(shapes::torus(90, 60, 0.6, 0.2), 3);
+  with_unused.points.push_back({0.9, 0.9, 0.9});                // would be the farthest one
+  const Soup small = shapes::scaled(shapes::octahedron(), 0.3); // of equally far vertices
+  const Soup single = {{{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}}, {{0, 1, 2}}};
+  for (const Soup& in : {fine, coarse, with_unused, small, single}) {
+    const Facet_tree tree(in.points, in.triangles);
+    std::vector<int> corners;
+    for (const int f : tree.order())
+      corners.insert(corners.end(), in.triangles[f].begin(), in.triangles[f].end());
+    for (const Soup& out : {fine, coarse, with_unused, small, single}) {
+      const auto run = [&](bool is_bound_wanted, const Find_distances& find) {
+        return surface_distance(in.points, in.triangles, tree, out.points, out.triangles, Tag(),
+                                is_bound_wanted, find);
+      };
+      const bool is_bound_wanted = in.triangles.size() < 20 && out.triangles.size() < 20;
+      const Distance_statistics expected = run(is_bound_wanted, {});
+      check_same(run(is_bound_wanted, finder<Tag>(tree, corners)), expected);
+      check_same(run(is_bound_wanted, finder<CGAL::Sequential_tag>(tree, corners)), expected);
+    }
+  }
+}
+
+TEST_CASE("distance: where a backend finds none, the host does")
 {
   const Soup fine = shapes::icosphere(4), coarse = shapes::icosphere(2);
-  const Distance_statistics expected = distance(fine, coarse);
-  const auto check = [&](const Find_distances& find) {
-    const Distance_statistics s =
-        surface_distance(fine.points, fine.triangles, Facet_tree(fine.points, fine.triangles),
-                         coarse.points, coarse.triangles, CGAL::Sequential_tag(), false, find);
-    CHECK(s.mean == expected.mean);
-    CHECK(s.rms == expected.rms);
-    CHECK(s.max == expected.max);
-  };
   int calls = 0;
-  Host_backend<CGAL::Sequential_tag> backend;
-  check([&](const auto& facets, int n, const Vec3d* points, double* squared) {
-    ++calls;
-    return internal::facet_distances(backend, facets, n, points, squared);
-  });
-  CHECK(calls == 2);                              // once each way
-  check([&](auto&&...) { return ++calls == 0; }); // it has no room
-  CHECK(calls == 4);
+  check_same(surface_distance(fine.points, fine.triangles, Facet_tree(fine.points, fine.triangles),
+                              coarse.points, coarse.triangles, CGAL::Sequential_tag(), false,
+                              [&](auto&&...) { return ++calls == 0; }),
+             distance(fine, coarse));
+  CHECK(calls == 1);
 }

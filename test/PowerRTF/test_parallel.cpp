@@ -47,10 +47,16 @@ TEST_CASE("rounded sums never fall, and are the same for any concurrency")
     std::vector<double> values(n);
     for (double& x : values) x = random() < 0.5 ? 0 : std::pow(random(), 20);
     const double exact = std::accumulate(values.begin(), values.end(), 0.L);
+    const std::vector<double> before = values;
     std::vector<double> other = values;
     const double sum = exclusive_scan(both[0], n, values.data());
     CHECK(exclusive_scan(both[1], n, other.data()) == sum);
     CHECK(other == values);
+    Host_backend<CGAL::Parallel_if_available_tag> backend;
+    std::vector<double> by_backend = before, sums(scan_sums(n));
+    exclusive_scan(backend, n, by_backend.data(), sums.data());
+    CHECK(by_backend == values);
+    CHECK(sums.back() == sum);
     CHECK(std::is_sorted(values.begin(), values.end()));
     CHECK(sum == doctest::Approx(exact).epsilon(1e-12));
     if (n > 0) CHECK(values.back() <= sum);
@@ -63,7 +69,13 @@ TEST_CASE("what is selected keeps its order")
     for (const Concurrency& concurrency : both) {
       std::vector<int> expected;
       for (int i = 0; i < n; i += 3) expected.push_back(i);
-      CHECK(select(concurrency, n, [](int i) { return i % 3 == 0; }) == expected);
+      const auto is_wanted = [](int i) { return i % 3 == 0; };
+      CHECK(select(concurrency, n, is_wanted) == expected);
+      std::vector<int> taken;
+      select(
+          concurrency, n, is_wanted, [&](int count) { taken.assign(count, -1); },
+          [&](int k, int i) { taken[k] = i; });
+      CHECK(taken == expected);
     }
 }
 

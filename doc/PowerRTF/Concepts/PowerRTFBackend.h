@@ -73,8 +73,9 @@ public:
   template <class F>
   bool run_resident_team(int n, const F& f);
 
-  /// The order of n items by their keys, equal ones by number. The keys may be lost.
-  void sort_order(int n, std::uint64_t* keys, int* order);
+  /// The order of n items by their keys, equal ones by number. The keys may be lost. `is_coarse`:
+  /// points that are near along a Hilbert curve, whose codes the keys are, may count as equal.
+  void sort_order(int n, std::uint64_t* keys, int* order, bool is_coarse = false);
 
   /// Writes the items i of [0, n) with `is_wanted[i]`, in order, to `items`, which has room for n.
   /// Returns their number.

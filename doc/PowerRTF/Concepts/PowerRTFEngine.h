@@ -93,8 +93,8 @@ public:
   /// Frees what only further steps need. They would make it again.
   void release_memory();
 
-  /// What finds distances of points from facets where the engine works; or empty. Where it returns
-  /// `false`, the caller finds them.
+  /// What finds distances between the surface and a mesh where the engine works; or empty. Where it
+  /// returns `false`, the caller finds them.
   CGAL::PowerRTF::Find_distances distance_finder();
   /// The same of faces that may intersect.
   CGAL::PowerRTF::Find_close_faces close_face_finder();

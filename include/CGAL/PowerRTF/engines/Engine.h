@@ -10,9 +10,9 @@
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
 #include <CGAL/PowerRTF/engines/close_faces.h>
-#include <CGAL/PowerRTF/engines/facet_distances.h>
 #include <CGAL/PowerRTF/engines/nearest_facets.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
+#include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
 #include <CGAL/PowerRTF/optimization/position_steps.h>
@@ -95,10 +95,11 @@ public:
     if constexpr (Backend::is_host)
       return {};
     else
-      return
-          [this](const Surface_view<double>& facets, int n, const Vec3d* points, double* squared) {
-            return internal::facet_distances(m_backend, facets, n, points, squared);
-          };
+      return [this](const Mesh_arrays& surface, const Mesh_arrays& mesh, int samples,
+                    Two_sided_distances& result) {
+        return internal::surface_distances(m_backend, m_surface.view(), surface, mesh, samples,
+                                           result);
+      };
   }
   Find_close_faces close_face_finder() override
   {

@@ -73,8 +73,8 @@ public:
   virtual std::vector<Cell_polygon> cells() = 0;
   virtual Neighbor_cycles neighbors() = 0;
   virtual void release_memory() = 0;
-  /// Finds distances where the engine works, or empty: on the host, where it is done by groups. The
-  /// engine has to live as long as the result.
+  /// Finds distances between its surface and meshes where the engine works, or empty: on the host,
+  /// where it is done by groups. The engine has to live as long as the result.
   virtual Find_distances distance_finder() = 0;
   /// The same for faces that may intersect.
   virtual Find_close_faces close_face_finder() = 0;

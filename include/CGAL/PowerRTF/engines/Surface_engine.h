@@ -53,8 +53,8 @@ public:
   std::vector<Cell_polygon> cells() { return m_engine->cells(); }
   Neighbor_cycles neighbors() { return m_engine->neighbors(); }
   void release_memory() { m_engine->release_memory(); }
-  /// Finds distances where the engine works; it has to live as long as the result. Empty: it works
-  /// on the host, or there were no samples for it to work on.
+  /// Finds distances between the surface and meshes where the engine works; it has to live as long
+  /// as the result. Empty: it works on the host, or there were no samples for it to work on.
   Find_distances distance_finder()
   {
     return m_engine ? m_engine->distance_finder() : Find_distances();

@@ -6,10 +6,10 @@
 #ifndef CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 #define CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 
+#include <CGAL/PowerRTF/engines/face_order.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Parting_plane.h>
 #include <CGAL/PowerRTF/geometry/box_around.h>
-#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 namespace CGAL::PowerRTF::internal {
@@ -47,20 +46,6 @@ inline Into_unit_box into_unit_box(const Vec3d* points, int n, Concurrency concu
   const double reach = std::max({half.x, half.y, half.z});
   return {0.5 * box.lo + 0.5 * box.hi, reach > 0 ? 1 / reach : 1};
 }
-
-struct Face_codes {
-  const Vec3d* points;
-  const int* corners;
-  Into_unit_box into;
-  std::uint64_t* codes;
-
-  CGAL_POWER_RTF_HD void operator()(int f) const
-  {
-    const int* const v = corners + 3 * std::size_t(f);
-    codes[f] =
-        hilbert_code((1 / 3.) * (into(points[v[0]]) + into(points[v[1]]) + into(points[v[2]])));
-  }
-};
 
 struct Gather_faces {
   const Vec3d* points;
@@ -124,7 +109,6 @@ struct Close_faces_arrays {
 
   Buffer<Vec3d> points;
   Buffer<int> corners, order, count, pairs;
-  Buffer<std::uint64_t> codes;
   Buffer<Numbered_face> faces;
   Buffer<Box3<double>> boxes;
   Buffer<Child_boxes> nodes;
@@ -140,7 +124,6 @@ struct Close_faces_arrays {
     f(&A::order, n);
     f(&A::count, std::size_t(1));
     f(&A::pairs, 2 * pairs);
-    f(&A::codes, n);
     f(&A::faces, n);
     f(&A::boxes, nodes);
     f(&A::nodes, nodes);
@@ -157,17 +140,16 @@ bool close_faces(Backend& backend, int vertices, const Vec3d* points, int n, con
   pairs.clear();
   if (n == 0) return true;
   const std::size_t capacity = n, bytes = bytes_of_listed<Arrays>(vertices, n, capacity);
-  if (!backend.has_room(bytes + Backend::sort_bytes(n))) return false;
+  if (!backend.has_room(bytes + order_bytes<Backend>(n))) return false;
   Arrays a;
   allocate_listed(backend, a, vertices, n, capacity);
   backend.upload(a.points.data(), points, vertices);
   backend.upload(a.corners.data(), corners, 3 * std::size_t(n));
-  const Into_unit_box into = into_unit_box(points, vertices, Backend::concurrency());
-  backend.for_each(n, Face_codes{a.points.data(), a.corners.data(), into, a.codes.data()});
-  backend.sort_order(n, a.codes.data(), a.order.data());
+  order_faces(backend, a.points.data(), n, a.corners.data(), a.order.data());
   backend.for_each(n,
                    Gather_faces{a.points.data(), a.corners.data(), a.order.data(), a.faces.data()});
   const Packed_tree_layout tree(n);
+  const Into_unit_box into = into_unit_box(points, vertices, Backend::concurrency());
   const Box_of_face box_of{a.faces.data(), into};
   fit_tree(backend, tree, box_of, a.boxes.data(), a.nodes.data());
   backend.fill(a.count.data(), 0, 1);

@@ -45,7 +45,7 @@ public:
     internal::Unset_vector<Vec3d> centers(facets);
     internal::for_each_index(concurrency, m_tree.items, [&](int f) {
       const auto [a, b, c] = corners(f);
-      centers[f] = (a + b + c) * (1.0 / 3);
+      centers[f] = internal::center_of(a, b, c);
     });
     m_order = internal::spatial_order(centers, concurrency);
     internal::for_each_index(concurrency, m_tree.items, [&](int place) {
@@ -54,13 +54,7 @@ public:
       const auto [a, b, c] = corners(m_order[place]);
       m_facets[place] = {a, b, c, normalized(cross(b - a, c - a))};
     });
-    const auto box_of = [&](int place) {
-      const Facet_corners<double>& f = m_facets[place];
-      Box3<double> box{f.a, f.a};
-      box.add(f.b);
-      box.add(f.c);
-      return box;
-    };
+    const internal::Box_of_facet box_of{m_facets.data()};
     internal::Unset_vector<Box3<double>> boxes(m_tree.nodes());
     m_nodes.resize(m_tree.nodes());
     for (int level = 0; level < m_tree.levels; ++level)

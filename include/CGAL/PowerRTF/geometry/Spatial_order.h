@@ -10,7 +10,6 @@
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -24,16 +23,10 @@ std::vector<int> spatial_order(const Points& points, Concurrency concurrency = S
 {
   if (points.empty()) return {};
   const int n = static_cast<int>(points.size());
-  const Box3<double> box = box_around(concurrency, n, points);
-  const Vec3d middle = 0.5 * box.lo + 0.5 * box.hi, half = 0.5 * box.hi - 0.5 * box.lo;
-  const double reach = std::max({half.x, half.y, half.z});
+  const Curve_cube cube(box_around(concurrency, n, points));
   const Hilbert_table& curve = Hilbert_table::get();
   Unset_vector<std::pair<std::uint64_t, int>> codes(n);
-  for_each_index(concurrency, n, [&](int i) {
-    const Vec3d p = points[i] - middle;
-    const Vec3d inside{p.x / reach, p.y / reach, p.z / reach};
-    codes[i] = {reach > 0 ? curve.index(hilbert_cube(inside)) : 0, i};
-  });
+  for_each_index(concurrency, n, [&](int i) { codes[i] = {curve.index(cube(points[i])), i}; });
   sort(concurrency, codes.begin(), codes.end());
   std::vector<int> order(n);
   for_each_index(concurrency, n, [&](int k) { order[k] = codes[k].second; });

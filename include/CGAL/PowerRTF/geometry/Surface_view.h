@@ -17,6 +17,30 @@ struct alignas(16) Facet_corners {
   Vec3<Real> a, b, c, normal;
 };
 
+namespace internal {
+
+/// Where a tree has a facet with these corners.
+CGAL_POWER_RTF_HD inline Vec3d center_of(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+  return (a + b + c) * (1.0 / 3);
+}
+
+/// For a tree's nodes.
+struct Box_of_facet {
+  const Facet_corners<double>* facets;
+
+  CGAL_POWER_RTF_HD Box3<double> operator()(int place) const
+  {
+    const Facet_corners<double>& f = facets[place];
+    Box3<double> box{f.a, f.a};
+    box.add(f.b);
+    box.add(f.c);
+    return box;
+  }
+};
+
+} // namespace internal
+
 template <class Real>
 struct alignas(16) Vertex_attributes {
   Vec3<Real> normal;

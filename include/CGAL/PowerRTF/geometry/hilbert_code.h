@@ -3,7 +3,7 @@
 #ifndef CGAL_POWER_RTF_GEOMETRY_HILBERT_CODE_H
 #define CGAL_POWER_RTF_GEOMETRY_HILBERT_CODE_H
 
-#include <CGAL/PowerRTF/geometry/vector.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 
 #include <cstdint>
 
@@ -58,6 +58,29 @@ CGAL_POWER_RTF_HD inline Hilbert_cube hilbert_cube(const Vec3<Real>& p)
   };
   return {cell(p.x), cell(p.y), cell(p.z)};
 }
+
+/// The cube around a box, cut up along the curve: no size or position decides the cubes.
+class Curve_cube {
+public:
+  CGAL_POWER_RTF_HD explicit Curve_cube(const Box3<double>& box)
+      : m_middle(0.5 * box.lo + 0.5 * box.hi)
+  {
+    const Vec3d half = 0.5 * box.hi - 0.5 * box.lo;
+    m_reach = internal::larger(half.x, internal::larger(half.y, half.z));
+  }
+
+  /// The cube with a point of the box.
+  CGAL_POWER_RTF_HD Hilbert_cube operator()(const Vec3d& p) const
+  {
+    const Vec3d at = p - m_middle;
+    return m_reach > 0 ? hilbert_cube(Vec3d{at.x / m_reach, at.y / m_reach, at.z / m_reach})
+                       : Hilbert_cube{0, 0, 0};
+  }
+
+private:
+  Vec3d m_middle;
+  double m_reach;
+};
 
 /// Position along the curve of the cube with a point.
 template <class Real>

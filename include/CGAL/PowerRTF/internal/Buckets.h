@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -17,7 +16,7 @@ namespace CGAL::PowerRTF::internal {
 /// `entries[first[b + 1] - 1]`.
 template <class Entry>
 struct Buckets {
-  std::vector<int> first;
+  Unset_vector<int> first;
   Unset_vector<Entry> entries;
 
   /// Item `i` of `n` goes as `entry(i)` into the bucket `bucket(i)` of `number_of_buckets`. Time is
@@ -25,15 +24,17 @@ struct Buckets {
   template <class Bucket_of, class Entry_of>
   Buckets(Concurrency concurrency, int n, std::size_t number_of_buckets, const Bucket_of& bucket,
           const Entry_of& entry)
-      : first(number_of_buckets + 1, 0), entries(n)
+      : first(number_of_buckets + 1), entries(n)
   {
     const int buckets = static_cast<int>(number_of_buckets);
     const auto next = [&](int& counter) {
       return concurrency.is_parallel() ? atomic_add(&counter, 1) : counter++;
     };
+    for_each_index(concurrency, buckets + 1, [&](int b) { first[b] = 0; });
     for_each_index(concurrency, n, [&](int i) { next(first[bucket(i)]); });
     exclusive_scan(concurrency, buckets + 1, first.data());
-    std::vector<int> end(first.begin(), first.end() - 1);
+    Unset_vector<int> end(number_of_buckets);
+    for_each_index(concurrency, buckets, [&](int b) { end[b] = first[b]; });
     for_each_index(concurrency, n, [&](int i) { entries[next(end[bucket(i)])] = entry(i); });
     for_each_index(concurrency, buckets, [&](int b) { // threads come in any order
       std::sort(entries.begin() + first[b], entries.begin() + first[b + 1]);

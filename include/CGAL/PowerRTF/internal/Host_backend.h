@@ -108,8 +108,8 @@ public:
     return false;
   }
 
-  /// The order of n items by their keys, equal ones by index.
-  void sort_order(int n, std::uint64_t* keys, int* order)
+  /// The order of n items by their keys, equal ones by index. It is never coarse.
+  void sort_order(int n, std::uint64_t* keys, int* order, bool = false)
   {
     std::vector<std::pair<std::uint64_t, int>> items(n);
     for_each(n, [&](int i) { items[i] = {keys[i], i}; });

@@ -28,6 +28,20 @@ CGAL_POWER_RTF_HD inline void atomic_add(long long* p, long long x)
 #endif
 }
 
+/// Whether `x` is less than what stood there.
+CGAL_POWER_RTF_HD inline bool atomic_min(int* p, int x)
+{
+#ifdef __CUDA_ARCH__
+  return x < atomicMin(p, x);
+#else
+  int before = __atomic_load_n(p, __ATOMIC_RELAXED);
+  while (x < before)
+    if (__atomic_compare_exchange_n(p, &before, x, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+      return true;
+  return false;
+#endif
+}
+
 #ifndef __CUDA_ARCH__
 /// Returns the value before.
 inline int atomic_exchange(int* p, int x) { return __atomic_exchange_n(p, x, __ATOMIC_RELAXED); }
@@ -49,11 +63,9 @@ inline double atomic_load(const double* p)
 }
 
 /// Whether `x` is less than what stood there.
-template <class T>
-bool atomic_min(T* p, T x)
+inline bool atomic_min(double* p, double x)
 {
-  T before;
-  __atomic_load(p, &before, __ATOMIC_RELAXED);
+  double before = atomic_load(p);
   while (x < before)
     if (__atomic_compare_exchange(p, &before, &x, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
       return true;

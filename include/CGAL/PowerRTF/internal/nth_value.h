@@ -14,9 +14,11 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// The value that would be at place `n` if the finite `values` were sorted. Counts how many are in
-/// each of many intervals, and looks at those of one only: linear time while they are spread out.
-inline double nth_value(Concurrency concurrency, const std::vector<double>& values, std::size_t n)
+/// The value that would be at place `n` if the finite `values`, a vector, were sorted. Counts how
+/// many are in each of many intervals, and looks at those of one only: linear time while they are
+/// spread out.
+template <class Values>
+double nth_value(Concurrency concurrency, const Values& values, std::size_t n)
 {
   constexpr int intervals = 4096, chunk = 1 << 16;
   using Range = std::pair<double, double>;

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/huge_pages.h>
+#include <CGAL/PowerRTF/internal/scan.h>
 
 #include <CGAL/tags.h>
 
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -153,6 +153,42 @@ std::vector<int> select(Concurrency concurrency, int n, F&& is_wanted)
   return concatenated(concurrency, parts);
 }
 
+/// Replaces each of n values, none negative, by the sum of those before it. The sums never fall.
+/// \returns the sum of all
+template <class T>
+T exclusive_scan(Concurrency concurrency, int n, T* values)
+{
+  const int chunks = Scan_chunk::count(n);
+  std::vector<T> first(scan_sums(n), T(0)); // of each chunk, and the end
+  const Add_up_chunk<T> add_up{n, values, first.data() + 1};
+  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { add_up(c); });
+  Add_up<T>{chunks + 1, first.data()}(0);
+  const Scan_in_chunk<T> scan{n, values, first.data()};
+  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { scan(c); });
+  return first.back();
+}
+
+/// Calls `make_room(count)` with the number of the items i of [0, n) with `is_wanted(i)`, then
+/// `take(k, i)` for each, where k counts them in order. Asks twice: for what takes no time.
+template <class Is_wanted, class Make_room, class Take>
+void select(Concurrency concurrency, int n, Is_wanted&& is_wanted, Make_room&& make_room,
+            Take&& take)
+{
+  constexpr int chunk = 4096;
+  std::vector<int> first((n + chunk - 1) / chunk + 1, 0);
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    int count = 0;
+    for (int i = begin; i < end; ++i) count += bool(is_wanted(i));
+    first[begin / chunk] = count;
+  });
+  make_room(exclusive_scan(concurrency, static_cast<int>(first.size()), first.data()));
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    int k = first[begin / chunk];
+    for (int i = begin; i < end; ++i)
+      if (is_wanted(i)) take(k++, i);
+  });
+}
+
 /// Folds `accumulate(partial, i)` over the indices of each chunk, then `join(total, partial)` over
 /// the chunks in order.
 template <class T, class Accumulate, class Join>
@@ -173,28 +209,6 @@ template <class ConcurrencyTag, class T, class Accumulate, class Join>
 T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
 {
   return reduce(ConcurrencyTag(), n, zero, accumulate, join);
-}
-
-/// Replaces each of n values, none negative, by the sum of those before it. The sums never fall.
-/// \returns the sum of all
-template <class T>
-T exclusive_scan(Concurrency concurrency, int n, T* values)
-{
-  constexpr int chunk = 4096;
-  std::vector<T> first((n + chunk - 1) / chunk + 1, T(0)); // of each chunk, and the end
-  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
-    first[begin / chunk + 1] = std::accumulate(values + begin, values + end, T(0));
-  });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
-    T sum = first[begin / chunk];
-    for (int i = begin; i < end; ++i) {
-      const T value = values[i];
-      values[i] = std::min(sum, first[begin / chunk + 1]); // rounding leads no further
-      sum += value;
-    }
-  });
-  return first.back();
 }
 
 /// Sorts items that all differ.

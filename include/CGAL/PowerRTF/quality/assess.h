@@ -23,7 +23,7 @@ class Facet_tree;
 ///
 /// \param patches the surface as it is, or cut along its creases
 /// \param tree of the facets of `patches`
-/// \param find what finds distances instead, where it does
+/// \param find what finds distances from `patches` and back instead, where it does
 /// \param find_close the same for self-intersections
 void assess(const Surface& surface, const Surface& patches, const Facet_tree& tree,
             const Extracted_mesh& mesh, Remeshing_report& report,

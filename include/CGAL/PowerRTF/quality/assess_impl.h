@@ -7,8 +7,10 @@
 
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/fields/thin_parts.h>
+#include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/quality/topology.h>
@@ -27,12 +29,26 @@ namespace internal {
 inline std::size_t lost_feature_edges(const Extracted_mesh& mesh,
                                       Concurrency concurrency = Sequential_tag())
 {
-  if (mesh.feature_edges.empty()) return 0;
-  const std::vector<Edge> edges = edges_of(mesh.triangles, concurrency);
-  std::size_t lost = 0;
-  for (const Edge& e : mesh.feature_edges)
-    lost += !std::binary_search(edges.begin(), edges.end(), sorted_edge(e[0], e[1]));
-  return lost;
+  const std::vector<Edge>& wanted = mesh.feature_edges;
+  if (wanted.empty()) return 0;
+  std::vector<char> is_at_feature(mesh.points.size(), 0);
+  for (const Edge& e : wanted) is_at_feature[e[0]] = is_at_feature[e[1]] = 1;
+  const auto edge = [&](int h) {
+    return sorted_edge(halfedge_source(mesh.triangles, h), halfedge_target(mesh.triangles, h));
+  };
+  std::vector<Edge> edges;
+  for (const int h : select(concurrency, static_cast<int>(3 * mesh.triangles.size()), [&](int h) {
+         return is_at_feature[edge(h)[0]] && is_at_feature[edge(h)[1]];
+       }))
+    edges.push_back(edge(h));
+  std::sort(edges.begin(), edges.end());
+  return reduce(
+      concurrency, static_cast<int>(wanted.size()), std::size_t(0),
+      [&](std::size_t& lost, int k) {
+        lost += !std::binary_search(edges.begin(), edges.end(),
+                                    sorted_edge(wanted[k][0], wanted[k][1]));
+      },
+      [](std::size_t& lost, std::size_t part) { lost += part; });
 }
 
 } // namespace internal

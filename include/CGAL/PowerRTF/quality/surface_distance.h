@@ -9,23 +9,32 @@
 #define CGAL_POWER_RTF_QUALITY_SURFACE_DISTANCE_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/geometry/Area_samples.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Group_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/bounding_box.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
-#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/quality/distance_bound.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 namespace internal {
+
+/// The vertices of triangles in the order of a tree.
+struct Ordered_vertices {
+  const std::vector<Triangle>& triangles;
+  const std::vector<int>& order;
+
+  int operator()(int corner) const { return triangles[order[corner / 3]][corner % 3]; }
+};
 
 /// Walks over a triangulated surface in spatial order: its vertices, and points spread over it.
 class Surface_samples {
@@ -36,42 +45,30 @@ public:
       : m_facets(tree.view().facets), m_areas(triangles.size() + 1)
   {
     const int facets = static_cast<int>(triangles.size());
-    Unset_vector<int> first_corner(points.size()); // in the order of the tree
+    Unset_vector<int> of_vertex(points.size());
     for_each_index(concurrency, static_cast<int>(points.size()),
-                   [&](int v) { first_corner[v] = 3 * facets; });
-    m_areas.back() = 0;
-    const auto vertex = [&](int corner) { return triangles[tree.order()[corner / 3]][corner % 3]; };
+                   [&](int v) { of_vertex[v] = 3 * facets; });
+    const Facet_areas areas{m_facets, facets, m_areas.data()};
+    const First_corners<Ordered_vertices> first{{triangles, tree.order()}, of_vertex.data()};
+    areas(facets);
     for_each_index(concurrency, facets, [&](int place) {
-      const auto& f = m_facets[place];
-      m_areas[place] = length(cross(f.b - f.a, f.c - f.a)) / 2;
-      for (int c = 3 * place; c < 3 * place + 3; ++c) atomic_min(&first_corner[vertex(c)], c);
+      areas(place);
+      for (int c = 3 * place; c < 3 * place + 3; ++c) first(c);
     });
     exclusive_scan(concurrency, facets + 1, m_areas.data());
-    const std::vector<int> first =
-        select(concurrency, 3 * facets, [&](int c) { return first_corner[vertex(c)] == c; });
-    m_vertices.resize(first.size());
-    for_each_index(concurrency, static_cast<int>(first.size()),
-                   [&](int v) { m_vertices[v] = points[vertex(first[v])]; });
+    const std::vector<int> corners =
+        select(concurrency, 3 * facets, [&](int c) { return first.has(c); });
+    m_vertices.resize(corners.size());
+    for_each_index(concurrency, static_cast<int>(corners.size()),
+                   [&](int v) { m_vertices[v] = points[first.vertex_of(corners[v])]; });
   }
 
   /// The used vertices.
   const Unset_vector<Vec3d>& vertices() const { return m_vertices; }
 
-  /// Writes the `size` points from the i-th on, of `n` that are spread evenly by area: every facet
-  /// gets its share of them rounded up or down, and they fill the facets as the R2 sequence fills a
-  /// square.
-  void samples(int begin, int size, int n, Vec3d* points) const
+  Area_samples samples(int n) const
   {
-    const auto area_before = [&](int i) { return (i + 0.5) / n * m_areas.back(); };
-    auto after = std::upper_bound(m_areas.begin(), m_areas.end() - 1, area_before(begin));
-    for (int i = begin; i < begin + size; ++i) {
-      while (after != m_areas.end() - 1 && !(area_before(i) < *after)) ++after;
-      const auto& f = m_facets[after - m_areas.begin() - 1];
-      const auto fraction = [](double x) { return x - std::floor(x); };
-      double s = fraction(0.5 + i * 0.7548776662466927), t = fraction(0.5 + i * 0.5698402909980532);
-      if (s + t > 1) s = 1 - s, t = 1 - t;
-      points[i - begin] = f.a + s * (f.b - f.a) + t * (f.c - f.a);
-    }
+    return {m_facets, m_areas.data(), static_cast<int>(m_areas.size()) - 1, n};
   }
 
 private:
@@ -80,33 +77,24 @@ private:
   Unset_vector<Vec3d> m_vertices;
 };
 
-struct Squared_distances {
-  double sum = 0, sum_of_squares = 0, max_squared = 0;
-  Vec3d farthest{0, 0, 0};
-};
-
-/// Those of `n` points, of which `write(begin, size, points)` writes some, from `to`. The sums are
-/// of no use where `enough` is given, a squared distance up to which the largest one does not
-/// count. `found`: the squared distances, where they are known.
-template <class Write>
-Squared_distances squared_distances(const Facet_tree& to, int n, Concurrency concurrency,
-                                    const Write& write, const double* found, double enough = -1)
+/// Those of the `n` points `point(i)` from `to`. The sums are of no use where `enough` is given, a
+/// squared distance up to which the largest one does not count.
+template <class Point>
+Sampled_distances sampled_distances(const Facet_tree& to, int n, Concurrency concurrency,
+                                    const Point& point, double enough = -1)
 {
   constexpr int chunk = 1024;
   const int group = Group_distances::group_size(n, to.view().facet_tree.items);
-  std::vector<Squared_distances> parts((n + chunk - 1) / chunk);
+  std::vector<Sampled_distances> parts((n + chunk - 1) / chunk);
   for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
     Group_distances distances(to);
-    Squared_distances part;
+    Sampled_distances part;
     Vec3d points[Group_distances::most_points];
     double squared[Group_distances::most_points];
     for (int first = begin; first < end; first += group) {
       const int size = std::min(group, end - first);
-      write(first, size, points);
-      if (found)
-        std::copy_n(found + first, size, squared);
-      else
-        distances.find(points, size, squared, enough);
+      for (int k = 0; k < size; ++k) points[k] = point(first + k);
+      distances.find(points, size, squared, enough);
       for (int k = 0; k < size; ++k) {
         part.sum += std::sqrt(squared[k]);
         part.sum_of_squares += squared[k];
@@ -117,8 +105,8 @@ Squared_distances squared_distances(const Facet_tree& to, int n, Concurrency con
     }
     parts[begin / chunk] = part;
   });
-  Squared_distances total;
-  for (const Squared_distances& part : parts) {
+  Sampled_distances total;
+  for (const Sampled_distances& part : parts) {
     total.sum += part.sum;
     total.sum_of_squares += part.sum_of_squares;
     if (!(part.max_squared > total.max_squared)) continue;
@@ -128,45 +116,27 @@ Squared_distances squared_distances(const Facet_tree& to, int n, Concurrency con
   return total;
 }
 
-/// The squared distances of `n` samples and then of the vertices by `find`; empty where it finds
-/// none.
-inline Unset_vector<double> found_distances(const Surface_samples& from, const Facet_tree& to,
-                                            int n, Concurrency concurrency,
-                                            const Find_distances& find)
-{
-  if (!find) return {};
-  constexpr int chunk = 1024;
-  Unset_vector<Vec3d> points(n + from.vertices().size());
-  for_each_chunk(concurrency, n, chunk,
-                 [&](int begin, int end) { from.samples(begin, end - begin, n, &points[begin]); });
-  for_each_index(concurrency, int(from.vertices().size()),
-                 [&](int v) { points[n + v] = from.vertices()[v]; });
-  Unset_vector<double> squared(points.size());
-  if (!find(to.all_patches(), int(points.size()), points.data(), squared.data())) return {};
-  return squared;
-}
-
 /// Distances from `from` to `to`: sums over `n` samples; the maximum over them and the vertices.
-inline Squared_distances one_sided_distance(const Surface_samples& from, const Facet_tree& to,
-                                            int n, Concurrency concurrency,
-                                            const Find_distances& find)
+inline Sampled_distances one_sided_distance(const Surface_samples& from, const Facet_tree& to,
+                                            int n, Concurrency concurrency)
 {
-  const Unset_vector<double> found = found_distances(from, to, n, concurrency, find);
-  Squared_distances result = squared_distances(
-      to, n, concurrency,
-      [&](int begin, int size, Vec3d* points) { from.samples(begin, size, n, points); },
-      found.empty() ? nullptr : found.data());
-  const Squared_distances of_vertices = squared_distances(
-      to, static_cast<int>(from.vertices().size()), concurrency,
-      [&](int begin, int size, Vec3d* points) {
-        std::copy_n(from.vertices().begin() + begin, size, points);
-      },
-      found.empty() ? nullptr : found.data() + n, result.max_squared);
+  Sampled_distances result = sampled_distances(to, n, concurrency, from.samples(n));
+  const Unset_vector<Vec3d>& vertices = from.vertices();
+  const Sampled_distances of_vertices = sampled_distances(
+      to, static_cast<int>(vertices.size()), concurrency, [&](int v) { return vertices[v]; },
+      result.max_squared);
   if (of_vertices.max_squared > result.max_squared) {
     result.max_squared = of_vertices.max_squared;
     result.farthest = of_vertices.farthest;
   }
   return result;
+}
+
+inline Mesh_arrays mesh_arrays(const std::vector<Vec3d>& points,
+                               const std::vector<Triangle>& triangles)
+{
+  return {static_cast<int>(points.size()), points.data(), static_cast<int>(triangles.size()),
+          triangles.front().data()};
 }
 
 } // namespace internal
@@ -178,7 +148,7 @@ inline Squared_distances one_sided_distance(const Surface_samples& from, const F
 ///
 /// \param input_tree of the input's triangles
 /// \param is_bound_wanted find the upper bound, too
-/// \param find what finds distances instead, where it does
+/// \param find what finds distances from `input` and back instead, where it does
 inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
                                             const std::vector<Triangle>& input_triangles,
                                             const Facet_tree& input_tree,
@@ -195,13 +165,23 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
   if (!(diagonal > 0)) return result;
 
   const int n = 20000;
-  const Facet_tree output_tree(output_points, output_triangles, {}, concurrency);
-  const auto a = internal::one_sided_distance(
-      internal::Surface_samples(input_points, input_triangles, input_tree, concurrency),
-      output_tree, n, concurrency, find);
-  const auto b = internal::one_sided_distance(
-      internal::Surface_samples(output_points, output_triangles, output_tree, concurrency),
-      input_tree, n, concurrency, find);
+  Two_sided_distances sides;
+  const bool is_found =
+      find && find(internal::mesh_arrays(input_points, input_triangles),
+                   internal::mesh_arrays(output_points, output_triangles), n, sides);
+  std::optional<Facet_tree> output_tree;
+  if (!is_found || is_bound_wanted)
+    output_tree.emplace(output_points, output_triangles, std::vector<int>(), concurrency);
+  if (!is_found) {
+    using Samples = internal::Surface_samples;
+    sides.from_surface = internal::one_sided_distance(
+        Samples(input_points, input_triangles, input_tree, concurrency), *output_tree, n,
+        concurrency);
+    sides.from_mesh = internal::one_sided_distance(
+        Samples(output_points, output_triangles, *output_tree, concurrency), input_tree, n,
+        concurrency);
+  }
+  const auto& [a, b] = sides;
   const double percent = 100 / diagonal;
   result.mean = percent * std::max(a.sum, b.sum) / n;
   result.rms = percent * std::sqrt(std::max(a.sum_of_squares, b.sum_of_squares) / n);
@@ -213,8 +193,8 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
       std::tie(farthest.x, farthest.y, farthest.z);
   if (is_bound_wanted)
     result.bound =
-        percent * std::max(internal::distance_bound(input_tree, output_tree, max, concurrency),
-                           internal::distance_bound(output_tree, input_tree, max, concurrency));
+        percent * std::max(internal::distance_bound(input_tree, *output_tree, max, concurrency),
+                           internal::distance_bound(*output_tree, input_tree, max, concurrency));
   return result;
 }
 

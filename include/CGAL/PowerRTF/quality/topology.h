@@ -11,8 +11,11 @@
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/label_trees.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/quality/oriented_topology.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -117,27 +120,12 @@ inline void set_network_topology(const std::vector<Triangle>& triangles,
   for (std::size_t e = 0; e < part.size(); ++e) result.junctions += part[e] == static_cast<int>(e);
 }
 
-} // namespace internal
-
-/// Topology of the soup `triangles` (#F vertex indices >= 0). `vertices` counts the used ones. A
-/// vertex is non-manifold when its facets do not form one fan or one disk. A facet with a repeated
-/// vertex is counted in `faces` and otherwise ignored.
-inline Topology_statistics topology(const std::vector<Triangle>& triangles,
-                                    internal::Concurrency concurrency = Sequential_tag())
+/// That of any triangles with three vertices each, which are in [0, size).
+inline Topology_statistics soup_topology(const std::vector<Triangle>& triangles, int size,
+                                         Concurrency concurrency)
 {
-  using internal::Soup_edges;
   Topology_statistics result;
-  const auto is_collapsed = [&](int f) { return internal::is_collapsed(triangles[f]); };
-  if (!internal::select(concurrency, static_cast<int>(triangles.size()), is_collapsed).empty()) {
-    std::vector<Triangle> others = triangles;
-    const auto collapsed = static_cast<long>(internal::drop_collapsed(others));
-    result = topology(others, concurrency);
-    result.faces += collapsed;
-    result.euler_characteristic += collapsed;
-    return result;
-  }
   result.faces = triangles.size();
-  const int size = vertex_range(triangles, concurrency);
   const Facet_adjacency adjacency = facet_adjacency(triangles, size, concurrency);
   const Soup_edges edges(triangles, adjacency);
   result.border_edges = adjacency.border_edges;
@@ -150,7 +138,7 @@ inline Topology_statistics topology(const std::vector<Triangle>& triangles,
   std::vector<int> corner(size, -1), degree(size), bad(size); // a halfedge from each vertex
   std::iota(component.begin(), component.end(), 0);
   std::iota(loop.begin(), loop.end(), 0);
-  internal::for_each_index(concurrency, halfedges, [&](int h) {
+  for_each_index(concurrency, halfedges, [&](int h) {
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
     atomic_store(&corner[a], h);
     atomic_add(&degree[a], 1);
@@ -174,7 +162,7 @@ inline Topology_statistics topology(const std::vector<Triangle>& triangles,
     return facets + rest != degree[v];
   };
   const auto count = [&](int n, const auto& is_counted) {
-    return internal::reduce(
+    return reduce(
         concurrency, n, std::size_t(0), [&](std::size_t& sum, int i) { sum += is_counted(i); },
         [](std::size_t& sum, std::size_t part) { sum += part; });
   };
@@ -187,7 +175,28 @@ inline Topology_statistics topology(const std::vector<Triangle>& triangles,
   result.non_manifold_vertices = count(size, [&](int v) { return is_used(v) && is_bad(v); });
   result.euler_characteristic = static_cast<long>(result.vertices) -
                                 static_cast<long>(result.edges) + static_cast<long>(result.faces);
-  if (result.non_manifold_edges > 0) internal::set_network_topology(triangles, adjacency, result);
+  if (result.non_manifold_edges > 0) set_network_topology(triangles, adjacency, result);
+  return result;
+}
+
+} // namespace internal
+
+/// Topology of the soup `triangles` (#F vertex indices >= 0). `vertices` counts the used ones. A
+/// vertex is non-manifold when its facets do not form one fan or one disk. A facet with a repeated
+/// vertex is counted in `faces` and otherwise ignored.
+inline Topology_statistics topology(const std::vector<Triangle>& triangles,
+                                    internal::Concurrency concurrency = Sequential_tag())
+{
+  const int size = vertex_range(triangles, concurrency);
+  if (const auto found = internal::oriented_topology(triangles, size, concurrency)) return *found;
+  const auto is_collapsed = [&](int f) { return internal::is_collapsed(triangles[f]); };
+  if (internal::select(concurrency, static_cast<int>(triangles.size()), is_collapsed).empty())
+    return internal::soup_topology(triangles, size, concurrency);
+  std::vector<Triangle> others = triangles;
+  const auto collapsed = static_cast<long>(internal::drop_collapsed(others));
+  Topology_statistics result = topology(others, concurrency);
+  result.faces += collapsed;
+  result.euler_characteristic += collapsed;
   return result;
 }
 

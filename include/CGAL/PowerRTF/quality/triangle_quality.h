@@ -10,7 +10,9 @@
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <array>
@@ -22,26 +24,115 @@ namespace CGAL::PowerRTF {
 
 namespace internal {
 
-struct Triangle_shape {
-  double q = 0, smallest = 0, largest = 180; ///< quality, and angles in degrees
+/// Shape of a triangle with an area. Angles are costly: they are found for corners where they
+/// count.
+class Triangle_shape {
+public:
+  explicit Triangle_shape(const std::array<Vec3d, 3>& p)
+  {
+    const Vec3d e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]}; // opposite to the corners
+    const double l[3] = {length(e[0]), length(e[1]), length(e[2])};
+    constexpr double root_of_3 = 1.7320508075688772;
+    m_twice_area = length(cross(e[0], e[1]));
+    const double half_perimeter = (l[0] + l[1] + l[2]) / 2, longest = std::max({l[0], l[1], l[2]});
+    m_quality = root_of_3 * m_twice_area / (half_perimeter * longest);
+    for (int k = 0; k < 3; ++k) m_cosines[k] = -dot(e[(k + 1) % 3], e[(k + 2) % 3]);
+  }
+
+  bool has_area() const { return m_twice_area > 0; }
+  double quality() const { return m_quality; }
+
+  /// In degrees.
+  double smallest_angle() const
+  {
+    const double most = std::max({m_cosines[0], m_cosines[1], m_cosines[2]});
+    double smallest = 180;
+    for (const double c : m_cosines)
+      if (c >= most - rounding * std::fabs(most)) smallest = std::min(smallest, angle(c));
+    return smallest;
+  }
+  double largest_angle() const
+  {
+    const double least = least_cosine(), near = rounding * (m_twice_area + std::fabs(least));
+    double largest = 0;
+    for (const double c : m_cosines)
+      if (c <= least + near) largest = std::max(largest, angle(c));
+    return largest;
+  }
+  /// Of the largest angle.
+  double least_cotangent() const { return least_cosine() / m_twice_area; }
+  /// Whether an angle may be as large as one with that cotangent, of [0, 1], or larger.
+  bool may_reach(double cotangent) const
+  {
+    return least_cosine() < (cotangent + rounding) * m_twice_area;
+  }
+
+private:
+  static constexpr double rounding = 1e-9; // far above that of angles
+
+  double angle(double cosine) const
+  {
+    constexpr double degrees = 57.29577951308232;
+    return std::atan2(m_twice_area, cosine) * degrees;
+  }
+  double least_cosine() const { return std::min({m_cosines[0], m_cosines[1], m_cosines[2]}); }
+
+  double m_twice_area, m_quality;
+  double m_cosines[3]; // of the corners, times the lengths of their edges
 };
 
-inline Triangle_shape triangle_shape(const std::array<Vec3d, 3>& p)
-{
-  const double degrees = 45 / std::atan(1.0);
-  const Vec3d e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]}; // opposite to the corners
-  const double l[3] = {length(e[0]), length(e[1]), length(e[2])};
-  const double twice_area = length(cross(e[0], e[1]));
-  if (!(twice_area > 0)) return {};
-  const double half_perimeter = (l[0] + l[1] + l[2]) / 2, longest = std::max({l[0], l[1], l[2]});
-  Triangle_shape shape{std::sqrt(3.0) * twice_area / (half_perimeter * longest), 180, 0};
-  for (int k = 0; k < 3; ++k) {
-    const double angle = std::atan2(twice_area, -dot(e[(k + 1) % 3], e[(k + 2) % 3])) * degrees;
-    shape.smallest = std::min(shape.smallest, angle);
-    shape.largest = std::max(shape.largest, angle);
+/// The means are sums, and the shares numbers, until all triangles have been seen.
+class Quality_sums {
+public:
+  Quality_sums()
+  {
+    m_sums.q_min = 1;
+    m_sums.theta_min = m_sums.theta_max = 60;
   }
-  return shape;
-}
+
+  void add(const Triangle_shape& shape)
+  {
+    const bool has_area = shape.has_area();
+    const double q = has_area ? shape.quality() : 0,
+                 smallest = has_area ? shape.smallest_angle() : 0;
+    m_sums.q_min = std::min(m_sums.q_min, q);
+    m_sums.q_avg += q;
+    m_sums.theta_min = std::min(m_sums.theta_min, smallest);
+    m_sums.theta_min_avg += smallest;
+    m_sums.below_30 += smallest < 30;
+    if (!has_area) {
+      m_sums.theta_max = 180;
+    } else if (shape.may_reach(std::max(0., m_cotangent))) {
+      const double largest = shape.largest_angle();
+      m_sums.above_90 += q > 0 && largest > 90;
+      m_sums.theta_max = std::max(m_sums.theta_max, largest);
+      m_cotangent = std::min(m_cotangent, shape.least_cotangent());
+    }
+  }
+  void join(const Quality_sums& part)
+  {
+    const Quality_statistics& s = part.m_sums;
+    m_sums.q_min = std::min(m_sums.q_min, s.q_min);
+    m_sums.q_avg += s.q_avg;
+    m_sums.theta_min = std::min(m_sums.theta_min, s.theta_min);
+    m_sums.theta_min_avg += s.theta_min_avg;
+    m_sums.theta_max = std::max(m_sums.theta_max, s.theta_max);
+    m_sums.below_30 += s.below_30;
+    m_sums.above_90 += s.above_90;
+  }
+  Quality_statistics statistics(int triangles) const
+  {
+    Quality_statistics result = m_sums;
+    for (double* sum : {&result.q_avg, &result.theta_min_avg, &result.below_30, &result.above_90})
+      *sum /= triangles;
+    return result;
+  }
+
+private:
+  Quality_statistics m_sums;
+  double m_cotangent =
+      1; // of the largest angle so far; at first that of 45 degrees: all are larger
+};
 
 } // namespace internal
 
@@ -53,36 +144,16 @@ inline Quality_statistics triangle_quality(const std::vector<Vec3d>& points,
                                            const std::vector<Triangle>& triangles,
                                            internal::Concurrency concurrency = Sequential_tag())
 {
+  using internal::Quality_sums;
   if (triangles.empty()) return {};
-  // The means are sums, and the shares numbers, until all have been seen.
-  Quality_statistics start;
-  start.q_min = 1;
-  start.theta_min = start.theta_max = 60;
-  const auto add = [&](Quality_statistics& s, int f) {
-    const internal::Triangle_shape shape = internal::triangle_shape(
-        {points[triangles[f][0]], points[triangles[f][1]], points[triangles[f][2]]});
-    s.q_min = std::min(s.q_min, shape.q);
-    s.q_avg += shape.q;
-    s.theta_min = std::min(s.theta_min, shape.smallest);
-    s.theta_min_avg += shape.smallest;
-    s.theta_max = std::max(s.theta_max, shape.largest);
-    s.below_30 += shape.smallest < 30;
-    s.above_90 += shape.q > 0 && shape.largest > 90;
+  const int size = static_cast<int>(triangles.size());
+  const auto add = [&](Quality_sums& sums, int f) {
+    const auto [a, b, c] = triangles[f];
+    sums.add(internal::Triangle_shape({points[a], points[b], points[c]}));
   };
-  Quality_statistics result =
-      internal::reduce(concurrency, static_cast<int>(triangles.size()), start, add,
-                       [](Quality_statistics& s, const Quality_statistics& part) {
-                         s.q_min = std::min(s.q_min, part.q_min);
-                         s.q_avg += part.q_avg;
-                         s.theta_min = std::min(s.theta_min, part.theta_min);
-                         s.theta_min_avg += part.theta_min_avg;
-                         s.theta_max = std::max(s.theta_max, part.theta_max);
-                         s.below_30 += part.below_30;
-                         s.above_90 += part.above_90;
-                       });
-  for (double* sum : {&result.q_avg, &result.theta_min_avg, &result.below_30, &result.above_90})
-    *sum /= static_cast<double>(triangles.size());
-  return result;
+  return internal::reduce(concurrency, size, Quality_sums(), add,
+                          [](Quality_sums& sums, const Quality_sums& part) { sums.join(part); })
+      .statistics(size);
 }
 
 /// The edges of the triangles, each once, sorted.
@@ -113,22 +184,33 @@ inline std::vector<Edge> edges_of(const std::vector<Triangle>& triangles,
   return edges;
 }
 
-/// The same where each edge is there once in either direction, in less time, in any order.
-inline std::vector<Edge> edges_of_closed(const std::vector<Triangle>& triangles,
-                                         internal::Concurrency concurrency = Sequential_tag())
+namespace internal {
+
+/// The lengths of the edges; `is_closed`: each edge is there once in either direction, and they may
+/// come in any order.
+inline Unset_vector<double> lengths_of_edges(const std::vector<Vec3d>& points,
+                                             const std::vector<Triangle>& triangles,
+                                             Concurrency concurrency, bool is_closed)
 {
-  const auto edge = [&](int h) {
-    return Edge{halfedge_source(triangles, h), halfedge_target(triangles, h)};
-  };
-  const std::vector<int> halfedges =
-      internal::select(concurrency, static_cast<int>(3 * triangles.size()),
-                       [&](int h) { return edge(h)[0] < edge(h)[1]; });
-  std::vector<Edge> edges;
-  internal::resize_in_parallel(concurrency, edges, halfedges.size());
-  internal::for_each_index(concurrency, static_cast<int>(edges.size()),
-                           [&](int e) { edges[e] = edge(halfedges[e]); });
-  return edges;
+  Unset_vector<double> lengths;
+  const auto set_length = [&](int e, int a, int b) { lengths[e] = length(points[b] - points[a]); };
+  if (is_closed) {
+    const auto source = [&](int h) { return halfedge_source(triangles, h); };
+    const auto target = [&](int h) { return halfedge_target(triangles, h); };
+    select(
+        concurrency, static_cast<int>(3 * triangles.size()),
+        [&](int h) { return source(h) < target(h); }, [&](int n) { lengths.resize(n); },
+        [&](int e, int h) { set_length(e, source(h), target(h)); });
+  } else {
+    const std::vector<Edge> edges = edges_of(triangles, concurrency);
+    lengths.resize(edges.size());
+    for_each_index(concurrency, static_cast<int>(edges.size()),
+                   [&](int e) { set_length(e, edges[e][0], edges[e][1]); });
+  }
+  return lengths;
 }
+
+} // namespace internal
 
 /// Lengths of the edges of the `triangles`, in the unit of the `points`. All zero when there is no
 /// triangle. `is_closed`: each edge is there once in either direction.
@@ -137,15 +219,9 @@ inline Edge_length_statistics edge_lengths(const std::vector<Vec3d>& points,
                                            internal::Concurrency concurrency = Sequential_tag(),
                                            bool is_closed = false)
 {
-  const std::vector<Edge> edges =
-      is_closed ? edges_of_closed(triangles, concurrency) : edges_of(triangles, concurrency);
-  if (edges.empty()) return {};
-  const int size = static_cast<int>(edges.size());
-  std::vector<double> lengths;
-  internal::resize_in_parallel(concurrency, lengths, size);
-  internal::for_each_index(concurrency, size, [&](int e) {
-    lengths[e] = length(points[edges[e][1]] - points[edges[e][0]]);
-  });
+  const auto lengths = internal::lengths_of_edges(points, triangles, concurrency, is_closed);
+  if (lengths.empty()) return {};
+  const int size = static_cast<int>(lengths.size());
   Edge_length_statistics result = internal::reduce(
       concurrency, size, Edge_length_statistics{0, 0, std::numeric_limits<double>::max(), 0},
       [&](Edge_length_statistics& s, int e) {
