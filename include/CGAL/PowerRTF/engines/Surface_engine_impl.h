@@ -78,7 +78,9 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
 {
   engine(); // makes the facets' tree, too
   m_size = samples.size();
-  const Samples sites = joined(samples, features.sites);
+  const bool are_all_free = features.sites.size() == 0;
+  const Samples with_features = are_all_free ? Samples() : joined(samples, features.sites);
+  const Samples& sites = are_all_free ? samples : with_features;
   m_sites = sites.size();
   Engine_samples to;
   const bool has_patches = !m_surface.facet_patches.empty();
@@ -95,7 +97,7 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
     if (has_patches) to.patches[i] = m_surface.facet_patches[f];
   });
   to.cells = static_cast<int>(m_size);
-  if (features.sites.size() > 0) {
+  if (!are_all_free) {
     to.next.assign(sites.size(), -1);
     for (std::size_t k = 0; k < features.next.size(); ++k)
       to.next[m_size + k] = static_cast<int>(m_size) + features.next[k];

@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -37,7 +38,11 @@ struct Extracted_mesh {
       Triangle& t = triangles[f];
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     });
-    internal::sort(concurrency, triangles.begin(), triangles.end());
+    const internal::Buckets<Triangle> at_vertices(
+        concurrency, int(triangles.size()), points.size(),
+        [this](int f) { return triangles[f][0]; }, [this](int f) { return triangles[f]; });
+    internal::for_each_index(concurrency, int(triangles.size()),
+                             [&](int k) { triangles[k] = at_vertices.entries[k]; });
   }
 };
 
