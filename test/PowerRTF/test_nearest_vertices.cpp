@@ -81,7 +81,7 @@ TEST_CASE("the facets at each vertex")
     const Surface s = shapes::make_surface(soup);
     const Facet_tree tree(s.points, s.triangles);
     const Packed_surface packed = internal::packed_surface(s, tree, true);
-    const std::vector<int>& first = packed.first_facet;
+    const internal::Unset_vector<int>& first = packed.first_facet;
     REQUIRE(first.size() == s.points.size() + 1);
     CHECK(packed.vertex_facets.size() == 3 * s.triangles.size());
     for (int v = 0; v < static_cast<int>(s.points.size()); ++v) {

@@ -22,7 +22,7 @@ struct Packed_surface {
   std::vector<Child_boxes> vertex_nodes; ///< of a `Packed_tree_layout` over the vertices
   /// The facets at vertex v are `vertex_facets[first_facet[v]]` and so on to `first_facet[v + 1]`
   /// (places in the tree, by increasing number in the surface).
-  std::vector<int> first_facet, vertex_facets;
+  internal::Unset_vector<int> first_facet, vertex_facets;
 
   /// All of it; lives as long as this.
   Surface_view<double> view() const

@@ -8,33 +8,29 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Packed_surface.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
-#include <vector>
+#include <utility>
 
 namespace CGAL::PowerRTF::internal {
 
 /// Adds what the rules over the nearest vertices look at.
-inline void add_vertex_tree(const Surface& surface, const Facet_tree& tree, Packed_surface& result)
+inline void add_vertex_tree(const Surface& surface, const Facet_tree& tree, Packed_surface& result,
+                            Concurrency concurrency)
 {
   const std::size_t vertices = surface.points.size();
   result.vertices = surface.points;
   result.vertex_nodes = child_boxes(Packed_tree_layout(static_cast<int>(vertices)), [&](int v) {
     return Box3<double>{surface.points[v], surface.points[v]};
   });
-  std::vector<int>& first = result.first_facet;
-  first.assign(vertices + 1, 0);
-  for (const Triangle& t : surface.triangles)
-    for (const int v : t) ++first[v + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  result.vertex_facets.resize(first.back());
-  std::vector<int> end(first.begin(), first.end() - 1);
-  for (std::size_t f = 0; f < surface.triangles.size(); ++f)
-    for (const int v : surface.triangles[f])
-      result.vertex_facets[end[v]++] = tree.place(static_cast<int>(f));
+  Buckets<int> corners = vertex_corners(surface.triangles, vertices, concurrency);
+  result.first_facet = std::move(corners.first);
+  result.vertex_facets = std::move(corners.entries);
+  for_each_index(concurrency, static_cast<int>(result.vertex_facets.size()),
+                 [&](int k) { result.vertex_facets[k] = tree.place(result.vertex_facets[k] / 3); });
 }
 
 /// `tree`: of the surface's facets; `has_vertex_tree`: for rules that ask for the nearest vertices.
@@ -54,7 +50,7 @@ inline Packed_surface packed_surface(const Surface& surface, const Facet_tree& t
     const Triangle& t = surface.triangles[tree.order()[k]];
     std::copy(t.begin(), t.end(), &result.facet_vertices[3 * k]);
   });
-  if (has_vertex_tree) add_vertex_tree(surface, tree, result);
+  if (has_vertex_tree) add_vertex_tree(surface, tree, result, concurrency);
   return result;
 }
 

@@ -69,12 +69,8 @@ vertices_around(const Working_mesh& working, const std::vector<int>& vertices, i
 inline std::vector<Working_mesh::Face> faces_around(const Working_mesh& working,
                                                     const std::vector<int>& vertices, int rings)
 {
-  std::vector<Working_mesh::Face> faces;
-  for (const auto v : vertices_around(working, vertices, rings))
-    for (const auto h : halfedges_around_target(v, working.mesh))
-      if (!working.mesh.is_border(h)) faces.push_back(working.mesh.face(h));
-  sort_uniquely(faces);
-  return faces;
+  const auto faces = working.faces_at(vertices_around(working, vertices, rings));
+  return {faces.begin(), faces.end()};
 }
 
 /// The faces of which something holds that their corners and edges decide.
