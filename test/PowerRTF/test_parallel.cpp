@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -11,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -117,5 +120,15 @@ TEST_CASE("copies and fills of any length")
     CHECK(to == from);
     backend.fill(buffer.data(), 7, n);
     CHECK(std::count(buffer.data(), buffer.data() + n, 7) == n);
+  }
+}
+
+TEST_CASE("memory that another has left is zero again")
+{
+  for (const int n : sizes) {
+    std::vector<std::uint64_t>(n, ~std::uint64_t(0));
+    const Zero_vector<std::uint64_t> values(n);
+    CHECK(values.size() == std::size_t(n));
+    CHECK(std::count(values.begin(), values.end(), 0u) == n);
   }
 }
