@@ -20,9 +20,12 @@
 #include <cmath>
 #include <cstddef>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -88,6 +91,46 @@ Samples lattice_but_for_rounding(const Case& c, const Start& start, unsigned num
   return sample_surface<Tag>(surface, c.options, start.patches->features(), &tree, nullptr, make);
 }
 
+/// A device's field that leaves the choice to the host, or counts those that it has made.
+class Field_with_choice final : public Lattice_field_base {
+public:
+  Field_with_choice(std::unique_ptr<Lattice_field_base>&& field, int* choices)
+      : m_field(std::move(field)), m_choices(choices)
+  {}
+
+  void solve(float factor) override { m_field->solve(factor); }
+  std::size_t find_points() override { return m_field->find_points(); }
+  Sample_candidates candidates() override { return m_field->candidates(); }
+  std::optional<Sample_candidates> choose_candidates(std::size_t n) override
+  {
+    if (!m_choices) return std::nullopt;
+    std::optional<Sample_candidates> chosen = m_field->choose_candidates(n);
+    *m_choices += chosen.has_value();
+    return chosen;
+  }
+  Sample_candidates nodes_of(const std::vector<unsigned char>& is_wanted) override
+  {
+    return m_field->nodes_of(is_wanted);
+  }
+
+private:
+  std::unique_ptr<Lattice_field_base> m_field;
+  int* m_choices;
+};
+
+/// How many of `a` are not among `b`.
+std::size_t number_of_others(std::vector<Vec3d> a, std::vector<Vec3d> b)
+{
+  const auto less = [](const Vec3d& p, const Vec3d& q) {
+    return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+  };
+  std::sort(a.begin(), a.end(), less);
+  std::sort(b.begin(), b.end(), less);
+  std::vector<Vec3d> others;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(others), less);
+  return others.size();
+}
+
 /// Whether most samples are at the same places, and both arrangements as regular.
 bool are_alike(const Surface& surface, const Samples& a, const Samples& b)
 {
@@ -144,6 +187,37 @@ TEST_CASE("a lattice made on the device is one that rounding lets the CPU make")
           is_found = are_alike(surface, lattice_but_for_rounding(c, start, number), device);
         CHECK(is_found);
       }
+}
+
+TEST_CASE("the device chooses the same points of its lattice as the host does")
+{
+  const shapes::Soup torus = shapes::torus(96, 48, 1, 0.3);
+  Case cases[] = {
+      {"torus", torus, options_of(false, Density::uniform, 20000)},
+      {"torus, adaptive", torus, options_of(false, Density::curvature, 60000)},
+      {"with a border", shapes::plane_patch(40, 40), options_of(false, Density::uniform, 30000)}};
+  for (Case& c : cases)
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      CAPTURE(c.name);
+      CAPTURE(seed);
+      c.options.random_seed = seed;
+      const Start start(c);
+      const Surface& surface = start.patches->surface();
+      Cuda_engine<float> engine(surface, c.options);
+      int choices = 0;
+      const auto sample = [&](int* count) {
+        const auto make = [&](const Lattice_plan& plan) {
+          return std::make_unique<Field_with_choice>(engine.lattice_field_maker()(plan), count);
+        };
+        return sample_surface<Tag>(surface, c.options, start.patches->features(), nullptr, nullptr,
+                                   make);
+      };
+      const std::vector<Vec3d> device = sample(&choices).points, host = sample(nullptr).points;
+      CHECK(choices == 1);
+      CHECK(device == sample(&choices).points);
+      // Rounding decides between those that are crowded alike.
+      CHECK(number_of_others(device, host) < device.size() / 1000);
+    }
 }
 
 TEST_CASE("the same input gives the same samples bit for bit")

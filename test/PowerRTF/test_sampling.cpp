@@ -4,6 +4,7 @@
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/fields/density.h>
+#include <CGAL/PowerRTF/sampling/Candidate_search.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
 #include <CGAL/PowerRTF/sampling/sample_surface.h>
 
@@ -407,6 +408,42 @@ TEST_CASE("elimination against its definition")
     }
   }
   CHECK(eliminate_samples({}, 0.5, 0).empty());
+}
+
+TEST_CASE("elimination by searches chooses the same candidates, or leaves them to the host")
+{
+  using Backend = Host_backend<CGAL::Parallel_if_available_tag>;
+  const auto chosen_by_search = [](const Candidates& candidates, std::size_t n, std::size_t fixed) {
+    Backend backend;
+    const int size = int(candidates.size()), free = size - int(fixed);
+    const internal::Candidate_search<Backend> search(
+        backend, size, [&](int i) { return candidates[i]; }, 0.5);
+    internal::Candidate_elimination<Backend, internal::Candidate_search_view> elimination(
+        backend, search.view(), search.order(), size, free);
+    std::vector<int> left;
+    if (!elimination.run(n, [](const int*, int, double) { return false; })) return left;
+    left.resize(free);
+    left.resize(elimination.write_left(left.data()));
+    return left;
+  };
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    Random_source random(seed);
+    Candidates candidates;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3d point{random(), random(), 0.1 * random()};
+      candidates.push_back(
+          {point, {0, 0, i % 5 == 0 ? -1. : 1.}, i % 100 == 0 ? 0.2 : 0.02 * (1 + random())});
+    }
+    for (const std::size_t fixed : {0, 100})
+      for (const std::size_t n : {1000, 1500, 1890}) {
+        const std::vector<int> expected = eliminate_samples(candidates, 0.5, n, fixed);
+        CHECK(expected.size() == n);
+        CHECK(chosen_by_search(candidates, n, fixed) == expected);
+      }
+  }
+  Candidates line; // closer and closer together: each waits for the next one
+  for (int i = 0; i < 300; ++i) line.push_back({{-1 + std::pow(0.99, i), 0, 0}, {0, 0, 1}, 0.1});
+  CHECK(chosen_by_search(line, 100, 0).empty());
 }
 
 TEST_CASE("elimination where each candidate waits for the next one")

@@ -7,6 +7,9 @@
 
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/sampling/Candidate_elimination.h>
+#include <CGAL/PowerRTF/sampling/Candidate_search.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
 #include <CGAL/PowerRTF/sampling/Lattice_level.h>
 #include <CGAL/PowerRTF/sampling/Lattice_plan.h>
@@ -91,20 +94,22 @@ public:
   }
 
   /// The most that fields for so many points hold at a time on a device: while the finest level's
-  /// points are placed, or chosen, or become candidates.
+  /// points are placed, or chosen, or become candidates, or those are chosen from.
   static std::size_t bytes(std::size_t points, std::size_t facets, bool is_even)
   {
     const std::vector<std::size_t> sizes = lattice_levels(points);
     const std::size_t n = sizes.front(), coarser = sizes.size() > 1 ? sizes[1] : 0;
-    std::size_t sum = Level::edges_bytes(n) + Level::solved_bytes(n, !is_even) +
-                      facets * (2 * sizeof(int) + sizeof(double));
+    std::size_t sum = facets * (2 * sizeof(int) + sizeof(double));
     for (const std::size_t size : sizes) sum += Level::node_bytes(size);
+    const std::size_t solved = Level::edges_bytes(n) + Level::solved_bytes(n, !is_even);
     const std::size_t selecting = n * (sizeof(unsigned char) + sizeof(int));
     const std::size_t chosen = points * (sizeof(int) + sizeof(Seen_point));
     const std::size_t placing = n * sizeof(Stored_waves) + Level::solved_bytes(coarser, !is_even);
     const std::size_t choosing = n * sizeof(Seen_point) + selecting + chosen;
     const std::size_t gathering = chosen + selecting + points * sizeof(Sample_candidate);
-    return sum + (std::max)({placing, choosing, gathering});
+    const std::size_t eliminating =
+        chosen + points * sizeof(Sample_candidate) + choosing_bytes(points);
+    return sum + (std::max)({solved + placing, solved + choosing, solved + gathering, eliminating});
   }
 
   void solve(float factor) override
@@ -134,8 +139,32 @@ public:
 
   Sample_candidates candidates() override
   {
-    Buffer<unsigned char> is_wanted = gaps(m_chosen);
-    return candidates(m_chosen.size(), is_wanted);
+    return downloaded(candidates(m_chosen.size(), gaps(m_chosen)));
+  }
+
+  std::optional<Sample_candidates> choose_candidates(std::size_t n) override
+  {
+    if constexpr (Backend::is_host) return std::nullopt;
+    constexpr int least = 1 << 14; // before it the host's threads are as fast
+    if (m_chosen.size() < least) return std::nullopt;
+    m_levels.front().edges = {};
+    m_levels.front().release();
+    const Lattice_view view = this->view();
+    const Buffer<Sample_candidate> all = candidates(m_chosen.size(), gaps(m_chosen));
+    const int free = static_cast<int>(all.size()), size = free + view.size - view.free;
+    if (all.size() < n || !m_backend.has_room(choosing_bytes(size))) return std::nullopt;
+    const internal::Candidate_search<Backend> search(
+        m_backend, size, As_elimination_candidate{view, free, all.data()}, 0);
+    Elimination elimination(m_backend, search.view(), search.order(), size, free);
+    if (!elimination.run(n, [](const int*, int, double) { return false; })) return std::nullopt;
+    Buffer<int> left;
+    left.allocate(m_backend, free);
+    if (elimination.write_left(left.data()) != static_cast<int>(n)) return std::nullopt;
+    Buffer<Sample_candidate> chosen;
+    chosen.allocate(m_backend, n);
+    m_backend.for_each(static_cast<int>(n),
+                       Gather_candidates{all.data(), left.data(), chosen.data()});
+    return downloaded(chosen);
   }
 
   Sample_candidates nodes_of(const std::vector<unsigned char>& is_wanted) override
@@ -147,7 +176,7 @@ public:
     of_node.allocate(m_backend, view.free);
     m_backend.for_each(view.free,
                        Mark_components{view.components, of_component.data(), of_node.data()});
-    return candidates(0, of_node);
+    return downloaded(candidates(0, of_node));
   }
 
   /// Those that were found last.
@@ -189,6 +218,14 @@ private:
   static constexpr float neighbor_reach = 1.04f;   // of 4 nodes per point: 15 others are within
 
   using Level = Lattice_level<Backend>;
+  using Elimination = internal::Candidate_elimination<Backend, internal::Candidate_search_view>;
+
+  /// What `choose_candidates()` takes for `n` candidates beside them.
+  static std::size_t choosing_bytes(std::size_t n)
+  {
+    return internal::Candidate_search<Backend>::bytes(n) +
+           internal::bytes_of_listed<Elimination>(n) + n * (sizeof(int) + sizeof(Sample_candidate));
+  }
 
   /// An array of the host's where the backend sees it.
   template <class T>
@@ -312,7 +349,7 @@ private:
   }
 
   /// The first `points` of the lattice's, and the free nodes that are wanted.
-  Sample_candidates candidates(int points, const Buffer<unsigned char>& is_wanted)
+  Buffer<Sample_candidate> candidates(int points, const Buffer<unsigned char>& is_wanted)
   {
     const Lattice_view view = this->view();
     Buffer<int> nodes;
@@ -323,7 +360,12 @@ private:
     m_backend.for_each(size, Make_candidate{view, strata(), m_plan.seed_of(0), points,
                                             m_chosen.nodes.data(), m_chosen.points.data(),
                                             nodes.data(), candidates.data()});
-    Sample_candidates result(size);
+    return candidates;
+  }
+
+  Sample_candidates downloaded(const Buffer<Sample_candidate>& candidates)
+  {
+    Sample_candidates result(candidates.size());
     m_backend.download(result.data(), candidates.data(), result.size());
     return result;
   }

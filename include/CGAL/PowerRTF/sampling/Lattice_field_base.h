@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -44,6 +45,9 @@ public:
   /// The points that were found last; then the free nodes that are near none of them and no site on
   /// creases and borders, and all of the components without lattice.
   virtual Sample_candidates candidates() = 0;
+  /// `n` of them, for one component, by elimination; none where the host has to choose. What was
+  /// solved may be gone.
+  virtual std::optional<Sample_candidates> choose_candidates(std::size_t n) = 0;
   /// The free nodes of the components c with `is_wanted[c]`.
   virtual Sample_candidates nodes_of(const std::vector<unsigned char>& is_wanted) = 0;
 };

@@ -33,6 +33,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -65,11 +67,15 @@ public:
       part.next(0.8);
       find_points(*field);
       part.next(0.85);
-      m_candidates = field->candidates();
-      candidates = candidates_of_components(*field);
+      if (!choose_by(*field)) {
+        m_candidates = field->candidates();
+        candidates = candidates_of_components(*field);
+      }
     }
     part.next(1);
-    return eliminate(candidates, plan.sites.front(), find);
+    return on_surface(candidates.empty() ? all_candidates()
+                                         : chosen_candidates(candidates, plan.sites.front()),
+                      find);
   }
 
   /// Samples of the last run that are no points of the lattice.
@@ -150,9 +156,18 @@ private:
     return all;
   }
 
-  /// The samples of each component from its candidates.
-  Samples eliminate(const std::vector<std::vector<int>>& candidates, const Lattice_sites& sites,
-                    const Find_facets& find)
+  /// Whether the candidates that the field has chosen are all.
+  bool choose_by(Lattice_field_base& field)
+  {
+    if (m_shares.size() != 1) return false;
+    std::optional<Sample_candidates> chosen = field.choose_candidates(m_shares.front().samples);
+    if (chosen) m_candidates = std::move(*chosen);
+    return chosen.has_value();
+  }
+
+  /// As many of each component's candidates as it has samples.
+  std::vector<int> chosen_candidates(const std::vector<std::vector<int>>& candidates,
+                                     const Lattice_sites& sites)
   {
     std::vector<std::vector<int>> sites_of(m_shares.size());
     for (std::size_t s = 0; s < sites.size(); ++s)
@@ -160,12 +175,7 @@ private:
     std::vector<std::vector<int>> chosen(m_shares.size());
     for (std::size_t c = 0; c < m_shares.size(); ++c)
       chosen[c] = chosen_candidates(candidates[c], sites, sites_of[c], m_shares[c].samples);
-    const std::vector<int> all = internal::concatenated(m_backend.concurrency(), chosen);
-    m_off_lattice =
-        internal::select(m_backend.concurrency(), static_cast<int>(all.size()), [&](int k) {
-          return m_candidates[all[k]].distance < 0;
-        }).size();
-    return on_surface(all, find);
+    return internal::concatenated(m_backend.concurrency(), chosen);
   }
 
   /// `n` of the candidates of a component, whose sites are those in `sites_of`.
@@ -193,8 +203,12 @@ private:
   }
 
   /// The candidates that were chosen.
-  Samples on_surface(const std::vector<int>& chosen, const Find_facets& find) const
+  Samples on_surface(const std::vector<int>& chosen, const Find_facets& find)
   {
+    m_off_lattice =
+        internal::select(m_backend.concurrency(), static_cast<int>(chosen.size()), [&](int k) {
+          return m_candidates[chosen[k]].distance < 0;
+        }).size();
     const internal::Unset_vector<int> facets = nearest_facets(chosen, find);
     internal::Unset_vector<Facet_place> places(chosen.size());
     m_backend.for_each(static_cast<int>(places.size()), [&](int k) {
@@ -271,7 +285,7 @@ private:
   }
 
   /// The fields for those who want to look at them.
-  Lattice_fields described(Lattice_field<Backend>& field) const
+  Lattice_fields described(Lattice_field<Backend>& field)
   {
     const Lattice_view view = field.view();
     Lattice_fields fields;

@@ -10,9 +10,9 @@
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/sampling/crowding.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -20,33 +20,20 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// A point that may become a sample.
-struct Elimination_candidate {
-  Vec3d point;
-  Vec3d normal;
-  double radius; ///< half the distance of samples that are packed as densely as possible
-};
-
-using Elimination_candidates = Unset_vector<Elimination_candidate>;
-
 /// Which candidates see each other: closer than the sum of their radii, normals compatible. Places
 /// are those of the candidates in spatial order.
 struct Candidate_graph {
   static constexpr int part_size = 512; ///< places whose neighbors are in one array
 
-  struct Neighbor {
-    int place;
-    double crowding; ///< Yuksel's weight, from 0 (radii touch) to 1 (same point)
-  };
-  Unset_vector<int> order;                  ///< the candidate at each place
-  std::vector<std::vector<Neighbor>> parts; ///< the neighbors of all places, part by part
+  Unset_vector<int> order;                           ///< the candidate at each place
+  std::vector<std::vector<Crowding_neighbor>> parts; ///< the neighbors of all places, part by part
   Unset_vector<int> end; ///< of the neighbors of each place, in its part; the next ones begin there
 
   /// Calls `f(neighbor)` for the neighbors of place `k`.
   template <class F>
   void for_each_neighbor(int k, F&& f) const
   {
-    const std::vector<Neighbor>& part = parts[k / part_size];
+    const std::vector<Crowding_neighbor>& part = parts[k / part_size];
     for (int e = k % part_size == 0 ? 0 : end[k - 1]; e < end[k]; ++e) f(part[e]);
   }
 };
@@ -110,9 +97,7 @@ public:
           if (squared >= reach * reach || b.place == i ||
               dot(a.normal, m_sorted[b.place].normal) < cos_normal_angle)
             continue;
-          const double free = 1 - std::sqrt(squared) / reach;
-          const double free_2 = free * free, free_4 = free_2 * free_2;
-          found(Candidate_graph::Neighbor{b.place, free_4 * free_4}); // alpha = 8
+          found(Crowding_neighbor{b.place, crowding(squared, reach)});
         }
         finish(i);
       }
@@ -192,7 +177,7 @@ inline Candidate_graph candidate_graph(const Elimination_candidates& candidates,
                                        double cos_normal_angle, Concurrency concurrency)
 {
   constexpr int groups_per_part = Candidate_graph::part_size / Candidate_tree::group_size;
-  using Neighbors = std::vector<Candidate_graph::Neighbor>;
+  using Neighbors = std::vector<Crowding_neighbor>;
   Candidate_tree tree(candidates, concurrency);
   Candidate_graph graph;
   graph.end.resize(candidates.size());

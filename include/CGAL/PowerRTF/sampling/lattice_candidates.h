@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/sampling/Lattice_field_base.h>
 #include <CGAL/PowerRTF/sampling/Lattice_plan.h>
+#include <CGAL/PowerRTF/sampling/crowding.h>
 #include <CGAL/PowerRTF/sampling/lattice_gaps.h>
 #include <CGAL/PowerRTF/sampling/lattice_points.h>
 
@@ -80,6 +81,31 @@ struct Make_candidate {
         p.distance,
         {view.points[i], view.normals[i], view.node_spacing[i], view.components[i], facet}};
   }
+};
+
+/// The candidate i, or the site `i - free` on creases and borders.
+struct As_elimination_candidate {
+  Lattice_view view;
+  int free;
+  const Sample_candidate* candidates;
+
+  CGAL_POWER_RTF_HD internal::Elimination_candidate operator()(int i) const
+  {
+    if (i < free) {
+      const Sample_candidate& c = candidates[i];
+      return {to_double(c.point), to_double(c.node.normal), 0.5 * double(c.node.spacing)};
+    }
+    const int k = view.free + i - free;
+    return {to_double(view.points[k]), to_double(view.normals[k]),
+            0.5 * double(view.node_spacing[k])};
+  }
+};
+
+struct Gather_candidates {
+  const Sample_candidate* candidates;
+  const int* chosen;
+  Sample_candidate* result;
+  CGAL_POWER_RTF_HD void operator()(int k) const { result[k] = candidates[chosen[k]]; }
 };
 
 } // namespace CGAL::PowerRTF

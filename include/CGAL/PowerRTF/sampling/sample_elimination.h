@@ -1,175 +1,81 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Weighted sample elimination: Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets"
-// (2015), with distances relative to the local spacing.
+// Weighted sample elimination on the host, with distances relative to the local spacing.
 #ifndef CGAL_POWER_RTF_SAMPLING_SAMPLE_ELIMINATION_H
 #define CGAL_POWER_RTF_SAMPLING_SAMPLE_ELIMINATION_H
 
-#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/sampling/Candidate_elimination.h>
 #include <CGAL/PowerRTF/sampling/candidate_graph.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 namespace internal {
 
-/// The candidate with the largest weight goes first, of equal ones the last.
-///
-/// Weights only fall. So a candidate that comes before all its neighbors goes before them, with the
-/// weight that it has, whatever happens elsewhere: many go at once, and each with the weight that
-/// it has when one goes after the other. Down to a threshold, it is the same candidates that go.
-class Sample_elimination {
-  using Entry = std::pair<double, int>; ///< weight, candidate
-
-public:
-  /// The last `fixed` candidates stay.
-  Sample_elimination(Candidate_graph&& graph, std::size_t fixed, Concurrency concurrency)
-      : m_graph(std::move(graph)), m_concurrency(concurrency),
-        m_size(static_cast<int>(m_graph.order.size())), m_free(m_size - static_cast<int>(fixed)),
-        m_is_alive(m_size), m_weight(m_size)
-  {
-    for_each_index(concurrency, m_size, [&](int k) { m_is_alive[k] = 1; });
-  }
-
-  /// The free candidates that are left, increasing: `n`, or more that do not see each other.
-  std::vector<int> run(std::size_t n)
-  {
-    constexpr double seen = std::numeric_limits<double>::min(); // the least weight
-    const std::size_t excess = m_free > static_cast<int>(n) ? m_free - n : 0;
-    for (bool progress = true; progress && m_gone.size() < excess;) {
-      const std::size_t before = m_gone.size();
-      for_each_index(m_concurrency, m_size, [&](int k) { update_weight(k); });
-      eliminate_down_to(std::max(threshold(excess - before), seen));
-      progress = m_gone.size() > before;
-    }
-    // The last ones stay, after all.
-    const auto end = m_gone.begin() + std::min(excess, m_gone.size());
-    std::nth_element(m_gone.begin(), end, m_gone.end(),
-                     [&](int j, int k) { return comes_before(j, k); });
-    for (auto k = end; k != m_gone.end(); ++k) m_is_alive[*k] = 1;
-    Unset_vector<char> is_left(m_size);
-    for_each_index(m_concurrency, m_size,
-                   [&](int k) { is_left[m_graph.order[k]] = m_is_alive[k] && is_free(k); });
-    return select(m_concurrency, m_size, [&](int i) { return is_left[i]; });
-  }
-
-private:
-  bool is_free(int k) const { return m_graph.order[k] < m_free; }
-  Entry entry(int k) const { return {m_weight[k], m_graph.order[k]}; }
-  bool comes_before(int j, int k) const { return entry(j) > entry(k); }
-
+/// As neighbors of a `Candidate_elimination`.
+struct Candidate_graph_view {
+  const Candidate_graph* graph;
   template <class F>
-  void for_each_alive_neighbor(int k, F&& f) const
+  void for_each_neighbor(int k, F f) const
   {
-    m_graph.for_each_neighbor(k, [&](const auto& neighbor) {
-      if (m_is_alive[neighbor.place]) f(neighbor);
-    });
+    graph->for_each_neighbor(k, f);
   }
+};
 
-  /// Weights are summed anew, not updated by subtraction: the last two neighbors have the same
-  /// weight, and rounding must not choose between them.
-  void update_weight(int k)
-  {
-    if (!m_is_alive[k]) return;
-    double sum = 0;
-    for_each_alive_neighbor(k, [&](const auto& neighbor) { sum += neighbor.crowding; });
-    m_weight[k] = sum;
-  }
+/// Lets active candidates go one after the other: the first one is on top of a heap as soon as the
+/// weight on top is up to date.
+struct Eliminate_in_turn {
+  Elimination_view<Candidate_graph_view> view;
 
-  bool is_first(int k) const
+  bool operator()(const int* active, int size, double least) const
   {
-    bool result = true;
-    for_each_alive_neighbor(k, [&](const auto& neighbor) {
-      result = result && (!is_free(neighbor.place) || comes_before(k, neighbor.place));
-    });
-    return result;
-  }
-
-  /// The items with `is_wanted(item)`.
-  template <class Is_wanted>
-  std::vector<int> selected(const std::vector<int>& items, const Is_wanted& is_wanted) const
-  {
-    std::vector<int> result = select(m_concurrency, static_cast<int>(items.size()),
-                                     [&](int a) { return is_wanted(items[a]); });
-    for_each_index(m_concurrency, static_cast<int>(result.size()),
-                   [&](int b) { result[b] = items[result[b]]; });
-    return result;
-  }
-
-  /// A weight that some more than `count` of the candidates have, as far as a part of them shows.
-  double threshold(std::size_t count) const
-  {
-    constexpr int largest_part = 1 << 16;
-    const int stride = m_size / largest_part + 1;
-    std::vector<double> weights;
-    for (int k = 0; k < m_size; k += stride)
-      if (m_is_alive[k] && is_free(k)) weights.push_back(m_weight[k]);
-    if (weights.empty()) return 0;
-    const std::size_t rank = count / stride, rest = weights.size() - std::min(weights.size(), rank);
-    const std::size_t place =
-        std::min(rank + std::min(rank, rest / 2) + rest / 1024, weights.size() - 1);
-    std::nth_element(weights.begin(), weights.begin() + place, weights.end(),
-                     std::greater<double>());
-    return weights[place];
-  }
-
-  /// Eliminates the candidates that have at least the weight `least` when their turn comes.
-  void eliminate_down_to(double least)
-  {
-    constexpr int max_rounds = 32;
-    std::vector<int> active = select(m_concurrency, m_size, [&](int k) {
-      return m_is_alive[k] && is_free(k) && m_weight[k] >= least;
-    });
-    for (int round = 0; round < max_rounds && !active.empty(); ++round) {
-      const std::vector<int> first = selected(active, [&](int k) { return is_first(k); });
-      for_each_index(m_concurrency, static_cast<int>(first.size()),
-                     [&](int a) { m_is_alive[first[a]] = 0; });
-      m_gone.insert(m_gone.end(), first.begin(), first.end());
-      for_each_index(m_concurrency, static_cast<int>(active.size()),
-                     [&](int a) { update_weight(active[a]); });
-      active = selected(active, [&](int k) { return m_is_alive[k] && m_weight[k] >= least; });
-    }
-    eliminate_in_turn(active, least);
-  }
-
-  /// The same among `active`, one after the other: the first one is on top of a heap as soon as the
-  /// weight on top is up to date.
-  void eliminate_in_turn(const std::vector<int>& active, double least)
-  {
-    std::vector<std::pair<Entry, int>> heap; // with the place
-    for (const int k : active) heap.emplace_back(entry(k), k);
+    using Entry = std::pair<std::pair<double, int>, int>; // weight, candidate; place
+    const auto entry = [&](int k) { return Entry{{view.weights[k], view.order[k]}, k}; };
+    std::vector<Entry> heap;
+    for (int a = 0; a < size; ++a) heap.push_back(entry(active[a]));
     std::make_heap(heap.begin(), heap.end());
     while (!heap.empty()) {
       Cancellation::poll();
       std::pop_heap(heap.begin(), heap.end());
-      const auto [before, k] = heap.back();
+      const Entry before = heap.back();
+      const int k = before.second;
       heap.pop_back();
-      update_weight(k);
-      if (m_weight[k] < least) continue;
+      view.update_weight(k);
+      if (view.weights[k] < least) continue;
       if (entry(k) == before) {
-        m_is_alive[k] = 0;
-        m_gone.push_back(k);
+        view.is_alive[k] = 0;
       } else {
-        heap.emplace_back(entry(k), k);
+        heap.push_back(entry(k));
         std::push_heap(heap.begin(), heap.end());
       }
     }
+    return true;
   }
-
-  Candidate_graph m_graph;
-  Concurrency m_concurrency;
-  int m_size, m_free;
-  Unset_vector<char> m_is_alive;
-  Unset_vector<double> m_weight; // of those that have gone, the last one
-  std::vector<int> m_gone;
 };
+
+/// See `eliminate_samples()`.
+template <class ConcurrencyTag>
+std::vector<int> eliminated_once(const Elimination_candidates& candidates, double cos_normal_angle,
+                                 std::size_t n, std::size_t fixed)
+{
+  using Backend = Host_backend<ConcurrencyTag>;
+  const Candidate_graph graph = candidate_graph(candidates, cos_normal_angle, ConcurrencyTag());
+  const int size = static_cast<int>(candidates.size()), free = size - static_cast<int>(fixed);
+  Backend backend;
+  Candidate_elimination<Backend, Candidate_graph_view> elimination(backend, {&graph},
+                                                                   graph.order.data(), size, free);
+  elimination.run(n, Eliminate_in_turn{elimination.view()});
+  std::vector<int> left(free);
+  left.resize(elimination.write_left(left.data()));
+  return left;
+}
 
 } // namespace internal
 
@@ -188,9 +94,9 @@ inline std::vector<int> eliminate_samples(const internal::Elimination_candidates
   constexpr int patience = 16; // then those with other normals see each other, too
   constexpr double any_normal = -2, farther = 1.25;
   const auto chosen = [&](const internal::Elimination_candidates& among, double cos_angle) {
-    return internal::Sample_elimination(internal::candidate_graph(among, cos_angle, concurrency),
-                                        fixed, concurrency)
-        .run(n);
+    return concurrency.is_parallel()
+               ? internal::eliminated_once<Parallel_if_available_tag>(among, cos_angle, n, fixed)
+               : internal::eliminated_once<Sequential_tag>(among, cos_angle, n, fixed);
   };
   if (n == 0) return {}; // a last one sees no other
   std::vector<int> left = chosen(candidates, cos_normal_angle);
