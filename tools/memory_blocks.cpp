@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The program's memory, where Linux can do better: large blocks on huge pages, as threads wait for
-// each other while the kernel makes small ones; smaller blocks on pages that the program keeps, as
-// the kernel would clear new ones for each. Clang's thread sanitizer has operators of its own, and
-// does not link with others; the address sanitizer has some of its own, which do not go with these.
+// each other while the kernel makes small ones; and pages that are freed stay the program's, as the
+// kernel would clear new ones for each block. Clang's thread sanitizer has operators of its own,
+// and does not link with others; the address sanitizer has some of its own, which do not go with
+// these.
 #ifdef __has_feature
 #define POWER_RTF_HAS_FEATURE(feature) __has_feature(feature)
 #else
@@ -13,6 +14,7 @@
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) &&                                        \
     !POWER_RTF_HAS_FEATURE(address_sanitizer) && !POWER_RTF_HAS_FEATURE(thread_sanitizer)
 
+#include <climits>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -24,9 +26,9 @@ namespace {
 
 constexpr std::size_t page = std::size_t(1) << 21, large = 4 * page;
 
-#ifdef M_MMAP_THRESHOLD // not in every C library
+#ifdef M_MMAP_MAX // not in every C library
 [[maybe_unused]] const bool keeps_pages =
-    mallopt(M_MMAP_THRESHOLD, large) + mallopt(M_TRIM_THRESHOLD, 32 * large) > 0;
+    mallopt(M_MMAP_MAX, 0) + mallopt(M_TRIM_THRESHOLD, INT_MAX) + mallopt(M_TOP_PAD, 8 * large) > 0;
 #endif
 
 } // namespace

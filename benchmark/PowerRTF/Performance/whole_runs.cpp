@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Whole runs from mesh to mesh in one process: milliseconds of each stage, medians of the runs
-// after one to warm up.
+// after one to warm up. Memory is that of the program (tools/memory_blocks.cpp).
 //
 //   whole_runs MODEL [--refine N] [--samples N,N,...] [--traits cpu|cuda] [--runs N]
 //              [--density uniform|curvature] [--seed N]
