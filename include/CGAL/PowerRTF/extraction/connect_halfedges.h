@@ -34,7 +34,7 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
   constexpr int none = Facet_adjacency::none;
   const Facet_adjacency adjacency = facet_adjacency(triangles, vertices, concurrency);
   if (adjacency.non_manifold_edges > 0 || adjacency.same_direction ||
-      count_non_manifold_vertices(triangles, adjacency, vertices, concurrency) > 0)
+      count_non_manifold_vertices(adjacency, concurrency) > 0)
     return false;
 
   const std::vector<int>& opposite = adjacency.opposite;
