@@ -233,7 +233,7 @@ private:
     std::size_t facets = 0;
     for (const Piece& piece : m_pieces) facets += piece.facets.size();
     if (2 * facets > m_surface.triangles.size()) return false;
-    if (!m_places) m_places.emplace(m_samples, m_features, ConcurrencyTag());
+    if (!m_places) m_places.emplace(m_surface, m_samples, m_features, ConcurrencyTag());
     std::vector<int> due;
     for (int k = 0; k < static_cast<int>(m_pieces.size()); ++k)
       if (m_pieces[k].triangles.empty()) due.push_back(k);
