@@ -49,7 +49,9 @@ inline void check_is_sound(const Surface& s)
   CHECK_FALSE(adjacency.same_direction);
   CHECK_FALSE(adjacency.repeated_facets);
   CHECK(adjacency.opposite == s.adjacency.opposite);
-  CHECK(PRTF::count_non_manifold_vertices(s.triangles, adjacency, s.points.size()) == 0);
+  CHECK(adjacency.corners.first == s.adjacency.corners.first);
+  CHECK(adjacency.corners.entries == s.adjacency.corners.entries);
+  CHECK(PRTF::count_non_manifold_vertices(adjacency) == 0);
   CHECK(s.facet_normals.size() == s.triangles.size());
   CHECK(s.facet_areas.size() == s.triangles.size());
   CHECK(s.vertex_normals.size() == s.points.size());

@@ -297,7 +297,8 @@ TEST_CASE("a piece of a surface is a 2-manifold with the samples on it")
   for (const Shape& shape : plain_shapes()) {
     CAPTURE(shape.name);
     const Sampled s(shape.surface, 300, 2);
-    const internal::Sample_places places(s.samples, s.patches.features(), Sequential_tag());
+    const internal::Sample_places places(s.surface, s.samples, s.patches.features(),
+                                         Sequential_tag());
     Random_source random(3);
     for (const double share : {.05, .5, 1.}) {
       std::vector<int> facets;

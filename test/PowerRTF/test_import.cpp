@@ -301,6 +301,7 @@ TEST_CASE("normals of a facet without area that cannot be removed are still of l
   Surface s;
   s.points = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {0.5, 1, 0}};
   s.triangles = {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+  s.adjacency = PRTF::facet_adjacency(s.triangles, s.points.size());
   PRTF::compute_geometry(s);
   for (const Vec3d& n : s.facet_normals) CHECK(length(n) == doctest::Approx(1));
   for (const Vec3d& n : s.vertex_normals) CHECK(length(n) == doctest::Approx(1));

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
@@ -80,6 +81,33 @@ TEST_CASE("what is selected keeps its order")
           [&](int k, int i) { taken[k] = i; });
       CHECK(taken == expected);
     }
+}
+
+TEST_CASE("buckets hold their items in increasing order, however full they are")
+{
+  const std::function<int(int)> spreads[] = {
+      [](int i) { return i; },                                     // one in each
+      [](int) { return 3; },                                       // all in one
+      [](int i) { return int(7919LL * i % 1000); },                // some in each
+      [](int i) { return i % 100 == 0 ? 99999 : 99000 + i % 7; }}; // most are empty
+  for (const int n : sizes)
+    for (const auto& bucket : spreads)
+      for (const Concurrency& concurrency : both) {
+        const Buckets<int> buckets(concurrency, n, 100001, bucket, [&](int i) { return n - i; });
+        REQUIRE(buckets.first.size() == 100002);
+        CHECK(buckets.first.front() == 0);
+        CHECK(buckets.first.back() == n);
+        std::vector<int> expected(n), sizes_of(100001, 0);
+        std::iota(expected.begin(), expected.end(), 1);
+        for (int i = 0; i < n; ++i) ++sizes_of[bucket(i)];
+        std::stable_sort(expected.begin(), expected.end(),
+                         [&](int a, int b) { return bucket(n - a) < bucket(n - b); });
+        CHECK(std::equal(expected.begin(), expected.end(), buckets.entries.begin(),
+                         buckets.entries.end()));
+        std::vector<int> found(100001);
+        for (int b = 0; b <= 100000; ++b) found[b] = buckets.first[b + 1] - buckets.first[b];
+        CHECK(found == sizes_of);
+      }
 }
 
 TEST_CASE("the n-th value is that of the sorted ones, however they are spread")

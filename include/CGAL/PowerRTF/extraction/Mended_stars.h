@@ -117,7 +117,8 @@ private:
       m_stars.for_each_at(v, [&](const Fan_corner& c) {
         if (!is_open(c[0]) && !is_open(c[1])) star.push_back(c);
       });
-    m_stars.for_each_of(m_made, v, [&](const Fan_corner& c) { star.push_back(c); });
+    if (m_has_made[v])
+      m_stars.for_each_of(m_made, v, [&](const Fan_corner& c) { star.push_back(c); });
     return star;
   }
 
@@ -233,7 +234,7 @@ private:
     std::size_t facets = 0;
     for (const Piece& piece : m_pieces) facets += piece.facets.size();
     if (2 * facets > m_surface.triangles.size()) return false;
-    if (!m_places) m_places.emplace(m_samples, m_features, ConcurrencyTag());
+    if (!m_places) m_places.emplace(m_surface, m_samples, m_features, ConcurrencyTag());
     std::vector<int> due;
     for (int k = 0; k < static_cast<int>(m_pieces.size()); ++k)
       if (m_pieces[k].triangles.empty()) due.push_back(k);
@@ -310,7 +311,7 @@ private:
 
   void make_mesh()
   {
-    m_mesh.points.resize(m_size);
+    resize_in_parallel(ConcurrencyTag(), m_mesh.points, m_size);
     for_each_index<ConcurrencyTag>(m_size, [&](int v) {
       m_mesh.points[v] = m_surface.normalization.snapped(m_samples.points[v]);
     });
@@ -318,19 +319,19 @@ private:
     std::vector<std::vector<Triangle>> parts((m_size + chunk - 1) / chunk);
     for_each_chunk<ConcurrencyTag>(m_size, chunk, [&](int begin, int end) {
       std::vector<Triangle>& part = parts[begin / chunk];
-      const auto made = [&](int v) { // the first that begins at v or later
-        return std::lower_bound(m_made_triangles.begin(), m_made_triangles.end(),
-                                Triangle{v, -1, -1});
-      };
-      part.assign(made(begin), made(end));
-      for (int v = begin; v < std::min(end, m_stars.cells()); ++v) {
-        if (is_open(v)) continue;
-        m_stars.for_each_at(v, [&](const Fan_corner& c) {
-          if (v < c[0] && v < c[1] && !is_open(c[0]) && !is_open(c[1]))
-            part.push_back({v, c[0], c[1]});
-        });
+      part.reserve(2 * chunk); // about as many
+      auto made = std::lower_bound(m_made_triangles.begin(), m_made_triangles.end(),
+                                   Triangle{begin, -1, -1});
+      for (int v = begin; v < end; ++v) {
+        const std::size_t first = part.size();
+        for (; made != m_made_triangles.end() && (*made)[0] == v; ++made) part.push_back(*made);
+        if (v < m_stars.cells() && !is_open(v))
+          m_stars.for_each_at(v, [&](const Fan_corner& c) {
+            if (v < c[0] && v < c[1] && !is_open(c[0]) && !is_open(c[1]))
+              part.push_back({v, c[0], c[1]});
+          });
+        std::sort(part.begin() + first, part.end());
       }
-      std::sort(part.begin(), part.end());
     });
     m_mesh.triangles = concatenated(ConcurrencyTag(), parts);
     m_mesh.feature_edges.clear();

@@ -9,7 +9,7 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
-#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,16 +22,17 @@ namespace CGAL::PowerRTF::internal {
 /// The samples by where they lie. The last ones lie on features.
 class Sample_places {
 public:
-  template <class ConcurrencyTag>
-  Sample_places(const Samples& samples, const Feature_samples& features, ConcurrencyTag)
-      : m_first_feature(static_cast<int>(samples.size() - features.size())), m_features(features)
+  Sample_places(const Surface& surface, const Samples& samples, const Feature_samples& features,
+                Concurrency concurrency)
+      : m_first_feature(static_cast<int>(samples.size() - features.size())), m_features(features),
+        m_on_facets(
+            concurrency, m_first_feature, surface.triangles.size(),
+            [&](int s) { return samples.facets[s]; }, [](int s) { return s; })
   {
-    for (int s = 0; s < m_first_feature; ++s) m_on_facets.emplace_back(samples.facets[s], s);
     for (int k = 0; k < static_cast<int>(features.size()); ++k)
       m_on_edges.emplace_back(
           sorted_edge(place(m_first_feature + k).from, place(m_first_feature + k).to),
           m_first_feature + k);
-    internal::sort<ConcurrencyTag>(m_on_facets.begin(), m_on_facets.end());
     std::sort(m_on_edges.begin(), m_on_edges.end());
   }
 
@@ -41,28 +42,22 @@ public:
   template <class F>
   void for_each_on_facet(int facet, F&& f) const
   {
-    for_each_at(m_on_facets, facet, f);
+    for (int k = m_on_facets.first[facet]; k < m_on_facets.first[facet + 1]; ++k)
+      f(m_on_facets.entries[k]);
   }
   /// The same for those on an edge, or at a vertex: twice that.
   template <class F>
   void for_each_on_edge(const Edge& edge, F&& f) const
   {
-    for_each_at(m_on_edges, edge, f);
-  }
-
-private:
-  template <class Place, class F>
-  static void for_each_at(const std::vector<std::pair<Place, int>>& items, const Place& place,
-                          F&& f)
-  {
-    for (auto it = std::lower_bound(items.begin(), items.end(), std::make_pair(place, -1));
-         it != items.end() && it->first == place; ++it)
+    for (auto it = std::lower_bound(m_on_edges.begin(), m_on_edges.end(), std::pair(edge, -1));
+         it != m_on_edges.end() && it->first == edge; ++it)
       f(it->second);
   }
 
+private:
   int m_first_feature;
   const Feature_samples& m_features;
-  std::vector<std::pair<int, int>> m_on_facets;
+  Buckets<int> m_on_facets;
   std::vector<std::pair<Edge, int>> m_on_edges;
 };
 

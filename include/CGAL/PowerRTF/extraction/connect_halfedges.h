@@ -7,9 +7,11 @@
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
-#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace CGAL {
@@ -32,32 +34,48 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
   using Halfedge = typename Mesh::Halfedge_index;
   using Face = typename Mesh::Face_index;
   constexpr int none = Facet_adjacency::none;
-  const Facet_adjacency adjacency = facet_adjacency(triangles, vertices, concurrency);
+  const int halfedges = static_cast<int>(3 * triangles.size());
+  Facet_adjacency adjacency;
+  const auto resize = [&](std::size_t edges) { mesh.resize(vertices, edges, triangles.size()); };
+  // One thread has to come by the memory of the mesh: nearly all of it while the others do this.
+  mesh.reserve(vertices, halfedges / 2 + halfedges / 16, triangles.size());
+  for_each_chunk(concurrency, 2, 1, [&](int task, int) {
+    if (task == 0)
+      adjacency = facet_adjacency(triangles, vertices, concurrency);
+    else
+      resize(halfedges / 2);
+  });
   if (adjacency.non_manifold_edges > 0 || adjacency.same_direction ||
-      count_non_manifold_vertices(triangles, adjacency, vertices, concurrency) > 0)
+      count_non_manifold_vertices(adjacency, concurrency) > 0) {
+    mesh.resize(0, 0, 0);
     return false;
+  }
 
   const std::vector<int>& opposite = adjacency.opposite;
-  const int halfedges = int(opposite.size());
   const auto is_first = [&](int h) { return opposite[h] == none || h < opposite[h]; };
   Unset_vector<int> edges(halfedges); // before each halfedge
   for_each_index(concurrency, halfedges, [&](int h) { edges[h] = is_first(h); });
-  const int count = exclusive_scan(concurrency, halfedges, edges.data());
-  mesh.resize(vertices, count, typename Mesh::size_type(triangles.size()));
+  resize(exclusive_scan(concurrency, halfedges, edges.data()));
 
   const auto halfedge = [&](int h) {
     return is_first(h) ? Halfedge(2 * edges[h]) : Halfedge(2 * edges[opposite[h]] + 1);
   };
-  std::vector<int> last(vertices, -1); // of the halfedges to each vertex
-  for_each_index(concurrency, halfedges, [&](int h) {
-    mesh.set_target(halfedge(h), Vertex(halfedge_target(triangles, h)));
-    mesh.set_next(halfedge(h), halfedge(next_halfedge(h)));
-    mesh.set_face(halfedge(h), Face(h / 3));
-    if (h % 3 == 0) mesh.set_halfedge(Face(h / 3), halfedge(h));
-    atomic_max(&last[halfedge_target(triangles, h)], h);
+  for_each_index(concurrency, static_cast<int>(triangles.size()), [&](int f) {
+    const std::array<Halfedge, 3> around = {halfedge(3 * f), halfedge(3 * f + 1),
+                                            halfedge(3 * f + 2)};
+    for (int i = 0; i < 3; ++i) {
+      mesh.set_target(around[i], Vertex(triangles[f][(i + 1) % 3]));
+      mesh.set_next(around[i], around[(i + 1) % 3]);
+      mesh.set_face(around[i], Face(f));
+    }
+    mesh.set_halfedge(Face(f), around[0]);
   });
+  const Buckets<int>& corners = adjacency.corners;
   for_each_index(concurrency, vertices, [&](int v) {
-    if (last[v] >= 0) mesh.set_halfedge(Vertex(v), halfedge(last[v]));
+    int last = none; // of the halfedges to the vertex
+    for (int k = corners.first[v]; k < corners.first[v + 1]; ++k)
+      last = std::max(last, previous_halfedge(corners.entries[k]));
+    if (last != none) mesh.set_halfedge(Vertex(v), halfedge(last));
   });
   if (adjacency.border_edges == 0) return true;
   const std::vector<int> at_border =

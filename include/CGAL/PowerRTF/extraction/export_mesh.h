@@ -125,17 +125,18 @@ bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalizatio
   });
   const int vertices = static_cast<int>(exported.points.size());
   if (!connect_halfedges(output, triangles, vertices, concurrency)) return false;
-  exported.vertices.reserve(vertices);
-  for (int v = 0; v < vertices; ++v) {
-    exported.vertices.push_back(Vertex(v));
+  resize_in_parallel(concurrency, exported.vertices, vertices);
+  const bool is_own = std::is_same<PointMap, typename Mesh::template Property_map<Vertex, Point>>();
+  for_each_index(is_own ? concurrency : Sequential_tag(), vertices, [&](int v) {
+    exported.vertices[v] = Vertex(v);
     put(point_map, Vertex(v),
         from_vec3d<Point>(normalization.to_outside(mesh.points[exported.points[v]])));
-  }
-  exported.faces.reserve(faces);
-  for (int f = 0; f < faces; ++f) { // begins at its first corner, as `Euler::add_face()` has it
+  });
+  resize_in_parallel(concurrency, exported.faces, faces);
+  for_each_index(concurrency, faces, [&](int f) {
+    exported.faces[f] = Face(f); // begins at its first corner, as `Euler::add_face()` has it
     output.set_halfedge(Face(f), output.prev(output.halfedge(Face(f))));
-    exported.faces.push_back(Face(f));
-  }
+  });
   return true;
 }
 

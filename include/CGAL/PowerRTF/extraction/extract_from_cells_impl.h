@@ -28,7 +28,7 @@ Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples
   part.next(0.95); // what follows is rare
   const bool is_mended = stars.mend();
   if (statistics) *statistics = {stars.open_samples(), stars.pieces(), !is_mended};
-  return is_mended ? stars.mesh() : extract_by_insertion(surface, samples, features);
+  return is_mended ? std::move(stars.mesh()) : extract_by_insertion(surface, samples, features);
 }
 
 } // namespace CGAL::PowerRTF

@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/geometry/component_topology.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <cstddef>
 #include <utility>
@@ -21,6 +22,7 @@ template <class Star_at>
 Topology fan_topology(int vertices, const Star_at& star, Concurrency concurrency)
 {
   std::vector<int> next_on_border(vertices, -1);
+  Unset_vector<int> shares(vertices); // of six times the characteristics
   auto [component, components] =
       connected_components(concurrency, vertices, [&](int v, auto&& join) {
         const Fan s = star(v);
@@ -28,16 +30,13 @@ Topology fan_topology(int vertices, const Star_at& star, Concurrency concurrency
           for (const int w : c)
             if (w < v) join(w);
         if (!is_closed(s)) next_on_border[v] = s.front()[0];
+        shares[v] = six_times_vertex_share(!is_closed(s)) + // and a third of each facet
+                    six_times_facet_share / 3 * static_cast<int>(s.size());
       });
   std::vector<long> characteristics(components, 0); // six times
   const auto component_at = [&, &of = component](int v) { return of[v]; };
   add_by_component(
-      concurrency, vertices, component_at,
-      [&](int v) { // and a third of each facet
-        return six_times_vertex_share(next_on_border[v] >= 0) +
-               six_times_facet_share / 3 * static_cast<long>(star(v).size());
-      },
-      characteristics);
+      concurrency, vertices, component_at, [&](int v) { return shares[v]; }, characteristics);
   std::vector<Component_topology> topologies = component_topologies(
       characteristics, count_loops(std::move(next_on_border), components, component_at));
   return {std::move(component), std::move(topologies)};

@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/geometry/Mirror_plane.h>
 #include <CGAL/PowerRTF/geometry/snapped.h>
 #include <CGAL/PowerRTF/geometry/vector.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
 
 #include <algorithm>
 #include <array>
@@ -66,6 +67,7 @@ struct Facet_adjacency {
 
   std::vector<int> opposite; ///< for each halfedge that of the other facet; `none` at borders and
                              ///< at edges of more than two facets
+  internal::Buckets<int> corners; ///< of the facets, by vertex: `vertex_corners()`
   std::size_t border_edges = 0;
   std::size_t non_manifold_edges = 0; ///< edges of more than two facets
   bool same_direction = false;  ///< two facets traverse an edge alike: their orientations differ

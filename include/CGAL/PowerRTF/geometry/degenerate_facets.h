@@ -163,7 +163,7 @@ inline std::size_t remove_degenerate_facets(const std::vector<Vec3d>& points,
   if (mended.empty()) return 0;
   const Facet_adjacency adjacency = facet_adjacency(mended, points.size());
   if (adjacency.non_manifold_edges > 0 || adjacency.same_direction || adjacency.repeated_facets ||
-      count_non_manifold_vertices(mended, adjacency, points.size()) > 0)
+      count_non_manifold_vertices(adjacency) > 0)
     return 0;
   triangles = std::move(mended);
   return merged;

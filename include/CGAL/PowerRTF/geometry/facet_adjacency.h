@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which facets share an edge, and whether the triangles form an oriented 2-manifold.
-// Everything is linear in the number of facets: halfedges are bucketed by their smaller vertex.
+// Everything is linear in the number of facets: edges are found at their smaller vertices.
 #ifndef CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H
 #define CGAL_POWER_RTF_GEOMETRY_FACET_ADJACENCY_H
 
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/halfedge_numbers.h>
-#include <CGAL/PowerRTF/internal/Buckets.h>
+#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/connected_components.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
+#include <boost/container/small_vector.hpp>
 #include <boost/range/iterator_range.hpp>
 
 #include <algorithm>
@@ -37,37 +38,21 @@ inline int opposite_vertex(const std::vector<Triangle>& triangles, int h)
   return triangles[h / 3][(h + 2) % 3];
 }
 
-namespace internal {
-
-/// Halfedges, each with its larger vertex, by their smaller vertex.
-inline Buckets<std::pair<int, int>> halfedge_buckets(const std::vector<Triangle>& triangles,
-                                                     std::size_t number_of_vertices,
-                                                     Concurrency concurrency)
-{
-  const auto ends = [&](int h) {
-    return std::minmax({halfedge_source(triangles, h), halfedge_target(triangles, h)});
-  };
-  return {concurrency, static_cast<int>(3 * triangles.size()), number_of_vertices,
-          [&](int h) { return ends(h).first; },
-          [&](int h) { return std::pair(ends(h).second, h); }};
-}
-
-} // namespace internal
-
 /// Finds the facets that share each edge of `triangles`, whose indices are in
 /// `[0, number_of_vertices)` and differ within a triangle.
 inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
                                        std::size_t number_of_vertices,
                                        internal::Concurrency concurrency = Sequential_tag())
 {
-  using Entries = internal::Unset_vector<std::pair<int, int>>::const_iterator;
+  using Ends = boost::container::small_vector<std::pair<int, int>, 16>;
   Facet_adjacency result;
   internal::resize_in_parallel(concurrency, result.opposite, 3 * triangles.size(),
                                Facet_adjacency::none);
-  const auto buckets = internal::halfedge_buckets(triangles, number_of_vertices, concurrency);
+  result.corners = vertex_corners(triangles, number_of_vertices, concurrency);
 
   // The facets at one edge.
-  const auto join = [&](Facet_adjacency& found, Entries begin, Entries stop) {
+  const auto join = [&](Facet_adjacency& found, Ends::const_iterator begin,
+                        Ends::const_iterator stop) {
     for (auto f = begin; f != stop; ++f)
       for (auto g = begin; g != f; ++g)
         if (opposite_vertex(triangles, g->second) == opposite_vertex(triangles, f->second))
@@ -87,10 +72,16 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
   const Facet_adjacency all = internal::reduce(
       concurrency, static_cast<int>(number_of_vertices), Facet_adjacency(),
       [&](Facet_adjacency& found, int v) {
-        const Entries begin = buckets.entries.begin() + buckets.first[v],
-                      bucket_end = buckets.entries.begin() + buckets.first[v + 1];
-        for (Entries e = begin, f = e; e != bucket_end; e = f) {
-          while (f != bucket_end && f->first == e->first) ++f;
+        Ends ends; // of the edges from v to larger vertices: these, and the halfedges
+        for (int k = result.corners.first[v]; k < result.corners.first[v + 1]; ++k) {
+          const int h = result.corners.entries[k], before = previous_halfedge(h);
+          const int to = halfedge_target(triangles, h), from = opposite_vertex(triangles, h);
+          if (to > v) ends.emplace_back(to, h);
+          if (from > v) ends.emplace_back(from, before);
+        }
+        std::sort(ends.begin(), ends.end());
+        for (auto e = ends.begin(), f = e; e != ends.end(); e = f) {
+          while (f != ends.end() && f->first == e->first) ++f;
           join(found, e, f);
         }
       },
@@ -164,33 +155,28 @@ void for_each_fan(std::size_t halfedges, const Opposite& opposite, const At_fan&
 }
 
 /// The number of vertices whose facets form more than one fan. Needs consistent orientations.
-inline std::size_t count_non_manifold_vertices(const std::vector<Triangle>& triangles,
-                                               const Facet_adjacency& adjacency,
-                                               std::size_t number_of_vertices,
+inline std::size_t count_non_manifold_vertices(const Facet_adjacency& adjacency,
                                                internal::Concurrency concurrency = Sequential_tag())
 {
   const std::vector<int>& opposite = adjacency.opposite;
-  const int vertices = static_cast<int>(number_of_vertices);
-  std::vector<int> leaving(number_of_vertices, -1), degrees(number_of_vertices, 0);
-  internal::for_each_index(concurrency, static_cast<int>(opposite.size()), [&](int h) {
-    atomic_store(&leaving[halfedge_source(triangles, h)], h); // any of them
-    atomic_add(&degrees[halfedge_source(triangles, h)], 1);
-  });
+  const internal::Buckets<int>& corners = adjacency.corners;
   // Whether the fan of one facet is not all that there is.
   const auto has_more = [&](int v) {
-    int facets = 0, h = leaving[v];
-    if (h < 0) return false;
+    const int facets_at = corners.first[v + 1] - corners.first[v];
+    if (facets_at == 0) return false;
+    const int start = corners.entries[corners.first[v]];
+    int facets = 0, h = start;
     do { // counter-clockwise, then clockwise if a border stopped it
       ++facets;
       h = opposite[previous_halfedge(h)];
-    } while (h != Facet_adjacency::none && h != leaving[v]);
+    } while (h != Facet_adjacency::none && h != start);
     if (h == Facet_adjacency::none)
-      for (h = opposite[leaving[v]]; h != Facet_adjacency::none; h = opposite[next_halfedge(h)])
+      for (h = opposite[start]; h != Facet_adjacency::none; h = opposite[next_halfedge(h)])
         ++facets;
-    return facets < degrees[v];
+    return facets < facets_at;
   };
   return internal::reduce(
-      concurrency, vertices, std::size_t(0),
+      concurrency, static_cast<int>(corners.first.size()) - 1, std::size_t(0),
       [&](std::size_t& count, int v) { count += has_more(v); },
       [](std::size_t& count, std::size_t part) { count += part; });
 }

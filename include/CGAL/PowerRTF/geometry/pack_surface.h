@@ -8,7 +8,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Packed_surface.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
-#include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -26,9 +26,8 @@ inline void add_vertex_tree(const Surface& surface, const Facet_tree& tree, Pack
   result.vertex_nodes = child_boxes(Packed_tree_layout(static_cast<int>(vertices)), [&](int v) {
     return Box3<double>{surface.points[v], surface.points[v]};
   });
-  Buckets<int> corners = vertex_corners(surface.triangles, vertices, concurrency);
-  result.first_facet = std::move(corners.first);
-  result.vertex_facets = std::move(corners.entries);
+  result.first_facet = surface.adjacency.corners.first;
+  result.vertex_facets = surface.adjacency.corners.entries;
   for_each_index(concurrency, static_cast<int>(result.vertex_facets.size()),
                  [&](int k) { result.vertex_facets[k] = tree.place(result.vertex_facets[k] / 3); });
 }

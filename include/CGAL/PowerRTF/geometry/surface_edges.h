@@ -6,7 +6,6 @@
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_EDGES_H
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
-#include <CGAL/PowerRTF/geometry/vertex_corners.h>
 
 #include <cstddef>
 #include <vector>
@@ -26,7 +25,7 @@ inline Surface_edges surface_edges(const Surface& surface,
 {
   const auto& triangles = surface.triangles;
   const int vertices = static_cast<int>(surface.points.size());
-  const auto corners = vertex_corners(triangles, vertices, concurrency);
+  const internal::Buckets<int>& corners = surface.adjacency.corners;
   // Every edge is one halfedge from each of its ends, except border edges: they have one only.
   const auto for_each_neighbor = [&](int v, auto&& f) {
     for (int k = corners.first[v]; k < corners.first[v + 1]; ++k) {

@@ -7,7 +7,7 @@
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_GEOMETRY_H
 
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
-#include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -83,7 +83,7 @@ inline void compute_geometry(Surface& surface, internal::Concurrency concurrency
       },
       [](double& area, double part) { area += part; });
 
-  const auto corners = vertex_corners(surface.triangles, vertices, concurrency);
+  const internal::Buckets<int>& corners = surface.adjacency.corners;
   const std::vector<int> cancelled = internal::select(concurrency, vertices, [&](int v) {
     Vec3d sum{0, 0, 0};
     for (int k = corners.first[v]; k < corners.first[v + 1]; ++k) {

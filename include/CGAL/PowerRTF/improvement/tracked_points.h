@@ -8,7 +8,7 @@
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
-#include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -34,7 +34,7 @@ inline Unset_vector<Tracked_point> tracked_points(const Surface& surface, const 
                                                   std::size_t most, Concurrency concurrency)
 {
   const int vertices = int(surface.points.size()), places = int(tree.order().size());
-  const auto corners = vertex_corners(surface.triangles, vertices, concurrency);
+  const Buckets<int>& corners = surface.adjacency.corners;
   const auto for_each_corner = [&](int v, auto&& f) {
     for (int c = corners.first[v]; c < corners.first[v + 1]; ++c) f(corners.entries[c]);
   };

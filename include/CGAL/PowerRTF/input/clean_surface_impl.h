@@ -144,13 +144,13 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
     if (has_single_fans(soup.triangles, soup.adjacency, soup.points.size())) return {};
     return {not_manifold + "it has one side only, and parts of it touch in a point only"};
   }
-  const auto touching =
-      count_non_manifold_vertices(soup.triangles, soup.adjacency, soup.points.size(), concurrency);
+  const auto touching = count_non_manifold_vertices(soup.adjacency, concurrency);
   if (touching == 0) return {};
   if (allowed < Manifold_repair::split)
     return {not_manifold + std::to_string(touching) +
             " vertex(es) where parts of the surface touch in a point only"};
-  repairs.non_manifold_vertices += split_fans(soup, soup.adjacency); // the adjacency stays
+  repairs.non_manifold_vertices += split_fans(soup, soup.adjacency);
+  soup.update_adjacency(concurrency);
   return {};
 }
 
@@ -178,6 +178,8 @@ inline Surface compacted(Triangle_soup&& soup, const Normalization& normalizatio
   });
   surface.triangles = std::move(soup.triangles);
   surface.adjacency = std::move(soup.adjacency);
+  Unset_vector<int>& first = surface.adjacency.corners.first; // the same for a vertex without any
+  first.erase(std::unique(first.begin(), first.end()), first.end());
   for_each_index(concurrency, facets, [&](int f) {
     for (int& v : surface.triangles[f]) v = new_index[v];
   });
