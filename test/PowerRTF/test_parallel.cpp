@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/internal/Index_set.h>
 #include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -19,6 +20,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <set>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
@@ -148,6 +150,17 @@ TEST_CASE("copies and fills of any length")
     CHECK(to == from);
     backend.fill(buffer.data(), 7, n);
     CHECK(std::count(buffer.data(), buffer.data() + n, 7) == n);
+  }
+}
+
+TEST_CASE("a set tells what comes for the first time")
+{
+  Index_set set;
+  std::set<int> expected;
+  std::mt19937 random(1);
+  for (int k = 0; k < 10000; ++k) {
+    const int i = random() % 3 > 0 ? int(random() % 4096) : int(random() >> 1);
+    CHECK(set.insert(i) == expected.insert(i).second);
   }
 }
 

@@ -341,3 +341,28 @@ TEST_CASE("what is undone since a checkpoint is as it was, with or without a tra
   CHECK(state(false) == all);
   CHECK(CGAL::is_valid_polygon_mesh(m));
 }
+
+TEST_CASE("a checkpoint undoes what its thread has done to its mesh")
+{
+  const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 3000, 1);
+  const Facet_tree tree(c.surface.points, c.surface.triangles);
+  const internal::Surface_projector projector(c.surface, tree);
+  internal::Star_mesh mesh(c.raw, projector), other(c.raw, projector);
+  const int n = int(mesh.size());
+  const Vec3d elsewhere{2, 3, 4};
+  internal::for_each_chunk(CGAL::Parallel_if_available_tag(), n, 1, [&](int i, int) {
+    const internal::Star_mesh::Vertex v(i);
+    internal::Star_mesh::Checkpoint outer(mesh);
+    {
+      internal::Star_mesh::Checkpoint inner(mesh);
+      mesh.set_point(v, elsewhere);
+    }
+    other.set_point(v, elsewhere);
+    if (i % 3 > 0) outer.restore();
+  });
+  for (int i = 0; i < n; ++i) {
+    const internal::Star_mesh::Vertex v(i);
+    CHECK((mesh.point(v) == elsewhere) == (i % 3 == 0));
+    CHECK(other.point(v) == elsewhere);
+  }
+}

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/extraction/Seam_places.h>
 #include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
+#include <CGAL/PowerRTF/internal/Index_set.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -19,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -148,10 +148,11 @@ struct Working_mesh {
   boost::container::small_vector<Face, 48> faces_at(const Vertices& vertices) const
   {
     boost::container::small_vector<Face, 48> faces;
+    Index_set seen;
     for (const Vertex v : vertices)
       for (const Halfedge h : halfedges_around_target(v, mesh))
-        if (!mesh.is_border(h)) faces.push_back(mesh.face(h));
-    sort_uniquely(faces);
+        if (!mesh.is_border(h) && seen.insert(int(mesh.face(h)))) faces.push_back(mesh.face(h));
+    std::sort(faces.begin(), faces.end());
     return faces;
   }
   /// The faces at `v` and at its neighbors, sorted.
@@ -170,22 +171,18 @@ struct Working_mesh {
   void add_neighbors(std::vector<Vertex>& vertices, int rings, IsWanted&& is_wanted) const
   {
     sort_uniquely(vertices);
-    std::vector<Vertex> last = vertices, next, all;
+    Index_set seen;
+    for (const Vertex v : vertices) seen.insert(int(v));
+    std::size_t begin = 0;
     for (int ring = 0; ring < rings; ++ring) {
-      next.clear();
-      for (const Vertex v : last)
-        for (const Halfedge h : halfedges_around_target(v, mesh)) next.push_back(mesh.source(h));
-      sort_uniquely(next);
-      last.clear();
-      std::set_difference(next.begin(), next.end(), vertices.begin(), vertices.end(),
-                          std::back_inserter(last));
-      last.erase(std::remove_if(last.begin(), last.end(), [&](Vertex v) { return !is_wanted(v); }),
-                 last.end());
-      all.clear();
-      std::set_union(vertices.begin(), vertices.end(), last.begin(), last.end(),
-                     std::back_inserter(all));
-      vertices.swap(all);
+      const std::size_t end = vertices.size();
+      for (; begin < end; ++begin)
+        for (const Halfedge h : halfedges_around_target(vertices[begin], mesh)) {
+          const Vertex v = mesh.source(h);
+          if (seen.insert(int(v)) && is_wanted(v)) vertices.push_back(v);
+        }
     }
+    std::sort(vertices.begin(), vertices.end());
   }
 
   /// The neighbors of `v` along creases and borders that must stay.

@@ -164,13 +164,13 @@ private:
     const Concurrency concurrency = m_mesh->concurrency();
     const Facet_tree& tree = m_mesh->projector().tree();
     const int places = int(tree.order().size());
-    std::vector<int> at_place(places, -1); // of the tree: the last vertex that its facet carries
+    std::vector<int> at_place =
+        filled(concurrency, places, -1); // of the tree: the last vertex that its facet carries
     for_each_index(concurrency, int(m_mesh->size()), [&](int v) {
       if (!topology().is_isolated(Vertex(v)))
         atomic_max(&at_place[tree.place(m_mesh->facet(Vertex(v)))], v);
     });
-    for_each_index(concurrency, int(some.size()), [&](int k) {
-      Tracked_point& best = m_points[some[k]];
+    const auto descend_to = [&](Tracked_point& best) {
       const int place = tree.place(best.facet);
       for (int distance = 0, tries = 0; distance < places; ++distance)
         for (const int at : {place - distance, place + distance}) {
@@ -183,6 +183,9 @@ private:
           if (best.distance <= m_tree_search_distance || ++tries == Parameters::max_carriers)
             return;
         }
+    };
+    for_each_chunk(concurrency, int(some.size()), 64, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) descend_to(m_points[some[k]]);
     });
   }
 
@@ -234,7 +237,7 @@ private:
     for (const int i : some)
       if (m_points[i].distance == disagreement) unknown.push_back(i);
     if (unknown.size() <= few)
-      for (const int i : unknown) m_points[i].distance = least_distance(m_points[i]);
+      for (const int i : unknown) m_points[i].distance = some_distance(m_points[i]);
     const std::optional<Reaches> reaches = find_reaches(some);
     const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
       return !reaches || is_in_reach(Face(f), some, *reaches);
@@ -253,14 +256,16 @@ private:
     });
   }
 
-  // To the faces that agree.
-  double least_distance(const Tracked_point& w) const
+  // To the nearest of some faces, of those that agree: that to all is no larger.
+  double some_distance(const Tracked_point& w) const
   {
+    constexpr int stride = 16;
+    const int faces = int(topology().num_faces());
     return reduce(
-        m_mesh->concurrency(), int(topology().num_faces()), disagreement,
-        [&](double& least, int f) {
+        m_mesh->concurrency(), (faces + stride - 1) / stride, disagreement,
+        [&](double& least, int k) {
           Tracked_point there = w;
-          if (try_face(there, topology().halfedge(Face(f)), Vertex(), {}, least))
+          if (try_face(there, topology().halfedge(Face(k * stride)), Vertex(), {}, least))
             least = there.distance;
         },
         [](double& least, double part) { least = std::min(least, part); });
@@ -420,7 +425,7 @@ private:
   }
 
   static constexpr double disagreement = std::numeric_limits<double>::max();
-  static constexpr std::size_t few = 64; // points: each is compared with all faces
+  static constexpr std::size_t few = 64; // points: each is compared with many faces
   static constexpr double any = std::numeric_limits<double>::infinity();
 
   const Star_mesh* m_mesh;

@@ -114,8 +114,8 @@ public:
   }
 
   Concurrency concurrency() const { return m_concurrency; }
-  /// Whether a checkpoint is alive: then things happen one by one.
-  bool is_noted() const { return m_edits.are_noted(); }
+  /// Whether a checkpoint of this thread is alive: then it does all by itself.
+  bool is_noted() const { return checkpoint() != nullptr; }
   Working_mesh& working() { return m; }
   const Working_mesh& working() const { return m; }
   const Surface_projector& projector() const { return *m_projector; }
@@ -149,8 +149,8 @@ public:
   /// `v` counts as changed. Comes before each change of it.
   void touch(Vertex v)
   {
-    if (m_edits.are_noted())
-      m_past.push_back(
+    if (Checkpoint* const c = checkpoint())
+      c->m_past.push_back(
           {v, place(v), m_heights[v], m_changes[v], m_locked[v], m_movable[v], m_pinned[v]});
     ++m_changes[v];
   }
@@ -255,21 +255,31 @@ public:
   void flip(Edge e)
   {
     for (const Vertex v : corners(e)) touch(v);
-    m_edits.flip(m.mesh, e);
+    edits().flip(m.mesh, e);
   }
 
-  /// As long as one lives, what happens to the mesh, one by one, is noted and can be undone.
+private:
+  // What a vertex is, but for its edges.
+  struct Vertex_state {
+    Vertex vertex;
+    Surface_projector::Place place;
+    double height;
+    unsigned changes;
+    char is_locked, is_movable, is_pinned;
+  };
+
+public:
+  /// As long as one lives, what its thread does to the mesh is noted and can be undone.
   class Checkpoint {
   public:
-    explicit Checkpoint(Star_mesh& mesh)
-        : m(mesh), m_edits(mesh.m_edits.size()), m_past(mesh.m_past.size())
-    {
-      m.m_edits.note();
-    }
+    explicit Checkpoint(Star_mesh& mesh) : m(mesh), m_outer(std::exchange(innermost(), this)) {}
     ~Checkpoint()
     {
-      m.m_edits.forget();
-      if (!m.m_edits.are_noted()) m.m_past.clear();
+      innermost() = m_outer;
+      if (Checkpoint* const outer = m.checkpoint()) {
+        outer->m_edits.append(std::move(m_edits));
+        outer->m_past.insert(outer->m_past.end(), m_past.begin(), m_past.end());
+      }
     }
     Checkpoint(const Checkpoint&) = delete;
 
@@ -285,18 +295,29 @@ public:
     }
 
   private:
+    friend class Star_mesh;
+
+    // Of the thread.
+    static Checkpoint*& innermost()
+    {
+      thread_local Checkpoint* checkpoint = nullptr;
+      return checkpoint;
+    }
+
     template <class F>
     void undo(F&& f)
     {
-      m.m_edits.undo(m.m.mesh, m_edits);
-      for (; m.m_past.size() > m_past; m.m_past.pop_back()) {
-        m.restore(m.m_past.back());
-        f(m.m_past.back());
+      m_edits.undo(m.m.mesh);
+      for (; !m_past.empty(); m_past.pop_back()) {
+        m.restore(m_past.back());
+        f(m_past.back());
       }
     }
 
     Star_mesh& m;
-    std::size_t m_edits, m_past; // the numbers of them
+    Checkpoint* m_outer;
+    Undoable_edits m_edits{true};
+    std::vector<Vertex_state> m_past; // of those that were touched
   };
 
   /// Takes a vertex out of the mesh: of the two ends of `h` one stays, as its target was.
@@ -308,7 +329,7 @@ public:
     for (const Vertex v : {m.mesh.source(h), target}) touch(v);
     const Surface_projector::Place there = place(target);
     const double height = m_heights[target];
-    const Vertex kept = m_edits.collapse(m, h);
+    const Vertex kept = edits().collapse(m, h);
     move(kept, there);
     touch_around(kept);
     m_heights[kept] = height;
@@ -319,7 +340,7 @@ public:
   /// been taken out.
   Vertex split(Halfedge h, const Surface_projector::Place& place)
   {
-    const Vertex v = m_edits.split(m.mesh, h);
+    const Vertex v = edits().split(m.mesh, h);
     move(v, place);
     touch_around(v);
     m_heights[v] = 0;
@@ -361,6 +382,18 @@ public:
   }
 
 private:
+  // The innermost of this thread, if it is of this mesh; or none.
+  Checkpoint* checkpoint() const
+  {
+    Checkpoint* const c = Checkpoint::innermost();
+    return c && &c->m == this ? c : nullptr;
+  }
+  Undoable_edits& edits()
+  {
+    Checkpoint* const c = checkpoint();
+    return c ? c->m_edits : m_edits;
+  }
+
   State state(Vertex v) const { return mixed_bits(State(v) << 32 | m_changes[v]); }
 
   // On neither feature nor border.
@@ -368,15 +401,6 @@ private:
   {
     return !m_on_feature[v] && !m.mesh.is_isolated(v) && !m.mesh.is_border(v) && !m.is_on_seam(v);
   }
-
-  // What a vertex is, but for its edges.
-  struct Vertex_state {
-    Vertex vertex;
-    Surface_projector::Place place;
-    double height;
-    unsigned changes;
-    char is_locked, is_movable, is_pinned;
-  };
 
   void restore(const Vertex_state& s)
   {
@@ -401,8 +425,7 @@ private:
   std::vector<char> m_locked, m_movable, m_pinned, m_on_feature, m_kept;
   std::vector<unsigned> m_changes; // by vertex: of it or its edges
   std::vector<char> m_is_feature;  // by edge
-  Undoable_edits m_edits;
-  std::vector<Vertex_state> m_past; // of those that were touched while the edits are noted
+  Undoable_edits m_edits{false};   // what is done without a checkpoint
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Flips, collapses and splits of the edges of a mesh that can be undone: while they are noted, what
-// the connectivity was around them is kept, which takes no copy of the whole mesh.
+// Flips, collapses and splits of the edges of a mesh that can be undone: what the connectivity was
+// around them is kept, which takes no copy of the whole mesh.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_UNDOABLE_EDITS_H
 #define CGAL_POWER_RTF_IMPROVEMENT_UNDOABLE_EDITS_H
 
@@ -10,8 +10,9 @@
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
+#include <algorithm>
 #include <array>
-#include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -25,22 +26,14 @@ public:
   using Edge = Working_mesh::Edge;
   using Face = Working_mesh::Face;
 
-  /// Edits are noted from now on, until `forget()` has been called as often.
-  void note() { ++m_noters; }
-  void forget()
-  {
-    if (--m_noters == 0) m_edits.clear();
-  }
-  bool are_noted() const { return m_noters > 0; }
-
-  /// The number of edits that are noted.
-  std::size_t size() const { return m_edits.size(); }
+  /// `are_noted`: whether they can be undone.
+  explicit Undoable_edits(bool are_noted) : m_are_noted(are_noted) {}
 
   /// \pre the edge is not on the border, here and below
   void flip(Mesh& mesh, Edge e)
   {
     const Halfedge h = mesh.halfedge(e);
-    if (are_noted()) begin(mesh, faces_at(mesh, h));
+    if (m_are_noted) begin(mesh, faces_at(mesh, h));
     Euler::flip_edge(h, mesh);
   }
 
@@ -48,7 +41,7 @@ public:
   /// \returns the end that stays.
   Vertex collapse(Working_mesh& m, Halfedge h)
   {
-    if (are_noted()) {
+    if (m_are_noted) {
       begin(m.mesh, m.faces_at(std::array<Vertex, 2>{m.mesh.source(h), m.mesh.target(h)}));
       m_edits.back().is_collapse = true;
     }
@@ -58,11 +51,11 @@ public:
   /// Splits an edge and its two triangles. \returns the new vertex.
   Vertex split(Mesh& mesh, Halfedge h)
   {
-    if (are_noted()) begin(mesh, faces_at(mesh, h));
+    if (m_are_noted) begin(mesh, faces_at(mesh, h));
     const Halfedge o = mesh.opposite(h), first = Euler::split_edge(h, mesh);
     const Halfedge left = Euler::split_face(first, mesh.next(h), mesh);
     const Halfedge right = Euler::split_face(o, mesh.next(mesh.opposite(first)), mesh);
-    if (are_noted()) {
+    if (m_are_noted) {
       m_edits.back().new_vertex = mesh.target(first);
       m_edits.back().new_edges = {mesh.edge(first), mesh.edge(left), mesh.edge(right)};
       m_edits.back().new_faces = {mesh.face(mesh.opposite(left)), mesh.face(mesh.opposite(right))};
@@ -70,10 +63,10 @@ public:
     return mesh.target(first);
   }
 
-  /// Undoes all edits but the first `size`.
-  void undo(Mesh& mesh, std::size_t size)
+  /// Undoes all edits.
+  void undo(Mesh& mesh)
   {
-    for (; m_edits.size() > size; m_edits.pop_back()) {
+    for (; !m_edits.empty(); m_edits.pop_back()) {
       recycle(mesh, m_edits.back());
       for (const Corner& c : m_edits.back().corners) {
         mesh.set_next(c.halfedge, c.next);
@@ -83,6 +76,12 @@ public:
         mesh.set_halfedge(c.face, c.of_face);
       }
     }
+  }
+
+  /// Those of `later` come after these.
+  void append(Undoable_edits&& later)
+  {
+    std::move(later.m_edits.begin(), later.m_edits.end(), std::back_inserter(m_edits));
   }
 
 private:
@@ -132,7 +131,7 @@ private:
     }
   }
 
-  int m_noters = 0;
+  bool m_are_noted;
   std::vector<Edit> m_edits;
 };
 

@@ -14,6 +14,8 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
@@ -28,35 +30,39 @@ namespace CGAL::PowerRTF::internal {
 
 class Dislocation_annihilator {
 public:
-  explicit Dislocation_annihilator(Star_mesh& mesh) : m(mesh) {}
+  explicit Dislocation_annihilator(Star_mesh& mesh)
+      : m(mesh), m_degrees(mesh.size()), m_is_known(mesh.size()), m_taken(mesh.size())
+  {}
 
   /// Where surroundings touch, the nearest pairs first. \returns the number of meetings.
   std::size_t run()
   {
-    m_is_taken.assign(m.size(), false);
-    m_is_known.assign(m.size(), false);
+    for_each_index(m.concurrency(), int(m.size()), [this](int v) {
+      m_degrees[v] = m.working().mesh.is_isolated(Vertex(v))
+                         ? 0
+                         : m.working().degree_up_to(Parameters::irregular_degree, Vertex(v));
+    });
     std::vector<Candidate> left;
     for (const int v :
-         select(m.concurrency(), int(m.size()), [&](int v) { return excess(Vertex(v)) == -1; }))
-      add(Vertex(v), left);
+         select(m.concurrency(), int(m.size()), [&](int v) { return excess(Vertex(v)) == -1; })) {
+      m_is_known[v] = true;
+      left.push_back({Vertex(v)});
+    }
     for (std::size_t meetings = 0;;) {
       Cancellation::poll();
       for_each_chunk(m.concurrency(), int(left.size()), 1, [&](int k, int) { update(left[k]); });
-      const std::vector<Candidate> chosen = take_independent(left);
+      std::vector<Candidate> chosen = take_independent(left);
       if (chosen.empty()) return meetings;
-      std::vector<char> has_met(chosen.size());
       for_each_chunk(m.concurrency(), int(chosen.size()), 1,
-                     [&](int k, int) { has_met[k] = annihilate(chosen[k]); });
-      m_is_taken.assign(m.size(), false);
-      for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const Candidate& c = chosen[k];
-        if (has_met[k]) {
+                     [&](int k, int) { annihilate(chosen[k]); });
+      ++m_taking;
+      for (Candidate& c : chosen) {
+        if (c.has_met) {
           ++meetings;
           take(c);
-          for (const Vertex v : c.zone)
-            if (excess(v) == -1 && !m_is_known[v]) add(v, left);
+          for (const Vertex v : c.new_fives) left.push_back({v});
         } else if (c.length < Parameters::max_glide) {
-          left.push_back({c.five, c.length + 1, false, {}, {}});
+          left.push_back({c.five, c.length + 1});
         }
       }
     }
@@ -73,54 +79,52 @@ private:
   // and all vertices that these may move, or depend on.
   struct Candidate {
     Vertex five;
-    int length;      // the least number of flips
-    bool is_current; // what follows
-    std::vector<std::vector<Edge>> meetings;
-    std::vector<Vertex> zone;
+    int length = 1;          // the least number of flips
+    bool is_current = false; // what follows
+    std::vector<std::vector<Edge>> meetings{};
+    std::vector<Vertex> zone{};
+    bool has_met = false;
+    std::vector<Vertex> new_fives{}; // then: that have not been candidates
   };
-
-  void add(Vertex five, std::vector<Candidate>& candidates)
-  {
-    m_is_known[five] = true;
-    candidates.push_back({five, 1, false, {}, {}});
-  }
 
   // Looks for the nearest meetings, if something has changed around the candidate.
   void update(Candidate& c) const
   {
     if (c.is_current && is_free(c)) return;
     c.is_current = true;
-    c.zone.clear();
     c.meetings = find_meetings(c.five, c.length);
-    while (c.meetings.empty() && c.length < Parameters::max_glide)
-      c.meetings = find_meetings(c.five, ++c.length);
-    for (const std::vector<Edge>& flips : c.meetings) {
-      const std::vector<Vertex> near = vertices_near(flips, Parameters::rings + 1);
-      c.zone.insert(c.zone.end(), near.begin(), near.end());
-    }
+    if (c.meetings.empty()) return;
+    c.length = int(c.meetings.front().size());
+    std::vector<Edge> flips;
+    for (const std::vector<Edge>& some : c.meetings)
+      flips.insert(flips.end(), some.begin(), some.end());
+    c.zone = vertices_near(flips, Parameters::rings + 1);
   }
 
   void take(const Candidate& c)
   {
-    for (const Vertex v : c.zone) m_is_taken[v] = true;
+    for (const Vertex v : c.zone) m_taken[v] = m_taking;
   }
   // Whether its zone touches none that is taken.
   bool is_free(const Candidate& c) const
   {
-    return std::none_of(c.zone.begin(), c.zone.end(), [this](Vertex v) { return m_is_taken[v]; });
+    return std::none_of(c.zone.begin(), c.zone.end(),
+                        [this](Vertex v) { return m_taken[v] == m_taking; });
   }
 
   // Takes those out whose zones touch none of those taken before, the nearest pairs first, and all
   // that have no meeting any more.
   std::vector<Candidate> take_independent(std::vector<Candidate>& candidates)
   {
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                    [](const Candidate& c) { return c.meetings.empty(); }),
+                     candidates.end());
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return std::pair(a.length, a.five) < std::pair(b.length, b.five);
     });
-    m_is_taken.assign(m.size(), false);
+    ++m_taking;
     std::vector<Candidate> chosen, left;
     for (Candidate& c : candidates) {
-      if (c.meetings.empty()) continue;
       if (is_free(c)) {
         take(c);
         chosen.push_back(std::move(c));
@@ -132,20 +136,30 @@ private:
     return chosen;
   }
 
-  // At most `irregular_degree`.
-  int degree(Vertex v) const { return m.working().degree_up_to(Parameters::irregular_degree, v); }
-
   // Edges above six; 0 where the mesh is not free, as on features and borders.
-  int excess(Vertex v) const { return m.is_movable(v) ? degree(v) - 6 : 0; }
+  int excess(Vertex v) const { return m.is_movable(v) ? m_degrees[v] - 6 : 0; }
+
+  void flip(Edge e)
+  {
+    const auto corners = m.corners(e);
+    m.flip(e);
+    for (int k = 0; k < 4; ++k) m_degrees[corners[k]] += change_of_degree(k);
+  }
+  // Of a corner of an edge that is flipped: the ends lose the edge.
+  static int change_of_degree(int corner) { return corner < 2 ? -1 : 1; }
 
   // Makes one of the meetings happen.
-  bool annihilate(const Candidate& c)
+  void annihilate(Candidate& c)
   {
-    return std::any_of(c.meetings.begin(), c.meetings.end(),
-                       [this](const std::vector<Edge>& flips) { return flip_if_better(flips); });
+    c.has_met = std::any_of(c.meetings.begin(), c.meetings.end(),
+                            [this](const auto& flips) { return flip_if_better(flips); });
+    if (!c.has_met) return;
+    for (const Vertex v : c.zone)
+      if (excess(v) == -1 && !std::exchange(m_is_known[v], true)) c.new_fives.push_back(v);
   }
 
-  // All chains of `length` flips after which the dislocations at `five` meet another.
+  // The shortest chains of at least `length` flips after which the dislocations at `five` meet
+  // another.
   std::vector<std::vector<Edge>> find_meetings(Vertex five, int length) const
   {
     const auto& mesh = m.working().mesh;
@@ -154,8 +168,11 @@ private:
     for (const Halfedge h : halfedges_around_target(five, mesh)) {
       if (excess(mesh.source(h)) != 1) continue;
       for (const bool to_left : {true, false}) {
-        std::vector<Edge> flips = find_meeting(mesh.opposite(h), length, to_left);
-        if (!flips.empty() && std::find(meetings.begin(), meetings.end(), flips) == meetings.end())
+        std::vector<Edge> flips = find_meeting(mesh.opposite(h), to_left);
+        if (int(flips.size()) < length) continue;
+        if (!meetings.empty() && flips.size() > meetings.front().size()) continue;
+        if (!meetings.empty() && flips.size() < meetings.front().size()) meetings.clear();
+        if (std::find(meetings.begin(), meetings.end(), flips) == meetings.end())
           meetings.push_back(std::move(flips));
       }
     }
@@ -188,7 +205,7 @@ private:
       int sum = 0;
       const auto corners = m_annihilator.m.corners(e);
       for (int k = 0; k < 4; ++k) {
-        const int change = k < 2 ? -1 : 1; // the ends lose the edge
+        const int change = change_of_degree(k);
         sum += 2 * change * excess(corners[k]) + 1;
         m_changes.emplace_back(corners[k], change);
       }
@@ -200,21 +217,21 @@ private:
     boost::container::small_vector<std::pair<Vertex, int>, 24> m_changes;
   };
 
-  // The `length` flips after which the dislocation at `h`, from five to seven, meets another;
-  // empty: there is none. Each flip is of triangles that those before have not touched.
-  std::vector<Edge> find_meeting(Halfedge h, int length, bool to_left) const
+  // The flips after which the dislocation at `h`, from five to seven, meets another; empty: it does
+  // not, or far away. Each flip is of triangles that those before have not touched.
+  std::vector<Edge> find_meeting(Halfedge h, bool to_left) const
   {
     const auto& mesh = m.working().mesh;
     std::vector<Edge> flips;
     Flipped_degrees degrees(*this);
-    while (int(flips.size()) < length) {
+    while (int(flips.size()) < Parameters::max_glide) {
       const Halfedge beside = // from seven
           to_left ? mesh.next(h) : mesh.opposite(mesh.prev(mesh.opposite(h)));
       const Edge e = mesh.edge(beside);
       if (!degrees.can_flip(e)) break;
       flips.push_back(e);
       const int change = degrees.flip(e);
-      if (change < 0 && int(flips.size()) == length) return flips;
+      if (change < 0) return flips;
       if (change != 0) break;
       // from the new five to the new seven
       h = to_left ? mesh.opposite(mesh.prev(mesh.opposite(beside))) : mesh.next(beside);
@@ -225,7 +242,7 @@ private:
   void undo(const std::vector<Edge>& flips)
   {
     for (auto e = flips.rbegin(); e != flips.rend(); ++e)
-      for (int k = 0; k < 3; ++k) m.flip(*e); // four turns are a whole one
+      for (int k = 0; k < 3; ++k) flip(*e); // four turns are a whole one
   }
 
   bool flip_if_better(const std::vector<Edge>& flips)
@@ -243,7 +260,7 @@ private:
         restore(near, places);
         return false;
       }
-      m.flip(e);
+      flip(e);
       const std::vector<Vertex> around = vertices_near({e}, 1);
       for (int round = 0; round < Parameters::rounds_per_flip; ++round) smooth(around);
     }
@@ -291,7 +308,7 @@ private:
     for (const Edge e : edges)
       for (const Vertex v : m.corners(e)) near.push_back(v);
     m.working().add_neighbors(
-        near, rings, [this](Vertex v) { return degree(v) < Parameters::irregular_degree; });
+        near, rings, [this](Vertex v) { return m_degrees[v] < Parameters::irregular_degree; });
     return near;
   }
 
@@ -316,7 +333,10 @@ private:
   }
 
   Star_mesh& m;
-  std::vector<char> m_is_taken, m_is_known; // by vertex: in a zone; has been a candidate
+  Unset_vector<int> m_degrees;   // by vertex; at most `irregular_degree`, which stays
+  Zero_vector<char> m_is_known;  // by vertex: has been a candidate
+  Zero_vector<unsigned> m_taken; // by vertex: when it was in a zone
+  unsigned m_taking = 0;
 };
 
 } // namespace CGAL::PowerRTF::internal

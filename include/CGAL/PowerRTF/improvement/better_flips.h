@@ -16,12 +16,13 @@ template <class Energy>
 bool is_better_flipped(const Star_mesh& m, Star_mesh::Edge e, const Energy& energy,
                        double least_energy, double min_agreement)
 {
-  if (m.working().mesh.is_removed(e) || !m.is_free(e)) return false;
+  if (m.working().mesh.is_removed(e)) return false;
   const auto [a, b, c, d] = m.corners(e);
   const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
   const double enough = clearly_less * (energy(pa, pb, pc) + energy(pb, pa, pd)),
                first = energy(pd, pc, pa);
   if (!(first + least_energy < enough) || !(first + energy(pc, pd, pb) < enough)) return false;
+  if (!m.is_free(e)) return false;
   const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
   if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) < std::min(min_agreement, agreement))
     return false;

@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -42,7 +43,7 @@ public:
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
       : m(mesh), m_guard(guard), m_anchors(m.size()), m_anchored(m.size()),
         m_failed_searches(m.size()), m_failed_flips(m.working().mesh.number_of_edges()),
-        m_colors(m.size()), m_bad(mesh)
+        m_colors(m.size()), m_zoned(m.size()), m_bad(mesh)
   {}
 
   double badness(Face f) const { return judgment(f).badness; }
@@ -95,9 +96,7 @@ private:
       const std::vector<Vertex> vertices = vertices_around(bad);
       set_anchors(vertices);
       search(vertices);
-      if (round % 2 == 1)
-        for (const Face f : bad)
-          if (badness(f) > 0) flip_around(f);
+      if (round % 2 == 1) flip_around(bad);
       bad = bad_faces_at(vertices); // only what is around them has changed
       const double now = total_badness(bad);
       if (round % 2 == 1 && now > Parameters::stagnation_share * total) break;
@@ -179,14 +178,18 @@ private:
     return faces;
   }
 
-  // Neighbors one after the other, the others at once if nothing else notes what is done.
+  // Of what is apart. One by one if something else notes what is done.
+  Concurrency concurrency() const
+  {
+    return m_guard || m.is_noted() ? Concurrency(Sequential_tag()) : m.concurrency();
+  }
+
+  // Neighbors one after the other, the others at once.
   void search(const std::vector<Vertex>& vertices)
   {
     constexpr int chunk = 8;
-    const Concurrency concurrency =
-        m_guard || m.is_noted() ? Concurrency(Sequential_tag()) : m.concurrency();
     for (const std::vector<Vertex>& some : colored(vertices))
-      for_each_chunk(concurrency, int(some.size()), chunk, [&](int begin, int end) {
+      for_each_chunk(concurrency(), int(some.size()), chunk, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) search(some[k]);
       });
   }
@@ -259,6 +262,50 @@ private:
     if (intersects) m.move(v, before);
     m_guard->insert_around(v);
     return !intersects;
+  }
+
+  // Faces that are near each other one after the other, the others at once.
+  void flip_around(std::vector<Face> faces)
+  {
+    while (!faces.empty()) {
+      std::vector<std::vector<Vertex>> zones(faces.size());
+      for_each_chunk(m.concurrency(), int(faces.size()), 8, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) zones[k] = zone(faces[k]);
+      });
+      ++m_zoning;
+      std::vector<Face> now, later;
+      for (std::size_t k = 0; k < faces.size(); ++k) {
+        bool is_first = true;
+        for (const Vertex v : zones[k])
+          if (std::exchange(m_zoned[v], m_zoning) == m_zoning) is_first = false;
+        (is_first ? now : later).push_back(faces[k]);
+      }
+      for_each_chunk(concurrency(), int(now.size()), 1, [&](int k, int) {
+        if (badness(now[k]) > 0) flip_around(now[k]);
+      });
+      faces.swap(later);
+    }
+  }
+
+  // The vertices that flips around a face may change, and their neighbors; of those on seams the
+  // copies, too. Hubs do not change.
+  std::vector<Vertex> zone(Face f) const
+  {
+    const Working_mesh& working = m.working();
+    const auto is_no_hub = [this](Vertex v) { return !m.is_hub(v); };
+    const auto corners = working.corners(f);
+    std::vector<Vertex> vertices, copies;
+    std::copy_if(corners.begin(), corners.end(), std::back_inserter(vertices), is_no_hub);
+    working.add_neighbors(vertices, 2, is_no_hub);
+    for (const Vertex v : vertices) {
+      if (!working.is_on_seam(v)) continue;
+      const std::vector<Vertex>& at_place = working.copies(working.places[v]);
+      copies.insert(copies.end(), at_place.begin(), at_place.end());
+    }
+    if (copies.empty()) return vertices;
+    vertices.insert(vertices.end(), copies.begin(), copies.end());
+    sort_uniquely(vertices);
+    return vertices;
   }
 
   // Tries the edges of a bad triangle, and those opposite to its corners.
@@ -347,6 +394,8 @@ private:
   Zero_vector<State> m_failed_searches; // by vertex: the state in which it has failed
   Zero_vector<State> m_failed_flips;    // by edge: the sum of the corners' states
   Zero_vector<int> m_colors;            // by vertex: in a search; or 0
+  Zero_vector<unsigned> m_zoned;        // by vertex: when it was in a zone
+  unsigned m_zoning = 0;
   Watched_faces m_bad;
 };
 

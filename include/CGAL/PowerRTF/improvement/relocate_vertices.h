@@ -138,8 +138,9 @@ private:
     const auto& mesh = m.working().mesh;
     const std::vector<Edge> steep = steep_edges();
     std::vector<std::pair<Vec3d, double>> far(steep.size());
-    for_each_index(m.concurrency(), int(steep.size()),
-                   [&](int k) { far[k] = across(mesh.halfedge(steep[k])); });
+    for_each_chunk(m.concurrency(), int(steep.size()), 16, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) far[k] = across(mesh.halfedge(steep[k]));
+    });
     for (std::size_t k = 0; k < steep.size(); ++k) {
       const auto& [point, distance] = far[k];
       const Halfedge h = mesh.halfedge(steep[k]);
@@ -164,7 +165,7 @@ private:
   {
     const auto& mesh = m.working().mesh;
     std::vector<Edge> edges;
-    const auto is_wanted = [&](Halfedge h) { return m.is_free(mesh.edge(h)) && is_steep(h); };
+    const auto is_wanted = [&](Halfedge h) { return is_steep(h) && m.is_free(mesh.edge(h)); };
     for (const Working_mesh::Face f : m_steep.find([&](Working_mesh::Face f) {
            const Halfedge h = mesh.halfedge(f);
            return is_wanted(h) || is_wanted(mesh.next(h)) || is_wanted(mesh.prev(h));
@@ -193,7 +194,7 @@ private:
   std::pair<Vec3d, double> across(Halfedge h) const
   {
     const Vec3d p = middle(h);
-    const Vec3d q = m.projector().nearest(p).point;
+    const Vec3d q = m.projector().nearest(p, m.facet(m.working().mesh.source(h))).point;
     return {q, length(q - p)};
   }
 

@@ -109,8 +109,7 @@ CGAL_POWER_RTF_HD inline Star_view::Star Star_view::star(int v) const { return {
 
 /// Owns what a `Star_view` needs of the mesh.
 struct Flat_stars {
-  std::vector<int> first;
-  Unset_vector<int> neighbors;
+  Unset_vector<int> first, neighbors;
   Unset_vector<unsigned char> kinds;
   Unset_vector<Vec3d> points, normals;
   Unset_vector<int> facets;
