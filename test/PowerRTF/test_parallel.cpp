@@ -3,6 +3,7 @@
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
+#include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
@@ -103,6 +104,32 @@ TEST_CASE("the n-th value is that of the sorted ones, however they are spread")
       for (const int n : {0, size / 3, size / 2, size - 1})
         for (const Concurrency& concurrency : both)
           CHECK(nth_value(concurrency, values, n) == sorted[n]);
+    }
+}
+
+TEST_CASE("the order by keys is that of a stable sort, however they are spread")
+{
+  std::mt19937_64 random(1);
+  const std::function<std::uint64_t(int)> spreads[] = {
+      [&](int) { return random(); },                                    // evenly
+      [&](int) { return random() % 1000; },                             // low ones, some equal
+      [&](int i) { return i % 100 == 0 ? random() : random() >> 40; },  // most of them near others
+      [&](int i) { return i % 3 == 0 ? 7 : ~(std::uint64_t(i) << 7); }, // falling, with a long run
+      [](int) { return ~std::uint64_t(0); }};                           // all the same
+  for (const auto& spread : spreads)
+    for (const int n : sizes) {
+      std::vector<std::uint64_t> keys(n);
+      for (int i = 0; i < n; ++i) keys[i] = spread(i);
+      std::vector<int> expected(n);
+      std::iota(expected.begin(), expected.end(), 0);
+      std::stable_sort(expected.begin(), expected.end(),
+                       [&](int i, int j) { return keys[i] < keys[j]; });
+      for (const Concurrency& concurrency : both) {
+        std::vector<int> order(n, -1);
+        order_by_key(
+            concurrency, n, [&](int i) { return keys[i]; }, order.data());
+        CHECK(order == expected);
+      }
     }
 }
 

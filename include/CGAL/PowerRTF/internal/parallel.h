@@ -47,7 +47,7 @@ inline void for_each_task(Concurrency concurrency, int n, void (*f)(const void* 
                           const void* data)
 {
 #ifdef CGAL_LINKED_WITH_TBB
-  if (concurrency.is_parallel()) {
+  if (concurrency.is_parallel() && n > 1) {
     tbb::parallel_for(tbb::blocked_range<int>(0, n, 1), [&](const tbb::blocked_range<int>& range) {
       for (int c = range.begin(); c != range.end(); ++c) f(data, c);
     });
