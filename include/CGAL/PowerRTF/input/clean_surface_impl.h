@@ -156,35 +156,47 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
 
 /// Drops the vertices that no triangle uses. The others keep their order, and with it the
 /// adjacency.
-inline Surface compacted(Triangle_soup&& soup, const Normalization& normalization,
-                         Concurrency concurrency)
+inline void drop_unused_vertices(Triangle_soup& soup, Concurrency concurrency)
 {
-  const int facets = static_cast<int>(soup.triangles.size());
   std::vector<int> new_index;
   resize_in_parallel(concurrency, new_index, soup.points.size(), -1);
+  const int facets = static_cast<int>(soup.triangles.size());
   for_each_index(concurrency, facets, [&](int f) {
     for (const int v : soup.triangles[f]) atomic_store(&new_index[v], 0);
   });
   const std::vector<int> used = select(concurrency, static_cast<int>(new_index.size()),
                                        [&](int v) { return new_index[v] == 0; });
+  if (used.size() == soup.points.size()) return; // mostly
   const int vertices = static_cast<int>(used.size());
-  Surface surface;
-  resize_in_parallel(concurrency, surface.points, vertices);
-  resize_in_parallel(concurrency, surface.input_vertices, vertices);
+  const Triangle_soup all = {std::move(soup.points), {}, std::move(soup.originals), {}, {}, {}};
+  resize_in_parallel(concurrency, soup.points, vertices);
+  resize_in_parallel(concurrency, soup.originals, vertices);
   for_each_index(concurrency, vertices, [&](int v) {
     new_index[used[v]] = v;
-    surface.points[v] = soup.points[used[v]];
-    surface.input_vertices[v] = soup.originals[used[v]];
+    soup.points[v] = all.points[used[v]];
+    soup.originals[v] = all.originals[used[v]];
   });
+  for_each_index(concurrency, facets, [&](int f) {
+    for (int& v : soup.triangles[f]) v = new_index[v];
+  });
+  for (Edge& e : soup.seams) e = {new_index[e[0]], new_index[e[1]]};
+  for (int& v : soup.contacts) v = new_index[v];
+}
+
+/// The surface of a soup, without the vertices that no triangle uses.
+inline Surface compacted(Triangle_soup&& soup, const Normalization& normalization,
+                         Concurrency concurrency)
+{
+  drop_unused_vertices(soup, concurrency);
+  Surface surface;
+  surface.points = std::move(soup.points);
   surface.triangles = std::move(soup.triangles);
   surface.adjacency = std::move(soup.adjacency);
-  for_each_index(concurrency, facets, [&](int f) {
-    for (int& v : surface.triangles[f]) v = new_index[v];
-  });
-  for (const Edge& e : soup.seams) surface.seams.push_back({new_index[e[0]], new_index[e[1]]});
-  for (const int v : soup.contacts) surface.contacts.push_back(new_index[v]);
-  surface.creases = surface.seams;
-  resize_in_parallel(concurrency, surface.vertex_density, vertices, 1.);
+  surface.input_vertices = std::move(soup.originals);
+  surface.creases = soup.seams;
+  surface.seams = std::move(soup.seams);
+  surface.contacts = std::move(soup.contacts);
+  resize_in_parallel(concurrency, surface.vertex_density, surface.points.size(), 1.);
   surface.normalization = normalization;
   return surface;
 }
