@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/PowerRTF/geometry/for_each_node.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
@@ -130,6 +131,22 @@ TEST_CASE("the order by keys is that of a stable sort, however they are spread")
             concurrency, n, [&](int i) { return keys[i]; }, order.data());
         CHECK(order == expected);
       }
+    }
+}
+
+TEST_CASE("the nodes of a tree come once each, after their children")
+{
+  for (const int n : sizes)
+    for (const Concurrency& concurrency : both) {
+      const Packed_tree_layout tree(n);
+      std::vector<int> items(tree.nodes(), 0); // below each node
+      for_each_node(concurrency, tree, [&](int level, int k) {
+        for (int c = tree.children_begin(k); c < tree.children_end(level, k); ++c)
+          items[tree.first[level] + k] += level == 0 ? 1 : items[tree.first[level - 1] + c];
+      });
+      for (int level = 0; level < tree.levels; ++level)
+        CHECK(std::accumulate(items.begin() + tree.first[level],
+                              items.begin() + tree.first[level + 1], 0) == n);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/geometry/Hilbert_table.h>
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
+#include <CGAL/PowerRTF/geometry/for_each_node.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/order_by_key.h>
@@ -67,8 +68,7 @@ public:
         [&](int i) { return curve.index(hilbert_cube(candidates[i].point)); }, m_order.data());
     for_each_index(concurrency, m_layout.items,
                    [&](int k) { m_sorted[k] = candidates[m_order[k]]; });
-    for (int level = 0; level < m_layout.levels; ++level)
-      for_each_index(concurrency, m_layout.nodes(level), [&](int k) { fit(level, k); });
+    for_each_node(concurrency, m_layout, [&](int level, int k) { fit(level, k); });
   }
 
   Unset_vector<int>&& order() && { return std::move(m_order); }
