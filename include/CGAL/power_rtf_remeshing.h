@@ -411,7 +411,7 @@ power_rtf_remeshing(const FaceRange& faces, PolygonMesh& mesh,
   typename Types::Visitor visitor = parameters::choose_parameter(
       parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
 
-  const PowerRTF::Polygon_soup whole = PowerRTF::internal::soup_of_mesh(mesh, np);
+  const PowerRTF::Polygon_soup whole = PowerRTF::internal::soup_of_mesh(mesh, np, ConcurrencyTag());
   const PowerRTF::internal::Remeshed_region region(
       whole, PowerRTF::internal::marks_of_faces(mesh, faces),
       PowerRTF::internal::surface_fields(mesh, np), options, ConcurrencyTag());

@@ -7,6 +7,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <doctest/doctest.h>
 
@@ -16,6 +17,7 @@
 
 namespace PRTF = CGAL::PowerRTF;
 using PRTF::import_surface;
+using PRTF::Polygon_soup;
 using PRTF::Repair_counts;
 using PRTF::Surface;
 using PRTF::Triangle;
@@ -85,6 +87,31 @@ TEST_CASE("Surface_mesh and Polyhedron_3, own and foreign point maps")
     const auto mesh = shapes::make_mesh<CGAL::Surface_mesh<Exact::Point_3>>(soup);
     const Surface s = import_surface(mesh, CGAL::parameters::default_values(), repairs);
     CHECK(s.points == reference.points);
+  }
+}
+
+TEST_CASE("the facets of a Surface_mesh are read by any number of threads as one by one")
+{
+  Mesh mesh = shapes::make_mesh(shapes::torus(40, 30, 2, 1));
+  for (const auto e : mesh.edges())
+    if (e.idx() % 11 == 0 && mesh.face(mesh.halfedge(e, 0)) != mesh.face(mesh.halfedge(e, 1)))
+      CGAL::Euler::join_face(mesh.halfedge(e), mesh); // larger facets, and gaps between them
+  REQUIRE(mesh.has_garbage());
+  std::map<Mesh::Vertex_index, int> places;
+  for (const auto v : mesh.vertices()) places.emplace(v, static_cast<int>(places.size()));
+  std::vector<int> corners, first{0};
+  for (const auto f : mesh.faces()) {
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
+      corners.push_back(places[v]);
+    first.push_back(static_cast<int>(corners.size()));
+  }
+  for (const PRTF::internal::Concurrency concurrency :
+       {PRTF::internal::Concurrency(CGAL::Sequential_tag()),
+        PRTF::internal::Concurrency(CGAL::Parallel_if_available_tag())}) {
+    const Polygon_soup soup =
+        PRTF::internal::soup_of_mesh(mesh, CGAL::parameters::default_values(), concurrency);
+    CHECK(soup.corners == corners);
+    CHECK(soup.first == first);
   }
 }
 

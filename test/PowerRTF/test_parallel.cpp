@@ -1,10 +1,12 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/PowerRTF/geometry/for_each_node.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
 #include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
+#include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
@@ -133,6 +135,48 @@ TEST_CASE("the n-th value is that of the sorted ones, however they are spread")
       for (const int n : {0, size / 3, size / 2, size - 1})
         for (const Concurrency& concurrency : both)
           CHECK(nth_value(concurrency, values, n) == sorted[n]);
+    }
+}
+
+TEST_CASE("the order by keys is that of a stable sort, however they are spread")
+{
+  std::mt19937_64 random(1);
+  const std::function<std::uint64_t(int)> spreads[] = {
+      [&](int) { return random(); },                                    // evenly
+      [&](int) { return random() % 1000; },                             // low ones, some equal
+      [&](int i) { return i % 100 == 0 ? random() : random() >> 40; },  // most of them near others
+      [&](int i) { return i % 3 == 0 ? 7 : ~(std::uint64_t(i) << 7); }, // falling, with a long run
+      [](int) { return ~std::uint64_t(0); }};                           // all the same
+  for (const auto& spread : spreads)
+    for (const int n : sizes) {
+      std::vector<std::uint64_t> keys(n);
+      for (int i = 0; i < n; ++i) keys[i] = spread(i);
+      std::vector<int> expected(n);
+      std::iota(expected.begin(), expected.end(), 0);
+      std::stable_sort(expected.begin(), expected.end(),
+                       [&](int i, int j) { return keys[i] < keys[j]; });
+      for (const Concurrency& concurrency : both) {
+        std::vector<int> order(n, -1);
+        order_by_key(
+            concurrency, n, [&](int i) { return keys[i]; }, order.data());
+        CHECK(order == expected);
+      }
+    }
+}
+
+TEST_CASE("the nodes of a tree come once each, after their children")
+{
+  for (const int n : sizes)
+    for (const Concurrency& concurrency : both) {
+      const Packed_tree_layout tree(n);
+      std::vector<int> items(tree.nodes(), 0); // below each node
+      for_each_node(concurrency, tree, [&](int level, int k) {
+        for (int c = tree.children_begin(k); c < tree.children_end(level, k); ++c)
+          items[tree.first[level] + k] += level == 0 ? 1 : items[tree.first[level - 1] + c];
+      });
+      for (int level = 0; level < tree.levels; ++level)
+        CHECK(std::accumulate(items.begin() + tree.first[level],
+                              items.begin() + tree.first[level + 1], 0) == n);
     }
 }
 

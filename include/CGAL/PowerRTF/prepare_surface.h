@@ -127,7 +127,7 @@ Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
   Surface_fields fields;
   {
     const internal::Stopwatch watch(report.seconds.surface);
-    soup = internal::soup_of_mesh(mesh, np);
+    soup = internal::soup_of_mesh(mesh, np, concurrency);
     fields = internal::surface_fields(mesh, np);
   }
   return prepare_surface(std::move(soup), fields, options, report, concurrency);

@@ -87,8 +87,8 @@ void Engine<R, B, C>::sort(const Engine_samples& samples)
   const Box3<double> box = internal::box_around(B::concurrency(), m, samples.points);
   find_hilbert_codes(m_backend, n, m_sites.data(), box, codes.data());
   m_backend.sort_order(n, codes.data(), places.data(), true);
-  std::vector<int> order(m);
-  std::iota(order.begin(), order.end(), 0);
+  internal::Unset_vector<int> order(m);
+  std::iota(order.begin() + n, order.end(), n);
   m_backend.download(order.data(), places.data(), n);
 
   internal::Unset_vector<int> facets(m), patches(m_has_patches ? m : 0);

@@ -57,10 +57,8 @@ void diffuse(const Surface_edges& edges, const std::vector<double>& times, int s
   const double stages = std::ceil(std::sqrt(0.25 + 4 * last) - 0.5);
   const double share = 2 / (stages * (stages + 1) * steps); // of the times, by one stage
   const int size = static_cast<int>(values.size());
-  internal::Unset_vector<Value> others[2];
-  for (auto& x : others) x.resize(values.size());
-  Value *now = values.data(), *before = others[0].data(), *next = others[1].data();
-  internal::for_each_index(concurrency, size, [&](int v) { before[v] = now[v]; });
+  internal::Unset_vector<Value> others(values.size());
+  Value *now = values.data(), *before = others.data(); // the latter become the next ones
   for (int step = 0; step < steps; ++step)
     for (double j = 1; j <= stages; ++j) {
       const double mu = (2 * j - 1) / j, nu = (1 - j) / j; // their sum is 1
@@ -69,11 +67,11 @@ void diffuse(const Surface_edges& edges, const std::vector<double>& times, int s
         for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
           sum += now[edges.neighbor[e]] - now[v];
         const int degree = (std::max)(1, edges.first[v + 1] - edges.first[v]);
-        next[v] = now[v] + nu * (before[v] - now[v]) + mu * share * times[v] / degree * sum;
-        if (j == stages) next[v] = finish(v, next[v]);
+        const Value old = j > 1 ? before[v] : now[v]; // where nu is 0, there may be none before
+        const Value next = now[v] + nu * (old - now[v]) + mu * share * times[v] / degree * sum;
+        before[v] = j == stages ? finish(v, next) : next;
       });
       std::swap(before, now);
-      std::swap(now, next);
     }
   if (now == values.data()) return;
   internal::for_each_index(concurrency, size, [&](int v) { values[v] = now[v]; });

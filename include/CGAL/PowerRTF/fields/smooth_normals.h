@@ -10,6 +10,7 @@
 
 #include <CGAL/PowerRTF/fields/diffusion.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <cstddef>
@@ -30,12 +31,14 @@ inline void smooth_normals(Surface& surface, std::size_t n, double width,
   const double variance = diffusion_variance(surface, n, width, concurrency);
   const std::vector<double> times = diffusion_times(
       edges, [&](int v) { return variance / surface.vertex_density[v]; }, longest, concurrency);
-  std::vector<Vec3d> smooth = surface.vertex_normals;
+  std::vector<Vec3d>& normals = surface.vertex_normals;
+  internal::Unset_vector<Vec3d> before(normals.size());
+  internal::for_each_index(concurrency, static_cast<int>(normals.size()),
+                           [&](int v) { before[v] = normals[v]; });
   // Vectors that are not made unit ones again and again cancel, and point anywhere.
-  diffuse(edges, times, steps, smooth, concurrency, [&](int v, const Vec3d& mean) {
-    return squared_length(mean) > 0 ? normalized(mean) : surface.vertex_normals[v];
+  diffuse(edges, times, steps, normals, concurrency, [&](int v, const Vec3d& mean) {
+    return squared_length(mean) > 0 ? normalized(mean) : before[v];
   });
-  surface.vertex_normals.swap(smooth);
 }
 
 } // namespace CGAL::PowerRTF

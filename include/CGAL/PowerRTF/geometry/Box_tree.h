@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/geometry/box_around.h>
+#include <CGAL/PowerRTF/geometry/for_each_node.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -84,16 +85,15 @@ public:
       return Vec3<float>{inside(p.x, middle.x), inside(p.y, middle.y), inside(p.z, middle.z)};
     };
     sort_items(boxes);
-    for (int level = 0; level < m_tree.levels; ++level)
-      for_each_index(concurrency, m_tree.nodes(level), [&](int k) {
-        Sibling_boxes& node = m_nodes[m_tree.first[level] + k];
-        const int begin = m_tree.children_begin(k), end = m_tree.children_end(level, k);
-        for (int c = begin; c < begin + Sibling_boxes::size; ++c)
-          node.set(c - begin, c >= end     ? nothing()
-                              : level == 0 ? Box3<float>{point(boxes[m_items[c]].lo),
-                                                         point(boxes[m_items[c]].hi)}
-                                           : m_nodes[m_tree.first[level - 1] + c].around());
-      });
+    for_each_node(concurrency, m_tree, [&](int level, int k) {
+      Sibling_boxes& node = m_nodes[m_tree.first[level] + k];
+      const int begin = m_tree.children_begin(k), end = m_tree.children_end(level, k);
+      for (int c = begin; c < begin + Sibling_boxes::size; ++c)
+        node.set(c - begin, c >= end     ? nothing()
+                            : level == 0 ? Box3<float>{point(boxes[m_items[c]].lo),
+                                                       point(boxes[m_items[c]].hi)}
+                                         : m_nodes[m_tree.first[level - 1] + c].around());
+    });
   }
 
   /// The pairs of boxes, by number, that overlap, of which one at least `is_wanted(i)`, and with

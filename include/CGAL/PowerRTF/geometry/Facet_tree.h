@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
+#include <CGAL/PowerRTF/geometry/for_each_node.h>
 #include <CGAL/PowerRTF/internal/Single_lane.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -57,10 +58,9 @@ public:
     const internal::Box_of_facet box_of{m_facets.data()};
     internal::Unset_vector<Box3<double>> boxes(m_tree.nodes());
     m_nodes.resize(m_tree.nodes());
-    for (int level = 0; level < m_tree.levels; ++level)
-      internal::for_each_index(m_concurrency, m_tree.nodes(level), [&](int k) {
-        fit_child_boxes(m_tree, level, k, box_of, boxes.data(), m_nodes.data());
-      });
+    internal::for_each_node(m_concurrency, m_tree, [&](int level, int k) {
+      fit_child_boxes(m_tree, level, k, box_of, boxes.data(), m_nodes.data());
+    });
   }
 
   /// The facets alone.

@@ -7,11 +7,9 @@
 
 #include <CGAL/PowerRTF/geometry/Hilbert_table.h>
 #include <CGAL/PowerRTF/geometry/box_around.h>
-#include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -25,11 +23,9 @@ std::vector<int> spatial_order(const Points& points, Concurrency concurrency = S
   const int n = static_cast<int>(points.size());
   const Curve_cube cube(box_around(concurrency, n, points));
   const Hilbert_table& curve = Hilbert_table::get();
-  Unset_vector<std::pair<std::uint64_t, int>> codes(n);
-  for_each_index(concurrency, n, [&](int i) { codes[i] = {curve.index(cube(points[i])), i}; });
-  sort(concurrency, codes.begin(), codes.end());
   std::vector<int> order(n);
-  for_each_index(concurrency, n, [&](int k) { order[k] = codes[k].second; });
+  order_by_key(
+      concurrency, n, [&](int i) { return curve.index(cube(points[i])); }, order.data());
   return order;
 }
 

@@ -20,7 +20,6 @@
 #include <CGAL/PowerRTF/input/split_sheets.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/connected_components.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 
@@ -156,37 +155,44 @@ inline Repair_status make_manifold(Triangle_soup& soup, Manifold_repair allowed,
 
 /// Drops the vertices that no triangle uses. The others keep their order, and with it the
 /// adjacency.
+inline void drop_unused_vertices(Triangle_soup& soup, Concurrency concurrency)
+{
+  Unset_vector<int>& first = soup.adjacency.corners.first;
+  const std::vector<int> used = select(concurrency, static_cast<int>(soup.points.size()),
+                                       [&](int v) { return first[v] < first[v + 1]; });
+  if (used.size() == soup.points.size()) return; // mostly
+  first.erase(std::unique(first.begin(), first.end()), first.end());
+  const int vertices = static_cast<int>(used.size());
+  Unset_vector<int> new_index(soup.points.size()); // of those that are used
+  const Triangle_soup all = {std::move(soup.points), {}, std::move(soup.originals), {}, {}, {}};
+  resize_in_parallel(concurrency, soup.points, vertices);
+  resize_in_parallel(concurrency, soup.originals, vertices);
+  for_each_index(concurrency, vertices, [&](int v) {
+    new_index[used[v]] = v;
+    soup.points[v] = all.points[used[v]];
+    soup.originals[v] = all.originals[used[v]];
+  });
+  for_each_index(concurrency, static_cast<int>(soup.triangles.size()), [&](int f) {
+    for (int& v : soup.triangles[f]) v = new_index[v];
+  });
+  for (Edge& e : soup.seams) e = {new_index[e[0]], new_index[e[1]]};
+  for (int& v : soup.contacts) v = new_index[v];
+}
+
+/// The surface of a soup, without the vertices that no triangle uses.
 inline Surface compacted(Triangle_soup&& soup, const Normalization& normalization,
                          Concurrency concurrency)
 {
-  const int facets = static_cast<int>(soup.triangles.size());
-  std::vector<int> new_index;
-  resize_in_parallel(concurrency, new_index, soup.points.size(), -1);
-  for_each_index(concurrency, facets, [&](int f) {
-    for (const int v : soup.triangles[f]) atomic_store(&new_index[v], 0);
-  });
-  const std::vector<int> used = select(concurrency, static_cast<int>(new_index.size()),
-                                       [&](int v) { return new_index[v] == 0; });
-  const int vertices = static_cast<int>(used.size());
+  drop_unused_vertices(soup, concurrency);
   Surface surface;
-  resize_in_parallel(concurrency, surface.points, vertices);
-  resize_in_parallel(concurrency, surface.input_vertices, vertices);
-  for_each_index(concurrency, vertices, [&](int v) {
-    new_index[used[v]] = v;
-    surface.points[v] = soup.points[used[v]];
-    surface.input_vertices[v] = soup.originals[used[v]];
-  });
+  surface.points = std::move(soup.points);
   surface.triangles = std::move(soup.triangles);
   surface.adjacency = std::move(soup.adjacency);
-  Unset_vector<int>& first = surface.adjacency.corners.first; // the same for a vertex without any
-  first.erase(std::unique(first.begin(), first.end()), first.end());
-  for_each_index(concurrency, facets, [&](int f) {
-    for (int& v : surface.triangles[f]) v = new_index[v];
-  });
-  for (const Edge& e : soup.seams) surface.seams.push_back({new_index[e[0]], new_index[e[1]]});
-  for (const int v : soup.contacts) surface.contacts.push_back(new_index[v]);
-  surface.creases = surface.seams;
-  resize_in_parallel(concurrency, surface.vertex_density, vertices, 1.);
+  surface.input_vertices = std::move(soup.originals);
+  surface.creases = soup.seams;
+  surface.seams = std::move(soup.seams);
+  surface.contacts = std::move(soup.contacts);
+  resize_in_parallel(concurrency, surface.vertex_density, surface.points.size(), 1.);
   surface.normalization = normalization;
   return surface;
 }

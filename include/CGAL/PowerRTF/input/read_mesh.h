@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_INPUT_READ_MESH_H
 
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -15,7 +16,14 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
-namespace CGAL::PowerRTF::internal {
+#include <vector>
+
+namespace CGAL {
+
+template <class Point>
+class Surface_mesh;
+
+namespace PowerRTF::internal {
 
 inline const Vec3d& to_vec3d(const Vec3d& p) { return p; }
 
@@ -35,24 +43,50 @@ auto vertex_places(const FaceGraph& mesh)
   return places;
 }
 
-/// The points and facets of a mesh; vertices at the same place stay apart.
-template <class FaceGraph, class NamedParameters>
-Polygon_soup soup_of_mesh(const FaceGraph& mesh, const NamedParameters& np)
+/// Adds the facets of a mesh to the soup of its points, one by one.
+template <class FaceGraph>
+void add_facets(const FaceGraph& mesh, Polygon_soup& soup, Concurrency)
 {
-  using CGAL::parameters::choose_parameter;
-  using CGAL::parameters::get_parameter;
-  const auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                          get_const_property_map(CGAL::vertex_point, mesh));
   const auto places = vertex_places(mesh);
-  Polygon_soup soup;
-  soup.points.reserve(num_vertices(mesh));
-  for (const auto v : vertices(mesh)) soup.points.push_back(to_vec3d(get(point_map, v)));
   soup.reserve_polygons(num_faces(mesh));
   for (const auto f : faces(mesh)) {
     for (const auto v : CGAL::vertices_around_face(halfedge(f, mesh), mesh))
       soup.corners.push_back(get(places, v));
     soup.end_polygon();
   }
+}
+/// The same of a mesh that threads may read at the same time.
+template <class Point>
+void add_facets(const CGAL::Surface_mesh<Point>& mesh, Polygon_soup& soup, Concurrency concurrency)
+{
+  using Face = typename CGAL::Surface_mesh<Point>::Face_index;
+  const auto places = vertex_places(mesh);
+  const std::vector<Face> faces(mesh.faces().begin(), mesh.faces().end());
+  const int n = static_cast<int>(faces.size());
+  resize_in_parallel(concurrency, soup.first, n + 1, 0);
+  for_each_index(concurrency, n, [&](int k) { soup.first[k] = int(mesh.degree(faces[k])); });
+  resize_in_parallel(concurrency, soup.corners,
+                     exclusive_scan(concurrency, n + 1, soup.first.data()));
+  for_each_index(concurrency, n, [&](int k) {
+    int corner = soup.first[k];
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(faces[k]), mesh))
+      soup.corners[corner++] = get(places, v);
+  });
+}
+
+/// The points and facets of a mesh; vertices at the same place stay apart.
+template <class FaceGraph, class NamedParameters>
+Polygon_soup soup_of_mesh(const FaceGraph& mesh, const NamedParameters& np,
+                          Concurrency concurrency = Sequential_tag())
+{
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
+  const auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                          get_const_property_map(CGAL::vertex_point, mesh));
+  Polygon_soup soup;
+  soup.points.reserve(num_vertices(mesh));
+  for (const auto v : vertices(mesh)) soup.points.push_back(to_vec3d(get(point_map, v)));
+  add_facets(mesh, soup, concurrency);
   return soup;
 }
 
@@ -73,6 +107,7 @@ Polygon_soup soup_of_ranges(const PointRange& points, const PolygonRange& polygo
   return soup;
 }
 
-} // namespace CGAL::PowerRTF::internal
+} // namespace PowerRTF::internal
+} // namespace CGAL
 
 #endif // CGAL_POWER_RTF_INPUT_READ_MESH_H

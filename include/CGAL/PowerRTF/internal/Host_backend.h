@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/internal/Single_lane.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -111,10 +112,8 @@ public:
   /// The order of n items by their keys, equal ones by index. It is never coarse.
   void sort_order(int n, std::uint64_t* keys, int* order, bool = false)
   {
-    std::vector<std::pair<std::uint64_t, int>> items(n);
-    for_each(n, [&](int i) { items[i] = {keys[i], i}; });
-    internal::sort<ConcurrencyTag>(items.begin(), items.end());
-    for_each(n, [&](int i) { order[i] = items[i].second; });
+    order_by_key(
+        concurrency(), n, [&](int i) { return keys[i]; }, order);
   }
 
   /// Writes the items i of [0, n) with `is_wanted[i]` in order. \returns their number

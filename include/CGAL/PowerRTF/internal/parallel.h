@@ -47,7 +47,7 @@ inline void for_each_task(Concurrency concurrency, int n, void (*f)(const void* 
                           const void* data)
 {
 #ifdef CGAL_LINKED_WITH_TBB
-  if (concurrency.is_parallel()) {
+  if (concurrency.is_parallel() && n > 1) {
     tbb::parallel_for(tbb::blocked_range<int>(0, n, 1), [&](const tbb::blocked_range<int>& range) {
       for (int c = range.begin(); c != range.end(); ++c) f(data, c);
     });
@@ -114,7 +114,7 @@ void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t 
       for (int k = begin; k < end; ++k) memory[k * page] = 0;
     });
   }
-  v.resize(n, item);
+  v.assign(n, item); // where the items are arrays, `resize()` takes many times as long
 }
 
 /// A vector of n times the item, made in the same way.

@@ -7,14 +7,15 @@
 
 #include <CGAL/PowerRTF/geometry/Hilbert_table.h>
 #include <CGAL/PowerRTF/geometry/Packed_tree.h>
+#include <CGAL/PowerRTF/geometry/for_each_node.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/crowding.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -49,17 +50,12 @@ public:
         m_sorted(candidates.size()), m_boxes(m_layout.nodes()), m_radii(m_layout.nodes())
   {
     const Hilbert_table& curve = Hilbert_table::get();
-    Unset_vector<std::pair<std::uint64_t, int>> codes(candidates.size());
-    for_each_index(concurrency, m_layout.items, [&](int i) {
-      codes[i] = {curve.index(hilbert_cube(candidates[i].point)), i};
-    });
-    sort(concurrency, codes.begin(), codes.end());
-    for_each_index(concurrency, m_layout.items, [&](int k) {
-      m_order[k] = codes[k].second;
-      m_sorted[k] = candidates[m_order[k]];
-    });
-    for (int level = 0; level < m_layout.levels; ++level)
-      for_each_index(concurrency, m_layout.nodes(level), [&](int k) { fit(level, k); });
+    order_by_key(
+        concurrency, m_layout.items,
+        [&](int i) { return curve.index(hilbert_cube(candidates[i].point)); }, m_order.data());
+    for_each_index(concurrency, m_layout.items,
+                   [&](int k) { m_sorted[k] = candidates[m_order[k]]; });
+    for_each_node(concurrency, m_layout, [&](int level, int k) { fit(level, k); });
   }
 
   Unset_vector<int>&& order() && { return std::move(m_order); }

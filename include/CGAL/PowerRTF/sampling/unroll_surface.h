@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/sampling/Surface_strata.h>
 #include <CGAL/PowerRTF/sampling/component_shares.h>
@@ -33,35 +34,30 @@ inline Surface_cube cube_around(const Surface& surface, internal::Concurrency co
 
 namespace internal {
 
-/// A facet by what decides its place.
-struct Unrolled_facet {
-  std::uint64_t code;
-  int component, facet;
-  friend bool operator<(const Unrolled_facet& a, const Unrolled_facet& b)
-  {
-    if (a.component != b.component) return a.component < b.component;
-    return a.code != b.code ? a.code < b.code : a.facet < b.facet;
-  }
-};
-
-/// The facets of components with samples.
-inline Unset_vector<Unrolled_facet>
-unrolled_facets(const Surface& surface, const Surface_cube& cube, const std::vector<int>& component,
-                const std::vector<Component_share>& shares, Concurrency concurrency)
+/// The facets of components with samples: component by component, each along a Hilbert curve.
+inline std::vector<int> unrolled_facets(const Surface& surface, const Surface_cube& cube,
+                                        const std::vector<int>& component,
+                                        const std::vector<Component_share>& shares,
+                                        Concurrency concurrency)
 {
   const Hilbert_table& curve = Hilbert_table::get();
-  const std::vector<int> facets = select(concurrency, static_cast<int>(component.size()),
-                                         [&](int f) { return shares[component[f]].samples > 0; });
-  Unset_vector<Unrolled_facet> items(facets.size());
-  for_each_index(concurrency, static_cast<int>(items.size()), [&](int k) {
-    const int f = facets[k];
+  std::vector<int> facets = select(concurrency, static_cast<int>(component.size()),
+                                   [&](int f) { return shares[component[f]].samples > 0; });
+  const auto sort_by = [&](auto&& key) {
+    const std::vector<int> before = facets;
+    const int size = static_cast<int>(facets.size());
+    order_by_key(
+        concurrency, size, [&](int k) { return key(before[k]); }, facets.data());
+    for_each_index(concurrency, size, [&](int k) { facets[k] = before[facets[k]]; });
+  };
+  sort_by([&](int f) {
     const Triangle& t = surface.triangles[f];
     const auto& p = surface.points;
     const Vec3d center = (p[t[0]] + p[t[1]] + p[t[2]]) * (1. / 3);
-    items[k] = {curve.index(hilbert_cube(cube.to_inside(center))), component[f], f};
+    return curve.index(hilbert_cube(cube.to_inside(center)));
   });
-  sort(concurrency, items.begin(), items.end());
-  return items;
+  if (shares.size() > 1) sort_by([&](int f) { return std::uint64_t(component[f]) << 32; });
+  return facets;
 }
 
 inline int longest_edge(const Surface& surface, int f)
@@ -89,15 +85,16 @@ inline Surface_strata unroll_surface(const Surface& surface, const Surface_cube&
                                      const std::vector<Component_share>& shares,
                                      const Facet_tree* tree, internal::Concurrency concurrency)
 {
-  const auto order = internal::unrolled_facets(surface, cube, component, shares, concurrency);
-  const int size = static_cast<int>(order.size());
+  const std::vector<int> facets =
+      internal::unrolled_facets(surface, cube, component, shares, concurrency);
+  const int size = static_cast<int>(facets.size());
   Surface_strata strata;
   strata.bases.resize(size);
   strata.components.resize(size);
   strata.sums.resize(size + 1);
   strata.sums[size] = 0;
   internal::for_each_index(concurrency, size, [&](int k) {
-    const int f = order[k].facet, c = order[k].component;
+    const int f = facets[k], c = component[f];
     strata.bases[k] = 3 * (tree ? tree->place(f) : f) + internal::longest_edge(surface, f);
     strata.components[k] = c;
     const double per_mass = static_cast<double>(shares[c].samples) / shares[c].mass;

@@ -130,7 +130,7 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
   if constexpr (puts_sources || (puts_labels && has_labels)) {
     const Stage stage("transfer", report.seconds.transfer);
     elements.emplace(input);
-    const auto soup = soup_of_mesh(input, np_in);
+    const auto soup = soup_of_mesh(input, np_in, concurrency);
     sources = find_sources(soup, normalization, report.faces_as_input(), mesh.points,
                            mesh.triangles, concurrency);
     if constexpr (has_parameter<NamedParametersOut, corner_source_map_t>())
