@@ -95,7 +95,8 @@ private:
   void add_tracked(Flat_fit& fit) const
   {
     const int faces = fit.faces();
-    fit.first_tracked.assign(faces + 1, 0);
+    fit.first_tracked.resize(faces + 1);
+    fit.first_tracked[faces] = 0;
     for_each_index(m.concurrency(), faces,
                    [&](int f) { fit.first_tracked[f] = int(m_tracker.at_face(Face(f)).size()); });
     exclusive_scan(m.concurrency(), faces + 1, fit.first_tracked.data());

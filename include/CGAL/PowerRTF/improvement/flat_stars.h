@@ -33,7 +33,8 @@ inline Flat_stars flat_stars(const Star_mesh& mesh)
   Flat_stars stars;
   const auto& topology = mesh.working().mesh;
   const int n = int(mesh.size());
-  stars.first.assign(n + 1, 0);
+  stars.first.resize(n + 1);
+  stars.first[n] = 0;
   for (auto array : {&stars.points, &stars.normals}) array->resize(n);
   stars.facets.resize(n);
   stars.kinds.resize(n);
@@ -44,7 +45,7 @@ inline Flat_stars flat_stars(const Star_mesh& mesh)
     stars.facets[i] = mesh.facet(v);
     stars.kinds[i] = (mesh.is_movable(v) ? is_movable_kind : 0) |
                      (mesh.is_on_feature(v) ? is_on_feature_kind : 0);
-    if (mesh.is_movable(v)) stars.first[i] = int(topology.degree(v));
+    stars.first[i] = mesh.is_movable(v) ? int(topology.degree(v)) : 0;
   });
   stars.neighbors.resize(exclusive_scan(mesh.concurrency(), n + 1, stars.first.data()));
   for_each_spoke(mesh, stars, [&](int k, Star_mesh::Halfedge h) {

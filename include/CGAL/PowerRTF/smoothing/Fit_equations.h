@@ -18,7 +18,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -294,7 +293,7 @@ struct Flat_fit {
   Unset_vector<int> spoke_edges, spoke_faces;
   Unset_vector<int> corners; ///< three per face
   Unset_vector<Mesh_edge> edges;
-  std::vector<int> first_tracked;
+  Unset_vector<int> first_tracked;
   Unset_vector<Tracked_place> tracked;
   Unset_vector<unsigned char> is_wide;
   double tangential_weight = 0, tracked_weight = 0, badness_limit = 0;

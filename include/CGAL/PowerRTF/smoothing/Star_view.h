@@ -9,8 +9,6 @@
 #include <CGAL/PowerRTF/geometry/snapped.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 
-#include <vector>
-
 namespace CGAL::PowerRTF::internal {
 
 /// What is known of a vertex: flags.
@@ -109,8 +107,7 @@ CGAL_POWER_RTF_HD inline Star_view::Star Star_view::star(int v) const { return {
 
 /// Owns what a `Star_view` needs of the mesh.
 struct Flat_stars {
-  std::vector<int> first;
-  Unset_vector<int> neighbors;
+  Unset_vector<int> first, neighbors;
   Unset_vector<unsigned char> kinds;
   Unset_vector<Vec3d> points, normals;
   Unset_vector<int> facets;
