@@ -18,7 +18,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 

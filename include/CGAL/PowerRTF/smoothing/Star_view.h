@@ -9,8 +9,6 @@
 #include <CGAL/PowerRTF/geometry/snapped.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 
-#include <vector>
-
 namespace CGAL::PowerRTF::internal {
 
 /// What is known of a vertex: flags.
