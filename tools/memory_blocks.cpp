@@ -14,7 +14,6 @@
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) &&                                        \
     !POWER_RTF_HAS_FEATURE(address_sanitizer) && !POWER_RTF_HAS_FEATURE(thread_sanitizer)
 
-#include <climits>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -28,7 +27,7 @@ constexpr std::size_t page = std::size_t(1) << 21, large = 4 * page;
 
 #ifdef M_MMAP_MAX // not in every C library
 [[maybe_unused]] const bool keeps_pages =
-    mallopt(M_MMAP_MAX, 0) + mallopt(M_TRIM_THRESHOLD, INT_MAX) + mallopt(M_TOP_PAD, 8 * large) > 0;
+    mallopt(M_MMAP_MAX, 0) + mallopt(M_TRIM_THRESHOLD, -1) + mallopt(M_TOP_PAD, 8 * large) > 0;
 #endif
 
 } // namespace
