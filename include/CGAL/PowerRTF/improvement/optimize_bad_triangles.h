@@ -264,10 +264,11 @@ private:
     return !intersects;
   }
 
-  // Faces that are near each other one after the other, the others at once.
+  // Faces that are near each other one after the other, the others at once; where too few are, all
+  // that is left one after the other.
   void flip_around(std::vector<Face> faces)
   {
-    while (!faces.empty()) {
+    for (bool are_apart = true; are_apart;) {
       std::vector<std::vector<Vertex>> zones(faces.size());
       for_each_chunk(m.concurrency(), int(faces.size()), 8, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) zones[k] = zone(faces[k]);
@@ -283,8 +284,11 @@ private:
       for_each_chunk(concurrency(), int(now.size()), 1, [&](int k, int) {
         if (badness(now[k]) > 0) flip_around(now[k]);
       });
+      are_apart = !later.empty() && 4 * now.size() >= faces.size();
       faces.swap(later);
     }
+    for (const Face f : faces)
+      if (badness(f) > 0) flip_around(f);
   }
 
   // The vertices that flips around a face may change, and their neighbors; of those on seams the
