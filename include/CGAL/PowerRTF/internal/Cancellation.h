@@ -68,6 +68,7 @@ public:
 private:
   friend class Progress_part;
   friend class Stage;
+  friend class Uninterrupted;
 
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds interval{50};
@@ -101,6 +102,18 @@ private:
   double m_done = 0;             // of the stage
   double m_begin = 0, m_end = 1; // of the innermost part
   bool m_is_in_part = false;
+};
+
+/// While it lives, loops on the thread that made it ask nobody: what has begun comes to its end.
+class Uninterrupted {
+public:
+  Uninterrupted() : m_run(std::exchange(Cancellation::current(), nullptr)) {}
+  ~Uninterrupted() { Cancellation::current() = m_run; }
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+
+private:
+  Cancellation* m_run;
 };
 
 /// While it lives, loops lead the progress of the stage on to `end`, a share of the part around it,

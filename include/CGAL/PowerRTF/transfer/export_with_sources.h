@@ -139,6 +139,7 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
                               normalization, mesh.points, mesh.triangles, sources, concurrency);
   }
   const Stage stage("write", report.seconds.write);
+  const Uninterrupted run; // else the output could be neither what it was nor the result
   if constexpr (puts_labels && has_labels) {
     const auto labels = label_values(input, np_in);
     const auto exported = export_mesh(mesh, normalization, output, np_out, concurrency);
