@@ -107,11 +107,12 @@ struct Set_alive {
   CGAL_POWER_RTF_HD void operator()(int a) const { view.is_alive[places[a]] = value; }
 };
 
-struct Gather_places {
-  const int* places;
+template <class T>
+struct Gather_chosen {
+  const T* items;
   const int* chosen;
-  int* result;
-  CGAL_POWER_RTF_HD void operator()(int b) const { result[b] = places[chosen[b]]; }
+  T* result;
+  CGAL_POWER_RTF_HD void operator()(int k) const { result[k] = items[chosen[k]]; }
 };
 
 /// The weights of every `stride`-th place; -1 where nothing can go.
@@ -275,7 +276,7 @@ private:
   int select_active(int active)
   {
     const int count = m_backend.select(active, m_marks.data(), m_chosen.data());
-    m_backend.for_each(count, Gather_places{m_active.data(), m_chosen.data(), m_next.data()});
+    m_backend.for_each(count, Gather_chosen<int>{m_active.data(), m_chosen.data(), m_next.data()});
     return count;
   }
 

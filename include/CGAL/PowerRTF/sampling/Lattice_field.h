@@ -144,27 +144,10 @@ public:
 
   std::optional<Sample_candidates> choose_candidates(std::size_t n) override
   {
-    if constexpr (Backend::is_host) return std::nullopt;
     constexpr int least = 1 << 14; // before it the host's threads are as fast
-    if (m_chosen.size() < least) return std::nullopt;
-    m_levels.front().edges = {};
-    m_levels.front().release();
-    const Lattice_view view = this->view();
-    const Buffer<Sample_candidate> all = candidates(m_chosen.size(), gaps(m_chosen));
-    const int free = static_cast<int>(all.size()), size = free + view.size - view.free;
-    if (all.size() < n || !m_backend.has_room(choosing_bytes(size))) return std::nullopt;
-    const internal::Candidate_search<Backend> search(
-        m_backend, size, As_elimination_candidate{view, free, all.data()}, 0);
-    Elimination elimination(m_backend, search.view(), search.order(), size, free);
-    if (!elimination.run(n, [](const int*, int, double) { return false; })) return std::nullopt;
-    Buffer<int> left;
-    left.allocate(m_backend, free);
-    if (elimination.write_left(left.data()) != static_cast<int>(n)) return std::nullopt;
-    Buffer<Sample_candidate> chosen;
-    chosen.allocate(m_backend, n);
-    m_backend.for_each(static_cast<int>(n),
-                       Gather_candidates{all.data(), left.data(), chosen.data()});
-    return downloaded(chosen);
+    if constexpr (!Backend::is_host)
+      if (m_chosen.size() >= least) return chosen_candidates(n);
+    return std::nullopt;
   }
 
   Sample_candidates nodes_of(const std::vector<unsigned char>& is_wanted) override
@@ -361,6 +344,29 @@ private:
                                             m_chosen.nodes.data(), m_chosen.points.data(),
                                             nodes.data(), candidates.data()});
     return candidates;
+  }
+
+  /// As `choose_candidates()`.
+  std::optional<Sample_candidates> chosen_candidates(std::size_t n)
+  {
+    m_levels.front().edges = {};
+    m_levels.front().release();
+    const Lattice_view view = this->view();
+    const Buffer<Sample_candidate> all = candidates(m_chosen.size(), gaps(m_chosen));
+    const int free = static_cast<int>(all.size()), size = free + view.size - view.free;
+    if (all.size() < n || !m_backend.has_room(choosing_bytes(size))) return std::nullopt;
+    const internal::Candidate_search<Backend> search(
+        m_backend, size, As_elimination_candidate{view, free, all.data()}, 0);
+    Elimination elimination(m_backend, search.view(), search.order(), size, free);
+    if (!elimination.run(n, [](const int*, int, double) { return false; })) return std::nullopt;
+    Buffer<int> left;
+    left.allocate(m_backend, free);
+    if (elimination.write_left(left.data()) != static_cast<int>(n)) return std::nullopt;
+    Buffer<Sample_candidate> chosen;
+    chosen.allocate(m_backend, n);
+    m_backend.for_each(static_cast<int>(n), internal::Gather_chosen<Sample_candidate>{
+                                                all.data(), left.data(), chosen.data()});
+    return downloaded(chosen);
   }
 
   Sample_candidates downloaded(const Buffer<Sample_candidate>& candidates)

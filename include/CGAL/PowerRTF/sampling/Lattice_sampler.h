@@ -187,12 +187,10 @@ private:
     internal::Elimination_candidates all(free + sites_of.size());
     m_backend.for_each(static_cast<int>(all.size()), [&](int k) {
       if (k < free) {
-        const Sample_candidate& c = m_candidates[candidates[k]];
-        all[k] = {to_double(c.point), to_double(c.node.normal), 0.5 * double(c.node.spacing)};
+        all[k] = elimination_candidate(m_candidates[candidates[k]]);
       } else {
         const int s = sites_of[k - free];
-        all[k] = {to_double(sites.points[s]), to_double(sites.normals[s]),
-                  0.5 * double(sites.spacing[s])};
+        all[k] = elimination_candidate(sites.points[s], sites.normals[s], sites.spacing[s]);
       }
     });
     std::vector<int> chosen =

@@ -83,6 +83,18 @@ struct Make_candidate {
   }
 };
 
+/// Of a point whose neighbors in a lattice are `spacing` away.
+CGAL_POWER_RTF_HD inline internal::Elimination_candidate
+elimination_candidate(const Vec3f& point, const Vec3f& normal, float spacing)
+{
+  return {to_double(point), to_double(normal), 0.5 * double(spacing)};
+}
+CGAL_POWER_RTF_HD inline internal::Elimination_candidate
+elimination_candidate(const Sample_candidate& c)
+{
+  return elimination_candidate(c.point, c.node.normal, c.node.spacing);
+}
+
 /// The candidate i, or the site `i - free` on creases and borders.
 struct As_elimination_candidate {
   Lattice_view view;
@@ -91,21 +103,10 @@ struct As_elimination_candidate {
 
   CGAL_POWER_RTF_HD internal::Elimination_candidate operator()(int i) const
   {
-    if (i < free) {
-      const Sample_candidate& c = candidates[i];
-      return {to_double(c.point), to_double(c.node.normal), 0.5 * double(c.node.spacing)};
-    }
+    if (i < free) return elimination_candidate(candidates[i]);
     const int k = view.free + i - free;
-    return {to_double(view.points[k]), to_double(view.normals[k]),
-            0.5 * double(view.node_spacing[k])};
+    return elimination_candidate(view.points[k], view.normals[k], view.node_spacing[k]);
   }
-};
-
-struct Gather_candidates {
-  const Sample_candidate* candidates;
-  const int* chosen;
-  Sample_candidate* result;
-  CGAL_POWER_RTF_HD void operator()(int k) const { result[k] = candidates[chosen[k]]; }
 };
 
 } // namespace CGAL::PowerRTF
