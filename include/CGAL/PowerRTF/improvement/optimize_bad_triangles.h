@@ -178,10 +178,12 @@ private:
     return faces;
   }
 
-  // Of what is apart. One by one if something else notes what is done.
+  // Whether something else notes what is done: then all is done one by one.
+  bool is_noted() const { return m_guard || m.is_noted(); }
+  // Of what is apart.
   Concurrency concurrency() const
   {
-    return m_guard || m.is_noted() ? Concurrency(Sequential_tag()) : m.concurrency();
+    return is_noted() ? Concurrency(Sequential_tag()) : m.concurrency();
   }
 
   // Neighbors one after the other, the others at once.
@@ -268,9 +270,9 @@ private:
   // that is left one after the other.
   void flip_around(std::vector<Face> faces)
   {
-    for (bool are_apart = true; are_apart;) {
+    for (bool are_apart = !is_noted(); are_apart;) {
       std::vector<std::vector<Vertex>> zones(faces.size());
-      for_each_chunk(m.concurrency(), int(faces.size()), 8, [&](int begin, int end) {
+      for_each_chunk(concurrency(), int(faces.size()), 8, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) zones[k] = zone(faces[k]);
       });
       ++m_zoning;
