@@ -5,7 +5,6 @@
 
 #include <boost/container/small_vector.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 

@@ -18,8 +18,7 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// Two candidates that are closer than the sum of their radii: then the ball of one meets the box
-/// of the other's ball.
+/// The box around a candidate's ball. The balls of neighbors meet, so each meets the other's box.
 struct Box_of_ball {
   const Elimination_candidate* candidates;
   CGAL_POWER_RTF_HD Box3<double> operator()(int k) const
