@@ -31,56 +31,62 @@ public:
     const double distance = length(m_way);
     Vec3d last = m_from;
     double walked = 0;
-    const int first = first_exit(start);
+    Crossed_edge at = first_exit(start);
+    const int first = at.halfedge;
     if (first == Facet_adjacency::none) return false;
-    int h = first;
     do {
-      const Vec3d p = crossing(h);
+      const Vec3d p = crossing(at);
       walked += length(p - last);
       last = p;
-      h = m_surface.adjacency.opposite[h];
+      const int h = m_surface.adjacency.opposite[at.halfedge];
       if (h == Facet_adjacency::none) return false;
       if (is_end(h / 3)) return true;
-      h = exit(h);
-    } while (h != first && walked < 2 * distance);
+      at = exit({h, at.target_side, at.source_side});
+    } while (at.halfedge != first && walked < 2 * distance);
     return false;
   }
 
 private:
+  // An edge with an end on each side of the way.
+  struct Crossed_edge {
+    int halfedge;
+    double source_side, target_side;
+  };
+
   // > 0: to the left of the way.
   double side(int v) const { return dot(m_surface.points[v] - m_from, m_normal); }
-  bool is_crossed(int h) const
+  Vec3d crossing(const Crossed_edge& e) const
   {
-    return (side(halfedge_source(m_surface.triangles, h)) < 0) !=
-           (side(halfedge_target(m_surface.triangles, h)) < 0);
-  }
-  Vec3d crossing(int h) const
-  {
-    const int a = halfedge_source(m_surface.triangles, h),
-              b = halfedge_target(m_surface.triangles, h);
-    const double u = side(a), v = side(b);
-    return m_surface.points[a] + (m_surface.points[b] - m_surface.points[a]) * (u / (u - v));
+    const int a = halfedge_source(m_surface.triangles, e.halfedge),
+              b = halfedge_target(m_surface.triangles, e.halfedge);
+    return m_surface.points[a] + (m_surface.points[b] - m_surface.points[a]) *
+                                     (e.source_side / (e.source_side - e.target_side));
   }
 
   // The edge of the first facet that is crossed farthest ahead.
-  int first_exit(int f) const
+  Crossed_edge first_exit(int f) const
   {
-    int best = Facet_adjacency::none;
+    const Triangle& t = m_surface.triangles[f];
+    const double sides[3] = {side(t[0]), side(t[1]), side(t[2])};
+    Crossed_edge best{Facet_adjacency::none, 0, 0};
     double farthest = 0;
-    for (int h = 3 * f; h < 3 * f + 3; ++h) {
-      if (!is_crossed(h)) continue;
-      const double ahead = dot(crossing(h) - m_from, m_way);
-      if (best != Facet_adjacency::none && !(ahead > farthest)) continue;
-      best = h;
+    for (int k = 0; k < 3; ++k) {
+      const Crossed_edge e{3 * f + k, sides[k], sides[(k + 1) % 3]};
+      if ((e.source_side < 0) == (e.target_side < 0)) continue;
+      const double ahead = dot(crossing(e) - m_from, m_way);
+      if (best.halfedge != Facet_adjacency::none && !(ahead > farthest)) continue;
+      best = e;
       farthest = ahead;
     }
     return best;
   }
-  // The other crossed edge of the facet of `h`.
-  int exit(int h) const
+  // The other crossed edge of the facet of `e`.
+  Crossed_edge exit(const Crossed_edge& e) const
   {
-    const int next = next_halfedge(h);
-    return is_crossed(next) ? next : next_halfedge(next);
+    const int next = next_halfedge(e.halfedge);
+    const double apex_side = side(halfedge_target(m_surface.triangles, next));
+    if ((e.target_side < 0) != (apex_side < 0)) return {next, e.target_side, apex_side};
+    return {next_halfedge(next), apex_side, e.source_side};
   }
 
   const Surface& m_surface;

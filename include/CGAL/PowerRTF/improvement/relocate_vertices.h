@@ -295,24 +295,34 @@ private:
   std::pair<double, Halfedge> best_collapse(Vertex v) const
   {
     const auto& mesh = m.working().mesh;
-    std::pair<double, Halfedge> best{Parameters::max_collapse_badness, Halfedge()};
-    if (!m.is_movable(v)) return best;
+    const std::pair<double, Halfedge> none{Parameters::max_collapse_badness, Halfedge()};
+    if (!m.is_movable(v)) return none;
     const Star star = m.star(v);
-    if (m.agreement(star, m.point(v), m.normal(v)) < Parameters::flat_agreement) return best;
-    for (const Star::Corner& c : star.corners)
-      if (!m.is_movable(c.vertex_a)) return best;
+    std::pair<double, Halfedge> best = none;
+    std::size_t at = 0; // the star's corners are in this order
     for (const Halfedge h : halfedges_around_target(v, mesh)) {
-      const Vertex u = mesh.source(h);
-      double worst = 0;
-      for (const Star::Corner& c : star.corners) {
-        if (c.vertex_a == u || c.vertex_b == u) continue;
-        worst = std::max(worst, triangle_badness(m.point(u), c.a, c.b).badness);
-        if (!(worst < best.first)) break;
-      }
+      const double worst = badness_collapsed(star, at++, best.first);
       if (worst < best.first && Euler::does_satisfy_link_condition(mesh.edge(h), mesh))
         best = {worst, mesh.opposite(h)};
     }
+    if (best == none) return none; // most vertices
+    for (const Star::Corner& c : star.corners)
+      if (!m.is_movable(c.vertex_a)) return none;
+    if (m.agreement(star, m.point(v), m.normal(v)) < Parameters::flat_agreement) return none;
     return best;
+  }
+
+  // Of the worst triangle that a collapse of the star's vertex into `vertex_b` of a corner leaves,
+  // or what is no less than `limit`. The first one looked at is mostly bad.
+  static double badness_collapsed(const Star& star, std::size_t at, double limit)
+  {
+    const std::size_t n = star.corners.size();
+    double worst = 0;
+    for (std::size_t k = 1; k + 1 < n && worst < limit; ++k) {
+      const Star::Corner& c = star.corners[(at + k) % n];
+      worst = std::max(worst, triangle_badness(star.corners[at].b, c.a, c.b).badness);
+    }
+    return worst;
   }
 
   bool remove(Vertex v)
