@@ -186,6 +186,7 @@ __device__ inline void make_group(const Group_view<Real>& view, const Cell_targe
 {
   // What a cell that was not complete, or for which too many sites were found, gets next.
   constexpr Real further_growth = Real(1.6), shrinkage = Real(0.7);
+  constexpr Real largest_guess = 4; // of a radius, in the geometric mean of the group's
   constexpr int rounds = 4;
   const bool exists = place < view.tree.items;
   Lane_cell<Real> cell;
@@ -200,7 +201,9 @@ __device__ inline void make_group(const Group_view<Real>& view, const Cell_targe
   cell.radius = last_radius * growth;
   if (__any_sync(full_warp, last_radius == 0)) {
     const Real guess = guess_radius<LanesPerCell>(view, cell, exists, lane);
-    if (last_radius == 0) cell.radius = guess;
+    // Alone beyond a jump of the curve, a site would look for others nearly everywhere.
+    const Real most = largest_guess * std::exp(warp_sum(std::log(guess)) / 32);
+    if (last_radius == 0) cell.radius = fmin(guess, most);
   }
 
   open = has_cell && last_radius >= 0; // below 0: the last one was deferred

@@ -123,7 +123,7 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
   Lattice_view view = flat.view();
   view.edges = edges.data();
   for (int leaf = 0; leaf < tree.view().leaves(); ++leaf)
-    Find_lattice_neighbors{view, tree.view(), 0, 0.85f}(leaf);
+    Find_neighbors_of_leaf{{view, tree.view(), 0, 0.85f}}(leaf);
   std::vector<double> errors;
   for (int i = 0; i < view.size; ++i) {
     Set_turning{view}(i);

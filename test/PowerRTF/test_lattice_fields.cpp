@@ -39,7 +39,7 @@ Flat_defects flat_defects(Flat_lattice& flat, int index, int dislocations)
   view.edges = edges.data();
   Flat_defects result;
   for (int leaf = 0; leaf < tree.view().leaves(); ++leaf)
-    Find_lattice_neighbors{view, tree.view(), 0, 0.85f}(leaf);
+    Find_neighbors_of_leaf{{view, tree.view(), 0, 0.85f}}(leaf);
   for (int i = 0; i < view.size; ++i) {
     const Node_loop loop(view, i);
     double turns = 0; // of the loop around the middle

@@ -83,13 +83,24 @@ struct Close_faces_rule {
 
   CGAL_POWER_RTF_HD void operator()(int k) const
   {
-    const Numbered_face f = box_of.faces[k];
+    const Numbered_face& f = box_of.faces[k];
     if (!clearly_has_area(f)) add(f, f);
+    constexpr int most = 32;
+    int near[most]; // a GPU's threads come by them at different times, and judge them together
+    int count = 0;
+    const auto judge = [&] {
+      for (int i = 0; i < count; ++i)
+        if (!are_clearly_apart(f, box_of.faces[near[i]])) add(f, box_of.faces[near[i]]);
+      count = 0;
+    };
     visit_near(
         tree, nodes, Box_query(box_of(k)), [] { return 0.f; },
         [&](int l) {
-          if (l > k && !are_clearly_apart(f, box_of.faces[l])) add(f, box_of.faces[l]);
+          if (l <= k) return;
+          near[count++] = l;
+          if (count == most) judge();
         });
+    judge();
   }
 
 private:

@@ -22,12 +22,13 @@ public:
 
   /// \param i, j the numbers of the shared corner, or -1
   CGAL_POWER_RTF_HD Parting_plane(const Corners& p, const Corners& q, int i = -1, int j = -1)
-      : m_i(i), m_j(j)
+      : m_is_shared(i >= 0)
   {
-    const Vec3d origin = p[i < 0 ? 0 : i];
+    if (!m_is_shared) i = j = 0;
+    const Vec3d origin = p[i];
     for (int k = 0; k < 3; ++k) {
-      m_p[k] = p[k] - origin;
-      m_q[k] = q[k] - origin;
+      m_p[k] = p[(i + k) % 3] - origin;
+      m_q[k] = q[(j + k) % 3] - origin;
       m_reach = larger(m_reach, larger(size(m_p[k]), size(m_q[k])));
     }
   }
@@ -35,7 +36,7 @@ public:
   CGAL_POWER_RTF_HD bool exists() const
   {
     const Vec3d c = m_p[0] + m_p[1] + m_p[2], d = m_q[0] + m_q[1] + m_q[2];
-    if (m_i < 0) return parts(d - c) || is_along(m_p) || is_along(m_q);
+    if (!m_is_shared) return parts(d - c) || is_along(m_p) || is_along(m_q);
     return parts(d - c) || parts(normalized(d) - normalized(c)) || is_between_edges();
   }
 
@@ -65,8 +66,7 @@ private:
     const Vec3d n = normal(m_p);
     for (int k = 1; k < 3; ++k)
       for (int l = 1; l < 3; ++l)
-        if (parts(cross(n, normalized(m_p[(m_i + k) % 3]) + normalized(m_q[(m_j + l) % 3]))))
-          return true;
+        if (parts(cross(n, normalized(m_p[k]) + normalized(m_q[l])))) return true;
     return false;
   }
 
@@ -76,8 +76,8 @@ private:
   {
     const double error = 1e-15 * m_reach * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
     if (!(error > 1e-290)) return false; // underflow
-    const Range p = range(m_p, m_i, d), q = range(m_q, m_j, d);
-    if (m_i < 0) return p.high + error < q.low - error || q.high + error < p.low - error;
+    const Range p = range(m_p, d), q = range(m_q, d);
+    if (!m_is_shared) return p.high + error < q.low - error || q.high + error < p.low - error;
     return (p.high < -error && q.low > error) || (q.high < -error && p.low > error);
   }
 
@@ -85,21 +85,17 @@ private:
     double low, high;
   };
   // Of the heights, without the shared corner's, which is 0.
-  CGAL_POWER_RTF_HD static Range range(const Corners& t, int shared, const Vec3d& d)
+  CGAL_POWER_RTF_HD Range range(const Corners& t, const Vec3d& d) const
   {
-    const int first = shared == 0 ? 1 : 0;
-    Range r{dot(t[first], d), dot(t[first], d)};
-    for (int k = first + 1; k < 3; ++k) {
-      if (k == shared) continue;
-      const double height = dot(t[k], d);
-      r.low = smaller(r.low, height);
-      r.high = larger(r.high, height);
-    }
-    return r;
+    const double second = dot(t[1], d), third = dot(t[2], d);
+    const Range r{smaller(second, third), larger(second, third)};
+    if (m_is_shared) return r;
+    const double first = dot(t[0], d);
+    return {smaller(r.low, first), larger(r.high, first)};
   }
 
-  int m_i, m_j;
-  Corners m_p, m_q; // from the shared corner, or from one of them
+  bool m_is_shared;
+  Corners m_p, m_q; // from the shared corner, which comes first, or from one of them
   double m_reach = 0;
 };
 

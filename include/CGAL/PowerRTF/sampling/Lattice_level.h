@@ -103,8 +103,11 @@ public:
     if (edges.size() > 0) return;
     edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
     const Point_tree tree(backend, points.data(), size);
-    backend.for_each(tree.view().leaves(),
-                     Find_lattice_neighbors{view(), tree.view(), cos_angle, reach});
+    const Find_lattice_neighbors find{view(), tree.view(), cos_angle, reach};
+    if constexpr (Backend::is_host)
+      backend.for_each(tree.view().leaves(), Find_neighbors_of_leaf{find});
+    else
+      backend.for_each(size, Find_neighbors_of_node{find});
   }
 
   /// Frees what finer levels need no longer.

@@ -97,39 +97,55 @@ CGAL_POWER_RTF_HD inline Vec3f carried(const Vec3f& v, const Vec3f& a, const Vec
   return v - (dot(v, b) / (1 + dot(a, b))) * (a + b);
 }
 
-/// The nearest nodes of the same component whose normals agree (NVISPC), for the nodes of a leaf of
-/// the tree, which have most of those that are near in common.
+/// The nearest nodes of the same component whose normals agree (NVISPC).
 struct Find_lattice_neighbors {
   Lattice_view view;
   Point_tree_view<float> tree;
   float cos_angle;
   float reach; ///< distance within which most have so many, relative to the spacing
 
-  CGAL_POWER_RTF_HD void operator()(int leaf) const
+  CGAL_POWER_RTF_HD float radius(int i) const { return reach * view.node_spacing[i]; }
+
+  /// Of node `i`. `near`: all points within the radius, or null.
+  CGAL_POWER_RTF_HD void operator()(int i, const Near_points<float>* near) const
   {
     constexpr int enough = 4, degree = Lattice_view::degree;
     constexpr float everywhere = 4; // the coordinates are those of the unit box
+    const auto counts = [&](int j) {
+      return j != i && view.components[j] == view.components[i] &&
+             dot(view.normals[i], view.normals[j]) > cos_angle;
+    };
+    const Vec3f p = view.points[i];
+    int found[degree];
+    int count = near ? tree.nearest_of<degree>(*near, p, radius(i), found, counts)
+                     : tree.nearest<degree>(p, radius(i), found, counts);
+    if (count < enough) count = tree.nearest<degree>(p, everywhere, found, counts);
+    Lattice_edge* const edges = view.first_edge(i);
+    for (int e = 0; e < degree; ++e)
+      edges[e] = {e < count ? unsigned(found[e]) : Lattice_edge::none, 0, {}};
+  }
+};
+
+/// The same for a node: many threads are faster so.
+struct Find_neighbors_of_node {
+  Find_lattice_neighbors find;
+  CGAL_POWER_RTF_HD void operator()(int i) const { find(i, nullptr); }
+};
+
+/// The same for the nodes of a leaf of the tree, which have most of those that are near in common:
+/// few threads are faster so.
+struct Find_neighbors_of_leaf {
+  Find_lattice_neighbors find;
+
+  CGAL_POWER_RTF_HD void operator()(int leaf) const
+  {
+    const Point_tree_view<float>& tree = find.tree;
     const int begin = tree.tree.children_begin(leaf), end = tree.tree.children_end(0, leaf);
     float largest = 0;
-    for (int i = begin; i < end; ++i)
-      largest = internal::larger(largest, reach * view.node_spacing[i]);
+    for (int i = begin; i < end; ++i) largest = internal::larger(largest, find.radius(i));
     Near_points<float> near;
     const bool are_known = tree.find_near(begin, end, largest, near);
-    for (int i = begin; i < end; ++i) {
-      const auto counts = [&](int j) {
-        return j != i && view.components[j] == view.components[i] &&
-               dot(view.normals[i], view.normals[j]) > cos_angle;
-      };
-      const Vec3f p = view.points[i];
-      const float radius = reach * view.node_spacing[i];
-      int found[degree];
-      int count = are_known ? tree.nearest_of<degree>(near, p, radius, found, counts)
-                            : tree.nearest<degree>(p, radius, found, counts);
-      if (count < enough) count = tree.nearest<degree>(p, everywhere, found, counts);
-      Lattice_edge* const edges = view.first_edge(i);
-      for (int e = 0; e < degree; ++e)
-        edges[e] = {e < count ? unsigned(found[e]) : Lattice_edge::none, 0, {}};
-    }
+    for (int i = begin; i < end; ++i) find(i, are_known ? &near : nullptr);
   }
 };
 
