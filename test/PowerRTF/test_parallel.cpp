@@ -4,7 +4,6 @@
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
-#include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -208,11 +207,11 @@ TEST_CASE("a set tells what comes for the first time")
   }
 }
 
-TEST_CASE("memory that another has left is zero again")
+TEST_CASE("memory that another has left is filled again")
 {
   for (const int n : sizes) {
     std::vector<std::uint64_t>(n, ~std::uint64_t(0));
-    const Zero_vector<std::uint64_t> values(n);
+    const auto values = filled(CGAL::Parallel_if_available_tag(), n, std::uint64_t(7));
     CHECK(values.size() == std::size_t(n));
     CHECK(std::count(values.begin(), values.end(), 0u) == n);
   }

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -37,9 +38,9 @@ struct Working_mesh {
   using Corners = std::array<Vertex, 3>;
 
   Mesh mesh;
-  std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
-  std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
-  std::vector<int> patches;   ///< by face: the surface's flat patch; -1, or empty: of none
+  Unset_vector<Vec3d> normals; ///< by vertex: unit normal of the surface
+  std::vector<int> samples;    ///< by vertex: the sample that it is; -1: none
+  std::vector<int> patches;    ///< by face: the surface's flat patch; -1, or empty: of none
   /// By vertex, of an opened surface: its place (see `Seam_places`). Empty: all are alone.
   std::vector<int> places;
   /// Of a half: its border there will be sewn to that of its image.

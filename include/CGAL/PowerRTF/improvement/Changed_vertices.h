@@ -51,7 +51,7 @@ public:
 
 private:
   const Star_mesh* m_mesh;
-  std::vector<unsigned> m_seen; // by vertex: its changes
+  Unset_vector<unsigned> m_seen; // by vertex: its changes
 };
 
 /// The vertices and those that are at most so many edges away; sorted. None that has no edge.

@@ -14,7 +14,7 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/Zero_vector.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
@@ -41,9 +41,12 @@ public:
 
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
-      : m(mesh), m_guard(guard), m_anchors(m.size()), m_anchored(m.size()),
-        m_failed_searches(m.size()), m_failed_flips(m.working().mesh.number_of_edges()),
-        m_colors(m.size()), m_zoned(m.size()), m_bad(mesh)
+      : m(mesh), m_guard(guard), m_anchors(m.size()),
+        m_anchored(filled(m.concurrency(), m.size(), 0u)),
+        m_failed_searches(filled(m.concurrency(), m.size(), State(0))),
+        m_failed_flips(filled(m.concurrency(), m.working().mesh.number_of_edges(), State(0))),
+        m_colors(filled(m.concurrency(), m.size(), 0)),
+        m_zoned(filled(m.concurrency(), m.size(), 0u)), m_bad(mesh)
   {}
 
   double badness(Face f) const { return judgment(f).badness; }
@@ -153,13 +156,13 @@ private:
   // Where the vertices are when the run comes to them.
   void set_anchors(const std::vector<Vertex>& vertices)
   {
-    for (const Vertex v : vertices) {
-      if (m_anchored[v] == m_run) continue;
-      m_anchored[v] = m_run;
-      if (m_anchors[v] == m.point(v)) continue;
+    for_each_index(concurrency(), int(vertices.size()), [&](int k) {
+      const Vertex v = vertices[k];
+      const unsigned before = std::exchange(m_anchored[v], m_run);
+      if (before == m_run || (before > 0 && m_anchors[v] == m.point(v))) return;
       m_anchors[v] = m.point(v);
       m.touch(v);
-    }
+    });
   }
 
   std::vector<Face> bad_faces_at(const std::vector<Vertex>& vertices) const
@@ -395,12 +398,12 @@ private:
   Star_mesh& m;
   Intersection_guard* m_guard; // or none
   unsigned m_run = 0;
-  Zero_vector<Vec3d> m_anchors;         // by vertex: since the run of `m_anchored`
-  Zero_vector<unsigned> m_anchored;     // by vertex
-  Zero_vector<State> m_failed_searches; // by vertex: the state in which it has failed
-  Zero_vector<State> m_failed_flips;    // by edge: the sum of the corners' states
-  Zero_vector<int> m_colors;            // by vertex: in a search; or 0
-  Zero_vector<unsigned> m_zoned;        // by vertex: when it was in a zone
+  Unset_vector<Vec3d> m_anchors;         // by vertex: since the run of `m_anchored`, if that is one
+  Unset_vector<unsigned> m_anchored;     // by vertex; or 0
+  Unset_vector<State> m_failed_searches; // by vertex: the state in which it has failed
+  Unset_vector<State> m_failed_flips;    // by edge: the sum of the corners' states
+  Unset_vector<int> m_colors;            // by vertex: in a search; or 0
+  Unset_vector<unsigned> m_zoned;        // by vertex: when it was in a zone
   unsigned m_zoning = 0;
   Watched_faces m_bad;
 };

@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_INTERNAL_PARALLEL_H
 
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/huge_pages.h>
 #include <CGAL/PowerRTF/internal/scan.h>
 
@@ -117,12 +118,15 @@ void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t 
   v.assign(n, item); // where the items are arrays, `resize()` takes many times as long
 }
 
-/// A vector of n times the item, made in the same way.
+/// A vector of n times the item, which all threads fill.
 template <class T>
-std::vector<T> filled(Concurrency concurrency, std::size_t n, const T& item)
+Unset_vector<T> filled(Concurrency concurrency, std::size_t n, const T& item)
 {
-  std::vector<T> v;
-  resize_in_parallel(concurrency, v, n, item);
+  constexpr std::size_t chunk = 1 << 14;
+  Unset_vector<T> v(n);
+  for_each_chunk(concurrency, static_cast<int>((n + chunk - 1) / chunk), 1, [&](int k, int) {
+    std::fill(v.begin() + k * chunk, v.begin() + std::min(n, (k + 1) * chunk), item);
+  });
   return v;
 }
 
