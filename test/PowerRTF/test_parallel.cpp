@@ -86,6 +86,20 @@ TEST_CASE("what is selected keeps its order")
     }
 }
 
+TEST_CASE("what is gathered is sorted and comes once, for any concurrency")
+{
+  for (const int n : sizes) {
+    const auto find = [](int i, auto&& add) {
+      for (int k = 0; k < i % 4; ++k) add(int(i * 7919u % 1000) + k);
+    };
+    std::set<int> expected;
+    for (int i = 0; i < n; ++i) find(i, [&](int item) { expected.insert(item); });
+    const std::vector<int> items(expected.begin(), expected.end());
+    CHECK(gather_uniquely<int>(CGAL::Sequential_tag(), n, find) == items);
+    CHECK(gather_uniquely<int>(CGAL::Parallel_if_available_tag(), n, find) == items);
+  }
+}
+
 TEST_CASE("buckets hold their items in increasing order, however full they are")
 {
   const std::function<int(int)> spreads[] = {
@@ -213,6 +227,6 @@ TEST_CASE("memory that another has left is filled again")
     std::vector<std::uint64_t>(n, ~std::uint64_t(0));
     const auto values = filled(CGAL::Parallel_if_available_tag(), n, std::uint64_t(7));
     CHECK(values.size() == std::size_t(n));
-    CHECK(std::count(values.begin(), values.end(), 0u) == n);
+    CHECK(std::count(values.begin(), values.end(), 7u) == n);
   }
 }

@@ -193,7 +193,7 @@ private:
   std::vector<int> points_near_few(const std::vector<int>& changed) const
   {
     std::vector<int> points;
-    for (const Face f : faces_around(m_mesh->working(), changed, 1)) {
+    for (const Face f : faces_around(*m_mesh, vertices_around(*m_mesh, changed))) {
       const auto here = at_face(f);
       points.insert(points.end(), here.begin(), here.end());
     }
