@@ -132,16 +132,22 @@ struct Working_mesh {
   Corners corners(Halfedge h) const { return {mesh.source(h), mesh.target(h), apex(h)}; }
   Corners corners(Face f) const { return corners(mesh.halfedge(f)); }
 
-  std::vector<Triangle> triangles(Concurrency concurrency = Sequential_tag()) const
+  std::vector<Triangle> triangles() const
   {
-    const std::vector<int> faces = select(concurrency, int(mesh.num_faces()),
-                                          [&](int f) { return !mesh.is_removed(Face(f)); });
-    std::vector<Triangle> result(faces.size());
-    for_each_index(concurrency, int(faces.size()), [&](int k) {
-      const auto [a, b, c] = corners(Face(faces[k]));
-      result[k] = {int(a), int(b), int(c)};
-    });
+    std::vector<Triangle> result;
+    write(result, Sequential_tag());
     return result;
+  }
+  /// The same into memory that may be there.
+  void write(std::vector<Triangle>& triangles, Concurrency concurrency) const
+  {
+    select(
+        concurrency, int(mesh.num_faces()), [&](int f) { return !mesh.is_removed(Face(f)); },
+        [&](int faces) { triangles.resize(faces); },
+        [&](int k, int f) {
+          const auto [a, b, c] = corners(Face(f));
+          triangles[k] = {int(a), int(b), int(c)};
+        });
   }
 
   /// The faces at the vertices, sorted.

@@ -378,7 +378,7 @@ public:
   void write(Extracted_mesh& mesh) const
   {
     for_each_index(m_concurrency, int(size()), [&](int v) { mesh.points[v] = m.point(Vertex(v)); });
-    mesh.triangles = m.triangles(m_concurrency);
+    m.write(mesh.triangles, m_concurrency);
   }
 
 private:
