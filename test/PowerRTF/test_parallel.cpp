@@ -4,7 +4,6 @@
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
-#include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -85,6 +84,20 @@ TEST_CASE("what is selected keeps its order")
           [&](int k, int i) { taken[k] = i; });
       CHECK(taken == expected);
     }
+}
+
+TEST_CASE("what is gathered is sorted and comes once, for any concurrency")
+{
+  for (const int n : sizes) {
+    const auto find = [](int i, auto&& add) {
+      for (int k = 0; k < i % 4; ++k) add(int(i * 7919u % 1000) + k);
+    };
+    std::set<int> expected;
+    for (int i = 0; i < n; ++i) find(i, [&](int item) { expected.insert(item); });
+    const std::vector<int> items(expected.begin(), expected.end());
+    CHECK(gather_uniquely<int>(CGAL::Sequential_tag(), n, find) == items);
+    CHECK(gather_uniquely<int>(CGAL::Parallel_if_available_tag(), n, find) == items);
+  }
 }
 
 TEST_CASE("buckets hold their items in increasing order, however full they are")
@@ -208,12 +221,12 @@ TEST_CASE("a set tells what comes for the first time")
   }
 }
 
-TEST_CASE("memory that another has left is zero again")
+TEST_CASE("memory that another has left is filled again")
 {
   for (const int n : sizes) {
     std::vector<std::uint64_t>(n, ~std::uint64_t(0));
-    const Zero_vector<std::uint64_t> values(n);
+    const auto values = filled(CGAL::Parallel_if_available_tag(), n, std::uint64_t(7));
     CHECK(values.size() == std::size_t(n));
-    CHECK(std::count(values.begin(), values.end(), 0u) == n);
+    CHECK(std::count(values.begin(), values.end(), 7u) == n);
   }
 }

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -37,9 +38,9 @@ struct Working_mesh {
   using Corners = std::array<Vertex, 3>;
 
   Mesh mesh;
-  std::vector<Vec3d> normals; ///< by vertex: unit normal of the surface
-  std::vector<int> samples;   ///< by vertex: the sample that it is; -1: none
-  std::vector<int> patches;   ///< by face: the surface's flat patch; -1, or empty: of none
+  Unset_vector<Vec3d> normals; ///< by vertex: unit normal of the surface
+  std::vector<int> samples;    ///< by vertex: the sample that it is; -1: none
+  std::vector<int> patches;    ///< by face: the surface's flat patch; -1, or empty: of none
   /// By vertex, of an opened surface: its place (see `Seam_places`). Empty: all are alone.
   std::vector<int> places;
   /// Of a half: its border there will be sewn to that of its image.
@@ -131,16 +132,22 @@ struct Working_mesh {
   Corners corners(Halfedge h) const { return {mesh.source(h), mesh.target(h), apex(h)}; }
   Corners corners(Face f) const { return corners(mesh.halfedge(f)); }
 
-  std::vector<Triangle> triangles(Concurrency concurrency = Sequential_tag()) const
+  std::vector<Triangle> triangles() const
   {
-    const std::vector<int> faces = select(concurrency, int(mesh.num_faces()),
-                                          [&](int f) { return !mesh.is_removed(Face(f)); });
-    std::vector<Triangle> result(faces.size());
-    for_each_index(concurrency, int(faces.size()), [&](int k) {
-      const auto [a, b, c] = corners(Face(faces[k]));
-      result[k] = {int(a), int(b), int(c)};
-    });
+    std::vector<Triangle> result;
+    write(result, Sequential_tag());
     return result;
+  }
+  /// The same into memory that may be there.
+  void write(std::vector<Triangle>& triangles, Concurrency concurrency) const
+  {
+    select(
+        concurrency, int(mesh.num_faces()), [&](int f) { return !mesh.is_removed(Face(f)); },
+        [&](int faces) { triangles.resize(faces); },
+        [&](int k, int f) {
+          const auto [a, b, c] = corners(Face(f));
+          triangles[k] = {int(a), int(b), int(c)};
+        });
   }
 
   /// The faces at the vertices, sorted.

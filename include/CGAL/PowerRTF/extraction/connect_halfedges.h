@@ -9,7 +9,6 @@
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -35,31 +34,34 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
   using Face = typename Mesh::Face_index;
   constexpr int none = Facet_adjacency::none;
   const int halfedges = static_cast<int>(3 * triangles.size());
-  Facet_adjacency adjacency;
+  Facet_adjacency adjacency; // of which these are apart
+  Buckets<int> corners;
+  Unset_vector<int> opposite = filled(concurrency, halfedges, none);
   const auto resize = [&](std::size_t edges) { mesh.resize(vertices, edges, triangles.size()); };
   // One thread has to come by the memory of the mesh: nearly all of it while the others do this.
   // Without `reserve()`: GCC's vectors take seven times as long to grow into memory that is there.
   for_each_chunk(concurrency, 2, 1, [&](int task, int) {
-    if (task == 0)
-      adjacency = facet_adjacency(triangles, vertices, concurrency);
-    else
+    if (task == 0) {
+      corners = vertex_corners(triangles, vertices, concurrency);
+      adjacency = find_opposites(triangles, corners, opposite.data(), concurrency);
+    } else {
       resize(halfedges / 2 + halfedges / 16);
+    }
   });
   if (adjacency.non_manifold_edges > 0 || adjacency.same_direction ||
-      count_non_manifold_vertices(adjacency, concurrency) > 0) {
+      count_non_manifold_vertices(corners, opposite.data(), concurrency) > 0) {
     mesh.resize(0, 0, 0);
     return false;
   }
 
-  const std::vector<int>& opposite = adjacency.opposite;
   const auto is_first = [&](int h) { return opposite[h] == none || h < opposite[h]; };
-  Unset_vector<int> edges(halfedges); // before each halfedge
-  for_each_index(concurrency, halfedges, [&](int h) { edges[h] = is_first(h); });
-  resize(exclusive_scan(concurrency, halfedges, edges.data()));
+  Unset_vector<int> numbers(halfedges); // in the mesh
+  select(concurrency, halfedges, is_first, resize, [&](int e, int h) {
+    numbers[h] = 2 * e;
+    if (opposite[h] != none) numbers[opposite[h]] = 2 * e + 1;
+  });
 
-  const auto halfedge = [&](int h) {
-    return is_first(h) ? Halfedge(2 * edges[h]) : Halfedge(2 * edges[opposite[h]] + 1);
-  };
+  const auto halfedge = [&](int h) { return Halfedge(numbers[h]); };
   for_each_index(concurrency, static_cast<int>(triangles.size()), [&](int f) {
     const std::array<Halfedge, 3> around = {halfedge(3 * f), halfedge(3 * f + 1),
                                             halfedge(3 * f + 2)};
@@ -70,12 +72,10 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
     }
     mesh.set_halfedge(Face(f), around[0]);
   });
-  const Buckets<int>& corners = adjacency.corners;
-  for_each_index(concurrency, vertices, [&](int v) {
-    int last = none; // of the halfedges to the vertex
-    for (int k = corners.first[v]; k < corners.first[v + 1]; ++k)
-      last = std::max(last, previous_halfedge(corners.entries[k]));
-    if (last != none) mesh.set_halfedge(Vertex(v), halfedge(last));
+  for_each_index(concurrency, vertices, [&](int v) { // the last halfedge to it
+    if (corners.first[v] < corners.first[v + 1])
+      mesh.set_halfedge(Vertex(v),
+                        halfedge(previous_halfedge(corners.entries[corners.first[v + 1] - 1])));
   });
   if (adjacency.border_edges == 0) return true;
   const std::vector<int> at_border =

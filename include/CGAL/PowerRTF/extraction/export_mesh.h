@@ -113,17 +113,22 @@ bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalizatio
   using Point = typename boost::property_traits<PointMap>::value_type;
   const int points = static_cast<int>(mesh.points.size()),
             faces = static_cast<int>(mesh.triangles.size());
-  std::vector<int> name(points, 0); // 1 for those that are used; then: how many of them are before
+  // 1 for those that are used; then, if some are not: how many of them are before
+  Unset_vector<int> name = filled(concurrency, points, 0);
   for_each_index(concurrency, faces, [&](int f) {
     for (const int v : mesh.triangles[f]) atomic_store(&name[v], 1);
   });
   exported.points = select(concurrency, points, [&](int v) { return name[v] == 1; });
-  exclusive_scan(concurrency, points, name.data());
-  std::vector<Triangle> triangles(mesh.triangles.size());
-  for_each_index(concurrency, faces, [&](int f) {
-    for (int k = 0; k < 3; ++k) triangles[f][k] = name[mesh.triangles[f][k]];
-  });
   const int vertices = static_cast<int>(exported.points.size());
+  std::vector<Triangle> renamed;
+  if (vertices < points) {
+    exclusive_scan(concurrency, points, name.data());
+    renamed.resize(mesh.triangles.size());
+    for_each_index(concurrency, faces, [&](int f) {
+      for (int k = 0; k < 3; ++k) renamed[f][k] = name[mesh.triangles[f][k]];
+    });
+  }
+  const std::vector<Triangle>& triangles = vertices < points ? renamed : mesh.triangles;
   if (!connect_halfedges(output, triangles, vertices, concurrency)) return false;
   resize_in_parallel(concurrency, exported.vertices, vertices);
   const bool is_own = std::is_same<PointMap, typename Mesh::template Property_map<Vertex, Point>>();

@@ -21,15 +21,14 @@ namespace CGAL::PowerRTF::internal {
 template <class Star_at>
 Topology fan_topology(int vertices, const Star_at& star, Concurrency concurrency)
 {
-  std::vector<int> next_on_border(vertices, -1);
-  Unset_vector<int> shares(vertices); // of six times the characteristics
+  Unset_vector<int> next_on_border(vertices), shares(vertices); // of six times the characteristics
   auto [component, components] =
       connected_components(concurrency, vertices, [&](int v, auto&& join) {
         const Fan s = star(v);
         for (const Fan_corner& c : s)
           for (const int w : c)
             if (w < v) join(w);
-        if (!is_closed(s)) next_on_border[v] = s.front()[0];
+        next_on_border[v] = is_closed(s) ? -1 : s.front()[0];
         shares[v] = six_times_vertex_share(!is_closed(s)) + // and a third of each facet
                     six_times_facet_share / 3 * static_cast<int>(s.size());
       });

@@ -37,9 +37,9 @@ namespace CGAL::PowerRTF::internal {
 
 /// The surface with the samples as additional vertices.
 struct Refined_surface {
-  std::vector<Vec3d> points;  ///< the surface's vertices, then the inserted samples; on the grid
-  std::vector<Vec3d> normals; ///< unit normal of the surface at each point
-  std::vector<int> samples;   ///< the sample that each vertex is; -1: none
+  std::vector<Vec3d> points;   ///< the surface's vertices, then the inserted samples; on the grid
+  Unset_vector<Vec3d> normals; ///< unit normal of the surface at each point
+  std::vector<int> samples;    ///< the sample that each vertex is; -1: none
   std::vector<Triangle> triangles;
   std::vector<int> patches;   ///< by triangle: the surface's flat patch that it is a part of
   std::vector<Edge> features; ///< the pieces of the creases and borders
@@ -122,7 +122,7 @@ private:
     m_refined.points.reserve(vertices);
     m_refined.normals.reserve(vertices);
     m_refined.points = m_surface.points;
-    m_refined.normals = m_surface.vertex_normals;
+    m_refined.normals.assign(m_surface.vertex_normals.begin(), m_surface.vertex_normals.end());
     m_refined.samples.reserve(vertices);
     m_refined.samples.assign(m_surface.points.size(), -1);
   }

@@ -68,7 +68,7 @@ void add_by_component(Concurrency concurrency, int n, Component&& component, F&&
 
 /// The loops of a border by component. `next`: of each vertex on it the following one; -1: none.
 template <class Component>
-std::vector<long> count_loops(std::vector<int> next, int components, Component&& component)
+std::vector<long> count_loops(Unset_vector<int> next, int components, Component&& component)
 {
   std::vector<long> loops(components, 0);
   for (int v = 0; v < static_cast<int>(next.size()); ++v) {
@@ -106,8 +106,8 @@ component_topologies(const Surface& surface, const std::vector<int>& component, 
   const int facets = static_cast<int>(surface.triangles.size()),
             vertices = static_cast<int>(surface.points.size());
   const bool has_border = surface.adjacency.border_edges > 0;
-  std::vector<int> facet_at = internal::filled(concurrency, vertices, -1), next_on_border;
-  if (has_border) next_on_border.assign(vertices, -1);
+  auto facet_at = internal::filled(concurrency, vertices, -1);
+  auto next_on_border = internal::filled(concurrency, has_border ? vertices : 0, -1);
   internal::for_each_index(concurrency, facets, [&](int f) {
     for (int h = 3 * f; h < 3 * f + 3; ++h) {
       const int v = halfedge_source(surface.triangles, h);

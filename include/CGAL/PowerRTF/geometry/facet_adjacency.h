@@ -38,18 +38,16 @@ inline int opposite_vertex(const std::vector<Triangle>& triangles, int h)
   return triangles[h / 3][(h + 2) % 3];
 }
 
-/// Finds the facets that share each edge of `triangles`, whose indices are in
-/// `[0, number_of_vertices)` and differ within a triangle.
-inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
-                                       std::size_t number_of_vertices,
-                                       internal::Concurrency concurrency = Sequential_tag())
+namespace internal {
+
+/// Writes for each halfedge that of the other facet, where there is one. `corners`:
+/// `vertex_corners()`.
+/// \returns what else there is to know of the adjacency
+inline Facet_adjacency find_opposites(const std::vector<Triangle>& triangles,
+                                      const Buckets<int>& corners, int* opposite,
+                                      Concurrency concurrency)
 {
   using Ends = boost::container::small_vector<std::pair<int, int>, 16>;
-  Facet_adjacency result;
-  internal::resize_in_parallel(concurrency, result.opposite, 3 * triangles.size(),
-                               Facet_adjacency::none);
-  result.corners = vertex_corners(triangles, number_of_vertices, concurrency);
-
   // The facets at one edge.
   const auto join = [&](Facet_adjacency& found, Ends::const_iterator begin,
                         Ends::const_iterator stop) {
@@ -61,20 +59,20 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
       ++found.border_edges;
     } else if (stop - begin == 2) {
       const int h = begin->second, o = (begin + 1)->second;
-      result.opposite[h] = o;
-      result.opposite[o] = h;
+      opposite[h] = o;
+      opposite[o] = h;
       if (halfedge_source(triangles, h) == halfedge_source(triangles, o))
         found.same_direction = true;
     } else {
       ++found.non_manifold_edges;
     }
   };
-  const Facet_adjacency all = internal::reduce(
-      concurrency, static_cast<int>(number_of_vertices), Facet_adjacency(),
+  return reduce(
+      concurrency, static_cast<int>(corners.first.size()) - 1, Facet_adjacency(),
       [&](Facet_adjacency& found, int v) {
         Ends ends; // of the edges from v to larger vertices: these, and the halfedges
-        for (int k = result.corners.first[v]; k < result.corners.first[v + 1]; ++k) {
-          const int h = result.corners.entries[k], before = previous_halfedge(h);
+        for (int k = corners.first[v]; k < corners.first[v + 1]; ++k) {
+          const int h = corners.entries[k], before = previous_halfedge(h);
           const int to = halfedge_target(triangles, h), from = opposite_vertex(triangles, h);
           if (to > v) ends.emplace_back(to, h);
           if (from > v) ends.emplace_back(from, before);
@@ -91,10 +89,23 @@ inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
         sum.same_direction |= part.same_direction;
         sum.repeated_facets |= part.repeated_facets;
       });
-  result.border_edges = all.border_edges;
-  result.non_manifold_edges = all.non_manifold_edges;
-  result.same_direction = all.same_direction;
-  result.repeated_facets = all.repeated_facets;
+}
+
+} // namespace internal
+
+/// Finds the facets that share each edge of `triangles`, whose indices are in
+/// `[0, number_of_vertices)` and differ within a triangle.
+inline Facet_adjacency facet_adjacency(const std::vector<Triangle>& triangles,
+                                       std::size_t number_of_vertices,
+                                       internal::Concurrency concurrency = Sequential_tag())
+{
+  internal::Buckets<int> corners = vertex_corners(triangles, number_of_vertices, concurrency);
+  std::vector<int> opposite;
+  internal::resize_in_parallel(concurrency, opposite, 3 * triangles.size(), Facet_adjacency::none);
+  Facet_adjacency result =
+      internal::find_opposites(triangles, corners, opposite.data(), concurrency);
+  result.opposite = std::move(opposite);
+  result.corners = std::move(corners);
   return result;
 }
 
@@ -155,11 +166,10 @@ void for_each_fan(std::size_t halfedges, const Opposite& opposite, const At_fan&
 }
 
 /// The number of vertices whose facets form more than one fan. Needs consistent orientations.
-inline std::size_t count_non_manifold_vertices(const Facet_adjacency& adjacency,
-                                               internal::Concurrency concurrency = Sequential_tag())
+inline std::size_t count_non_manifold_vertices(const internal::Buckets<int>& corners,
+                                               const int* opposite,
+                                               internal::Concurrency concurrency)
 {
-  const std::vector<int>& opposite = adjacency.opposite;
-  const internal::Buckets<int>& corners = adjacency.corners;
   // Whether the fan of one facet is not all that there is.
   const auto has_more = [&](int v) {
     const int facets_at = corners.first[v + 1] - corners.first[v];
@@ -179,6 +189,11 @@ inline std::size_t count_non_manifold_vertices(const Facet_adjacency& adjacency,
       concurrency, static_cast<int>(corners.first.size()) - 1, std::size_t(0),
       [&](std::size_t& count, int v) { count += has_more(v); },
       [](std::size_t& count, std::size_t part) { count += part; });
+}
+inline std::size_t count_non_manifold_vertices(const Facet_adjacency& adjacency,
+                                               internal::Concurrency concurrency = Sequential_tag())
+{
+  return count_non_manifold_vertices(adjacency.corners, adjacency.opposite.data(), concurrency);
 }
 
 /// Turns facets so that neighbors agree; in each component as few as possible.

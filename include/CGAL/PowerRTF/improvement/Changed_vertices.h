@@ -51,26 +51,35 @@ public:
 
 private:
   const Star_mesh* m_mesh;
-  std::vector<unsigned> m_seen; // by vertex: its changes
+  Unset_vector<unsigned> m_seen; // by vertex: its changes
 };
 
-/// The vertices and those that are at most so many edges away; sorted. None that has no edge.
-inline std::vector<Working_mesh::Vertex>
-vertices_around(const Working_mesh& working, const std::vector<int>& vertices, int rings)
+/// The vertices that have edges, and their neighbors; sorted.
+template <class Vertices>
+std::vector<Star_mesh::Vertex> vertices_around(const Star_mesh& m, const Vertices& vertices)
 {
-  std::vector<Working_mesh::Vertex> around;
-  for (const int v : vertices)
-    if (const Working_mesh::Vertex u(v); !working.mesh.is_isolated(u)) around.push_back(u);
-  working.add_neighbors(around, rings);
-  return around;
+  using Vertex = Star_mesh::Vertex;
+  const auto& mesh = m.working().mesh;
+  return gather_uniquely<Vertex>(m.concurrency(), int(vertices.size()), [&](int k, auto&& add) {
+    const Vertex v(vertices[k]);
+    if (mesh.is_isolated(v)) return;
+    add(v);
+    for (const auto h : halfedges_around_target(v, mesh)) add(mesh.source(h));
+  });
 }
 
-/// The faces at these; sorted.
-inline std::vector<Working_mesh::Face> faces_around(const Working_mesh& working,
-                                                    const std::vector<int>& vertices, int rings)
+/// The faces at the vertices that have edges; sorted.
+template <class Vertices>
+std::vector<Working_mesh::Face> faces_around(const Star_mesh& m, const Vertices& vertices)
 {
-  const auto faces = working.faces_at(vertices_around(working, vertices, rings));
-  return {faces.begin(), faces.end()};
+  using Face = Working_mesh::Face;
+  const auto& mesh = m.working().mesh;
+  return gather_uniquely<Face>(m.concurrency(), int(vertices.size()), [&](int k, auto&& add) {
+    const Star_mesh::Vertex v(vertices[k]);
+    if (mesh.is_isolated(v)) return;
+    for (const auto h : halfedges_around_target(v, mesh))
+      if (!mesh.is_border(h)) add(mesh.face(h));
+  });
 }
 
 /// The faces of which something holds that their corners and edges decide.
@@ -84,24 +93,28 @@ public:
   template <class Holds>
   const std::vector<Face>& find(const Holds& holds)
   {
-    const Working_mesh& working = m_mesh->working();
-    const auto is_wanted = [&](Face f) { return !working.mesh.is_removed(f) && holds(f); };
+    const auto& mesh = m_mesh->working().mesh;
+    // Of those with these numbers, as `face` names them.
+    const auto wanted = [&](int n, const auto& face) {
+      std::vector<Face> faces;
+      for (const int k : select(m_mesh->concurrency(), n,
+                                [&](int k) { return !mesh.is_removed(face(k)) && holds(face(k)); }))
+        faces.push_back(face(k));
+      return faces;
+    };
     const std::vector<int> changed = m_changed.take();
     if (!m_changed.are_few(changed)) {
-      m_faces.clear();
-      for (const int f : select(m_mesh->concurrency(), int(working.mesh.num_faces()),
-                                [&](int f) { return is_wanted(Face(f)); }))
-        m_faces.push_back(Face(f));
+      m_faces = wanted(int(mesh.num_faces()), [](int f) { return Face(f); });
     } else if (!changed.empty()) {
-      std::vector<Face> near = faces_around(working, changed, 0), others, all;
+      const std::vector<Face> near = faces_around(*m_mesh, changed);
+      std::vector<Face> others, all;
       std::set_difference(m_faces.begin(), m_faces.end(), near.begin(), near.end(),
                           std::back_inserter(others));
-      const auto drop = [](std::vector<Face>& faces, const auto& is_dropped) {
-        faces.erase(std::remove_if(faces.begin(), faces.end(), is_dropped), faces.end());
-      };
-      drop(near, [&](Face f) { return !is_wanted(f); });
-      drop(others, [&](Face f) { return working.mesh.is_removed(f); });
-      std::merge(others.begin(), others.end(), near.begin(), near.end(), std::back_inserter(all));
+      others.erase(
+          std::remove_if(others.begin(), others.end(), [&](Face f) { return mesh.is_removed(f); }),
+          others.end());
+      const std::vector<Face> found = wanted(int(near.size()), [&](int k) { return near[k]; });
+      std::merge(others.begin(), others.end(), found.begin(), found.end(), std::back_inserter(all));
       m_faces.swap(all);
     }
     return m_faces;

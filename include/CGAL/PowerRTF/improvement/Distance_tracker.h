@@ -164,8 +164,8 @@ private:
     const Concurrency concurrency = m_mesh->concurrency();
     const Facet_tree& tree = m_mesh->projector().tree();
     const int places = int(tree.order().size());
-    std::vector<int> at_place =
-        filled(concurrency, places, -1); // of the tree: the last vertex that its facet carries
+    // By place in the tree: the last vertex that its facet carries.
+    Unset_vector<int> at_place = filled(concurrency, places, -1);
     for_each_index(concurrency, int(m_mesh->size()), [&](int v) {
       if (!topology().is_isolated(Vertex(v)))
         atomic_max(&at_place[tree.place(m_mesh->facet(Vertex(v)))], v);
@@ -193,7 +193,7 @@ private:
   std::vector<int> points_near_few(const std::vector<int>& changed) const
   {
     std::vector<int> points;
-    for (const Face f : faces_around(m_mesh->working(), changed, 1)) {
+    for (const Face f : faces_around(*m_mesh, vertices_around(*m_mesh, changed))) {
       const auto here = at_face(f);
       points.insert(points.end(), here.begin(), here.end());
     }

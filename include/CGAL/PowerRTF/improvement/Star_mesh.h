@@ -61,18 +61,18 @@ public:
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
             const std::vector<int>& carriers = {}, Concurrency concurrency = Sequential_tag())
       : m_concurrency(concurrency), m_projector(&projector),
-        m(mesh.points, mesh.triangles, concurrency),
-        m_facets(filled(concurrency, mesh.points.size(), -1)),
-        m_heights(filled(concurrency, mesh.points.size(), 0.)), m_locked(mesh.points.size(), false),
-        m_movable(mesh.points.size()), m_pinned(mesh.points.size(), false),
-        m_on_feature(mesh.points.size(), false), m_kept(mesh.points.size(), false),
+        m(mesh.points, mesh.triangles, concurrency), m_facets(mesh.points.size()),
+        m_heights(filled(concurrency, mesh.points.size(), 0.)),
+        m_locked(filled(concurrency, mesh.points.size(), no)), m_movable(mesh.points.size()),
+        m_pinned(filled(concurrency, mesh.points.size(), no)),
+        m_on_feature(filled(concurrency, mesh.points.size(), no)), m_kept(mesh.points.size()),
         m_changes(filled(concurrency, mesh.points.size(), 1u)),
-        m_is_feature(m.mesh.number_of_edges(), false)
+        m_is_feature(filled(concurrency, m.mesh.number_of_edges(), no))
   {
     const std::size_t n = mesh.points.size();
     constexpr double rounding = 1e-3; // of a point on the surface, in units of the spacing
     const double reach = rounding * std::sqrt(projector.surface().area / double(n));
-    resize_in_parallel(concurrency, m.normals, n);
+    m.normals.resize(n);
     m.mirror = projector.surface().mirror;
     if (!mesh.places.empty()) m.set_places(mesh.places);
     for (const auto& [a, b] : mesh.feature_edges) {
@@ -97,8 +97,8 @@ public:
   /// `locked`: by vertex, those that neither move nor get or lose an edge.
   void lock(const std::vector<char>& locked)
   {
-    m_locked = locked;
     for_each_index(m_concurrency, int(size()), [&](int v) {
+      m_locked[v] = locked[v];
       if (locked[v]) m_movable[v] = false;
     });
   }
@@ -378,10 +378,12 @@ public:
   void write(Extracted_mesh& mesh) const
   {
     for_each_index(m_concurrency, int(size()), [&](int v) { mesh.points[v] = m.point(Vertex(v)); });
-    mesh.triangles = m.triangles(m_concurrency);
+    m.write(mesh.triangles, m_concurrency);
   }
 
 private:
+  static constexpr char no = false;
+
   // The innermost of this thread, if it is of this mesh; or none.
   Checkpoint* checkpoint() const
   {
@@ -420,12 +422,12 @@ private:
   Concurrency m_concurrency;
   const Surface_projector* m_projector;
   Working_mesh m;
-  std::vector<int> m_facets;     // by vertex: the surface's facet that carries it
-  std::vector<double> m_heights; // by vertex: over the surface
-  std::vector<char> m_locked, m_movable, m_pinned, m_on_feature, m_kept;
-  std::vector<unsigned> m_changes; // by vertex: of it or its edges
-  std::vector<char> m_is_feature;  // by edge
-  Undoable_edits m_edits{false};   // what is done without a checkpoint
+  Unset_vector<int> m_facets;     // by vertex: the surface's facet that carries it
+  Unset_vector<double> m_heights; // by vertex: over the surface
+  Unset_vector<char> m_locked, m_movable, m_pinned, m_on_feature, m_kept;
+  Unset_vector<unsigned> m_changes; // by vertex: of it or its edges
+  Unset_vector<char> m_is_feature;  // by edge
+  Undoable_edits m_edits{false};    // what is done without a checkpoint
 };
 
 } // namespace CGAL::PowerRTF::internal

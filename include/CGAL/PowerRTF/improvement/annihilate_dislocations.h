@@ -15,7 +15,6 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
-#include <CGAL/PowerRTF/internal/Zero_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
@@ -31,7 +30,9 @@ namespace CGAL::PowerRTF::internal {
 class Dislocation_annihilator {
 public:
   explicit Dislocation_annihilator(Star_mesh& mesh)
-      : m(mesh), m_degrees(mesh.size()), m_is_known(mesh.size()), m_taken(mesh.size())
+      : m(mesh), m_degrees(mesh.size()),
+        m_is_known(filled(mesh.concurrency(), mesh.size(), char(false))),
+        m_taken(filled(mesh.concurrency(), mesh.size(), 0u))
   {}
 
   /// Where surroundings touch, the nearest pairs first. \returns the number of meetings.
@@ -333,9 +334,9 @@ private:
   }
 
   Star_mesh& m;
-  Unset_vector<int> m_degrees;   // by vertex; at most `irregular_degree`, which stays
-  Zero_vector<char> m_is_known;  // by vertex: has been a candidate
-  Zero_vector<unsigned> m_taken; // by vertex: when it was in a zone
+  Unset_vector<int> m_degrees;    // by vertex; at most `irregular_degree`, which stays
+  Unset_vector<char> m_is_known;  // by vertex: has been a candidate
+  Unset_vector<unsigned> m_taken; // by vertex: when it was in a zone
   unsigned m_taking = 0;
 };
 

@@ -14,7 +14,7 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/Zero_vector.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -41,9 +42,12 @@ public:
 
   /// `guard`: what makes faces intersect is not done; \pre no faces of `mesh` do.
   explicit Bad_triangle_optimizer(Star_mesh& mesh, Intersection_guard* guard = nullptr)
-      : m(mesh), m_guard(guard), m_anchors(m.size()), m_anchored(m.size()),
-        m_failed_searches(m.size()), m_failed_flips(m.working().mesh.number_of_edges()),
-        m_colors(m.size()), m_zoned(m.size()), m_bad(mesh)
+      : m(mesh), m_guard(guard), m_anchors(m.size()),
+        m_anchored(filled(m.concurrency(), m.size(), 0u)),
+        m_failed_searches(filled(m.concurrency(), m.size(), State(0))),
+        m_failed_flips(filled(m.concurrency(), m.working().mesh.number_of_edges(), State(0))),
+        m_colors(filled(m.concurrency(), m.size(), 0)),
+        m_zoned(filled(m.concurrency(), m.size(), 0u)), m_bad(mesh)
   {}
 
   double badness(Face f) const { return judgment(f).badness; }
@@ -54,9 +58,11 @@ public:
   /// Sorted. \pre `limit` >= 0
   std::vector<Face> faces_worse_than(double limit)
   {
+    const std::vector<Face>& bad = m_bad.find([this](Face f) { return badness(f) > 0; });
     std::vector<Face> faces;
-    for (const Face f : m_bad.find([this](Face f) { return badness(f) > 0; }))
-      if (badness(f) > limit) faces.push_back(f);
+    for (const int k :
+         select(m.concurrency(), int(bad.size()), [&](int k) { return badness(bad[k]) > limit; }))
+      faces.push_back(bad[k]);
     return faces;
   }
 
@@ -93,7 +99,7 @@ private:
     ++m_run;
     double total = total_badness(bad);
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
-      const std::vector<Vertex> vertices = vertices_around(bad);
+      const std::vector<Vertex> vertices = vertices_around(m, corners(bad));
       set_anchors(vertices);
       search(vertices);
       if (round % 2 == 1) flip_around(bad);
@@ -107,14 +113,11 @@ private:
 
   using Parameters = Improvement_parameters::Optimization;
 
-  // The corners and their neighbors.
-  std::vector<Vertex> vertices_around(const std::vector<Face>& faces) const
+  std::vector<Vertex> corners(const std::vector<Face>& faces) const
   {
-    std::vector<Vertex> vertices;
-    for (const Face f : faces)
-      for (const Vertex v : m.working().corners(f)) vertices.push_back(v);
-    m.working().add_neighbors(vertices);
-    return vertices;
+    return gather_uniquely<Vertex>(m.concurrency(), int(faces.size()), [&](int k, auto&& add) {
+      for (const Vertex v : m.working().corners(faces[k])) add(v);
+    });
   }
 
   Triangle_badness judgment(Face f) const
@@ -125,9 +128,9 @@ private:
 
   double total_badness(const std::vector<Face>& faces) const
   {
-    double sum = 0;
-    for (const Face f : faces) sum += badness(f);
-    return sum;
+    Unset_vector<double> each(faces.size());
+    for_each_index(m.concurrency(), int(faces.size()), [&](int k) { each[k] = badness(faces[k]); });
+    return std::accumulate(each.begin(), each.end(), 0.);
   }
 
   // Adds the triangles' energies to `sum`, until that is no less than `limit`.
@@ -153,29 +156,22 @@ private:
   // Where the vertices are when the run comes to them.
   void set_anchors(const std::vector<Vertex>& vertices)
   {
-    for (const Vertex v : vertices) {
-      if (m_anchored[v] == m_run) continue;
-      m_anchored[v] = m_run;
-      if (m_anchors[v] == m.point(v)) continue;
+    for_each_index(concurrency(), int(vertices.size()), [&](int k) {
+      const Vertex v = vertices[k];
+      const unsigned before = std::exchange(m_anchored[v], m_run);
+      if (before == m_run || (before > 0 && m_anchors[v] == m.point(v))) return;
       m_anchors[v] = m.point(v);
       m.touch(v);
-    }
+    });
   }
 
   std::vector<Face> bad_faces_at(const std::vector<Vertex>& vertices) const
   {
-    constexpr int chunk = 64;
     const auto& mesh = m.working().mesh;
-    std::vector<std::vector<Face>> parts((vertices.size() + chunk - 1) / chunk);
-    for_each_chunk(m.concurrency(), int(vertices.size()), chunk, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k)
-        for (const Halfedge h : halfedges_around_target(vertices[k], mesh))
-          if (!mesh.is_border(h) && badness(mesh.face(h)) > 0)
-            parts[begin / chunk].push_back(mesh.face(h));
+    return gather_uniquely<Face>(m.concurrency(), int(vertices.size()), [&](int k, auto&& add) {
+      for (const Halfedge h : halfedges_around_target(vertices[k], mesh))
+        if (!mesh.is_border(h) && badness(mesh.face(h)) > 0) add(mesh.face(h));
     });
-    std::vector<Face> faces = concatenated(m.concurrency(), parts);
-    sort_uniquely(faces);
-    return faces;
   }
 
   // Whether something else notes what is done: then all is done one by one.
@@ -196,24 +192,38 @@ private:
       });
   }
 
-  // The vertices in classes without neighbors.
+  // The vertices, which are sorted, in classes without neighbors: each in the first that is free.
   std::vector<std::vector<Vertex>> colored(const std::vector<Vertex>& vertices)
   {
-    const auto& mesh = m.working().mesh;
+    constexpr int chunk = 256;
+    const int n = int(vertices.size());
+    std::vector<std::vector<int>> parts((n + chunk - 1) / chunk); // neighbors that come before
+    Unset_vector<int> counts(n);
+    for_each_chunk(m.concurrency(), n, chunk, [&](int begin, int end) {
+      std::vector<int>& part = parts[begin / chunk];
+      for (int k = begin; k < end; ++k) {
+        const std::size_t before = part.size();
+        for (const Halfedge h : halfedges_around_target(vertices[k], m.working().mesh))
+          if (const Vertex u = m.working().mesh.source(h); u < vertices[k]) part.push_back(int(u));
+        counts[k] = int(part.size() - before);
+      }
+    });
     std::vector<std::vector<Vertex>> classes;
-    const auto is_taken = [&](Vertex v, int color) {
-      for (const Halfedge h : halfedges_around_target(v, mesh))
-        if (m_colors[mesh.source(h)] == color) return true;
-      return false;
-    };
-    for (const Vertex v : vertices) {
+    std::vector<int> taken{-1}; // by color: the last that cannot have it; color 0 is none
+    auto near = parts.begin();
+    for (int k = 0, at = 0; k < n; ++k) {
+      if (k % chunk == 0) near = parts.begin() + k / chunk, at = 0;
+      for (const int end = at + counts[k]; at < end; ++at) taken[m_colors[(*near)[at]]] = k;
       int color = 1;
-      while (is_taken(v, color)) ++color;
-      m_colors[v] = color;
-      classes.resize(std::max(classes.size(), std::size_t(color)));
-      classes[color - 1].push_back(v);
+      while (color < int(taken.size()) && taken[color] == k) ++color;
+      if (color == int(taken.size())) {
+        taken.push_back(-1);
+        classes.emplace_back();
+      }
+      m_colors[vertices[k]] = color;
+      classes[color - 1].push_back(vertices[k]);
     }
-    for (const Vertex v : vertices) m_colors[v] = 0;
+    for_each_index(m.concurrency(), n, [&](int k) { m_colors[vertices[k]] = 0; });
     return classes;
   }
 
@@ -395,12 +405,12 @@ private:
   Star_mesh& m;
   Intersection_guard* m_guard; // or none
   unsigned m_run = 0;
-  Zero_vector<Vec3d> m_anchors;         // by vertex: since the run of `m_anchored`
-  Zero_vector<unsigned> m_anchored;     // by vertex
-  Zero_vector<State> m_failed_searches; // by vertex: the state in which it has failed
-  Zero_vector<State> m_failed_flips;    // by edge: the sum of the corners' states
-  Zero_vector<int> m_colors;            // by vertex: in a search; or 0
-  Zero_vector<unsigned> m_zoned;        // by vertex: when it was in a zone
+  Unset_vector<Vec3d> m_anchors;         // by vertex: since the run of `m_anchored`, if that is one
+  Unset_vector<unsigned> m_anchored;     // by vertex; or 0
+  Unset_vector<State> m_failed_searches; // by vertex: the state in which it has failed
+  Unset_vector<State> m_failed_flips;    // by edge: the sum of the corners' states
+  Unset_vector<int> m_colors;            // by vertex: in a search; or 0
+  Unset_vector<unsigned> m_zoned;        // by vertex: when it was in a zone
   unsigned m_zoning = 0;
   Watched_faces m_bad;
 };

@@ -283,7 +283,8 @@ private:
     const std::vector<int> changed = m_spare_changed.take();
     const auto update = [this](Vertex v) { m_spare_badness[v] = best_collapse(v).first; };
     if (m_spare_changed.are_few(changed)) {
-      for (const Vertex v : vertices_around(m.working(), changed, 1)) update(v);
+      const std::vector<Vertex> around = vertices_around(m, changed);
+      for_each_index(m.concurrency(), int(around.size()), [&](int k) { update(around[k]); });
     } else {
       m_spare_badness.resize(m.size());
       for_each_index(m.concurrency(), int(m.size()), [&](int v) { update(Vertex(v)); });
@@ -410,7 +411,7 @@ private:
       return squared_length(m.point(Vertex(v)) - p) < radius * radius &&
              !mesh.is_removed(Vertex(v));
     });
-    return !Intersection_finder(m.working()).find(faces_around(m.working(), near, 0)).empty();
+    return !Intersection_finder(m.working()).find(faces_around(m, near)).empty();
   }
 
   Star_mesh& m;

@@ -30,22 +30,27 @@ struct Buckets {
       : first(number_of_buckets + 1), entries(n)
   {
     const int buckets = static_cast<int>(number_of_buckets);
+    struct Item {
+      int item, bucket;
+    };
     // Fills buckets `begin` to `end - 1` with `item(k)` for k in [k_begin, k_end).
     const auto fill = [&](int begin, int end, int k_begin, int k_end, const auto& item) {
       std::vector<int> next(end - begin + 1, 0);
-      for (int k = k_begin; k < k_end; ++k) ++next[bucket(item(k)) - begin + 1];
+      for (int k = k_begin; k < k_end; ++k) ++next[item(k).bucket - begin + 1];
       next[0] = k_begin;
       std::partial_sum(next.begin(), next.end(), next.begin());
       for (int b = begin; b < end; ++b) first[b] = next[b - begin];
-      for (int k = k_begin; k < k_end; ++k)
-        entries[next[bucket(item(k)) - begin]++] = entry(item(k));
+      for (int k = k_begin; k < k_end; ++k) {
+        const Item i = item(k);
+        entries[next[i.bucket - begin]++] = entry(i.item);
+      }
       for (int b = begin; b < end; ++b)
         std::sort(entries.begin() + first[b], entries.begin() + next[b - begin]);
     };
     first[buckets] = n;
     const int most = concurrency.is_parallel() ? std::clamp(n / 1024, 1, 128) : 1;
     if (most == 1) {
-      fill(0, buckets, 0, n, [](int i) { return i; });
+      fill(0, buckets, 0, n, [&](int i) { return Item{i, bucket(i)}; });
       return;
     }
     // Items come into parts of consecutive buckets first: no two threads count in the same memory.
@@ -61,11 +66,14 @@ struct Buckets {
       for (int p = 0; p < parts; ++p) *place(p, begin / chunk) = counts[p];
     });
     exclusive_scan(concurrency, static_cast<int>(places.size()), places.data());
-    Unset_vector<int> items(n);
+    Unset_vector<Item> items(n);
     for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
       std::vector<int> next(parts);
       for (int p = 0; p < parts; ++p) next[p] = *place(p, begin / chunk);
-      for (int i = begin; i < end; ++i) items[next[bucket(i) >> shift]++] = i;
+      for (int i = begin; i < end; ++i) {
+        const int b = bucket(i);
+        items[next[b >> shift]++] = {i, b};
+      }
     });
     for_each_chunk(concurrency, buckets, 1 << shift, [&](int begin, int end) {
       const int part = begin >> shift;

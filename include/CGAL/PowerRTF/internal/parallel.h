@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_INTERNAL_PARALLEL_H
 
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/huge_pages.h>
 #include <CGAL/PowerRTF/internal/scan.h>
 
@@ -117,12 +118,15 @@ void resize_in_parallel(Concurrency concurrency, std::vector<T>& v, std::size_t 
   v.assign(n, item); // where the items are arrays, `resize()` takes many times as long
 }
 
-/// A vector of n times the item, made in the same way.
+/// A vector of n times the item, which all threads fill.
 template <class T>
-std::vector<T> filled(Concurrency concurrency, std::size_t n, const T& item)
+Unset_vector<T> filled(Concurrency concurrency, std::size_t n, const T& item)
 {
-  std::vector<T> v;
-  resize_in_parallel(concurrency, v, n, item);
+  constexpr std::size_t chunk = 1 << 14;
+  Unset_vector<T> v(n);
+  for_each_chunk(concurrency, static_cast<int>((n + chunk - 1) / chunk), 1, [&](int k, int) {
+    std::fill(v.begin() + k * chunk, v.begin() + std::min(n, (k + 1) * chunk), item);
+  });
   return v;
 }
 
@@ -211,7 +215,7 @@ T reduce(int n, const T& zero, Accumulate&& accumulate, Join&& join)
   return reduce(ConcurrencyTag(), n, zero, accumulate, join);
 }
 
-/// Sorts items that all differ.
+/// Sorts items; equal ones cannot be told apart.
 template <class Iterator>
 void sort(Concurrency concurrency, Iterator begin, Iterator end)
 {
@@ -230,6 +234,28 @@ template <class ConcurrencyTag, class Iterator>
 void sort(Iterator begin, Iterator end)
 {
   sort(ConcurrencyTag(), begin, end);
+}
+
+/// What `find(i, add)` passes to `add` for i in [0, n): sorted, each once.
+template <class T, class Find>
+std::vector<T> gather_uniquely(Concurrency concurrency, int n, Find&& find)
+{
+  constexpr int chunk = 256;
+  const auto drop_repeated = [](std::vector<T>& items) {
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+  };
+  std::vector<std::vector<T>> parts((n + chunk - 1) / chunk);
+  for_each_chunk(concurrency, n, chunk, [&](int begin, int end) {
+    std::vector<T>& part = parts[begin / chunk];
+    for (int i = begin; i < end; ++i) find(i, [&](const T& item) { part.push_back(item); });
+    std::sort(part.begin(), part.end());
+    drop_repeated(part);
+  });
+  if (parts.size() == 1) return std::move(parts.front());
+  std::vector<T> all = concatenated(concurrency, parts);
+  sort(concurrency, all.begin(), all.end());
+  drop_repeated(all);
+  return all;
 }
 
 /// Sum of `f(i)` over [0, n).
