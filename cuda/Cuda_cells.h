@@ -46,7 +46,7 @@ public:
   /// What `neighbors()` takes beside that.
   static std::size_t neighbors_bytes(int cells)
   {
-    const std::size_t n = std::min(cells, chunk);
+    const std::size_t n = std::min(cells, rows_chunk);
     return internal::bytes_of_listed<Neighbor_rows>(n) + cells * sizeof(unsigned char) +
            n * least_edges * sizeof(int);
   }
@@ -81,16 +81,18 @@ public:
   template <class Sink>
   void for_each_cell(Sink&& sink)
   {
-    for_each_chunk([&](int begin, int end, unsigned char* statuses) {
+    for_each_chunk(chunk, [&](int begin, int end, unsigned char* statuses) {
       for_each_cell(begin, end, statuses, sink);
     });
   }
 
   Neighbor_cycles neighbors()
   {
+    constexpr std::size_t mostly = 6;
     Neighbor_cycles all;
-    all.first.reserve(m_cells + std::size_t(1));
-    for_each_chunk([&](int begin, int end, unsigned char* statuses) {
+    all.first.resize(m_cells + std::size_t(1));
+    all.neighbors.reserve(mostly * m_cells);
+    for_each_chunk(rows_chunk, [&](int begin, int end, unsigned char* statuses) {
       add_neighbors(begin, end, statuses, all);
     });
     return all;
@@ -100,7 +102,8 @@ private:
   template <class T>
   using Buffer = Cuda_backend::Buffer<T>;
   static constexpr int stride = Tangent_polygon<Real>::capacity;
-  static constexpr int chunk = 1 << 20; // cells: 800 megabytes; each constructs all cells again
+  // Cells of 800 megabytes, with coordinates and without; each chunk constructs all cells again.
+  static constexpr int chunk = 1 << 20, rows_chunk = 3 << 20;
   static constexpr int least_edges = 5; // of a cell, on average: mostly 6
 
   struct Neighbor_rows {
@@ -116,9 +119,9 @@ private:
     }
   };
 
-  // Calls `f(begin, end, statuses)`; `statuses`: of all cells.
+  // Calls `f(begin, end, statuses)` for chunks of `chunk` cells; `statuses`: of all.
   template <class F>
-  void for_each_chunk(F&& f)
+  void for_each_chunk(int chunk, F&& f)
   {
     Buffer<unsigned char> statuses;
     statuses.allocate(m_backend, m_cells);
@@ -134,13 +137,18 @@ private:
     internal::allocate_listed(m_backend, rows, n);
     m_builder.polygons(begin, end, rows.sizes.data(), nullptr, nullptr, rows.padded.data(),
                        statuses);
-    for (const int size : downloaded(rows.sizes)) all.first.push_back(all.first.back() + size);
-    m_backend.upload(rows.first.data(), all.first.data() + begin, n);
+    std::size_t* const first = all.first.data() + begin;
+    const auto sizes = downloaded(rows.sizes);
+    const internal::Concurrency concurrency = Cuda_backend::concurrency();
+    internal::for_each_index(concurrency, int(n), [&](int i) { first[i] = sizes[i]; });
+    first[n] = internal::exclusive_scan(concurrency, int(n), first);
+    internal::for_each_index(concurrency, int(n) + 1, [&](int i) { first[i] += before; });
+    m_backend.upload(rows.first.data(), first, n);
     Buffer<int> packed;
-    packed.allocate(m_backend, all.first.back() - before);
+    packed.allocate(m_backend, first[n] - before);
     m_backend.for_each(int(n), Pack_rows{rows.sizes.data(), rows.first.data(), before,
                                          rows.padded.data(), packed.data()});
-    all.neighbors.resize(all.first.back());
+    all.neighbors.resize(first[n]);
     m_backend.download(all.neighbors.data() + before, packed.data(), packed.size());
   }
 
@@ -158,8 +166,8 @@ private:
       m_backend.fill(b->data(), Real(0), n * stride);
     }
     m_builder.polygons(begin, end, sizes.data(), x.data(), y.data(), neighbors.data(), statuses);
-    const std::vector<Real> xs = downloaded(x), ys = downloaded(y);
-    const std::vector<int> size = downloaded(sizes), neighbor = downloaded(neighbors);
+    const auto xs = downloaded(x), ys = downloaded(y);
+    const auto size = downloaded(sizes), neighbor = downloaded(neighbors);
     std::vector<unsigned char> status(n);
     m_backend.download(status.data(), statuses + begin, n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -175,9 +183,9 @@ private:
   }
 
   template <class T>
-  std::vector<T> downloaded(const Buffer<T>& buffer)
+  internal::Unset_vector<T> downloaded(const Buffer<T>& buffer)
   {
-    std::vector<T> items(buffer.size());
+    internal::Unset_vector<T> items(buffer.size());
     m_backend.download(items.data(), buffer.data(), items.size());
     return items;
   }

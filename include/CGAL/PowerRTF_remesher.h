@@ -198,14 +198,18 @@ private:
   PowerRTF::Extracted_mesh judged_mesh()
   {
     const PowerRTF::Feature_samples& features = m_patches.features();
-    PowerRTF::Samples all = samples();
+    PowerRTF::Samples all = m_engine.samples();
+    std::vector<int> carriers = all.facets; // of the patches; those on features may be others
+    const std::vector<int>& on_features = features.samples.facets;
+    carriers.insert(carriers.end(), on_features.begin(), on_features.end());
+    all = PowerRTF::joined(m_patches.on_whole(std::move(all)), features.samples);
     PowerRTF::move_off_kept_edges(m_surface, all.size() - features.size(), all);
     PowerRTF::Extracted_mesh mesh;
     if (!m_surface.is_closed_up()) {
-      mesh = triangulate(m_surface, all, features, {});
+      mesh = triangulate(m_surface, all, features, {}, carriers);
     } else {
       const PowerRTF::Opened_surface opened(m_surface, all, features);
-      mesh = triangulate(opened.surface(), opened.samples(), opened.features(), opened.seams());
+      mesh = triangulate(opened.surface(), opened.samples(), opened.features(), opened.seams(), {});
       PowerRTF::Opened_surface::sew_up(mesh);
     }
     const Stage stage("quality", m_report.seconds.quality);
@@ -280,7 +284,8 @@ private:
   PowerRTF::Extracted_mesh triangulate(const PowerRTF::Surface& surface,
                                        const PowerRTF::Samples& samples,
                                        const PowerRTF::Feature_samples& features,
-                                       const PowerRTF::Seam_places& seams)
+                                       const PowerRTF::Seam_places& seams,
+                                       const std::vector<int>& carriers)
   {
     PowerRTF::Extracted_mesh mesh;
     {
@@ -291,8 +296,7 @@ private:
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
       PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
-                             typename Traits::Concurrency_tag(), m_options.dislocations,
-                             m_surface.is_closed_up() ? std::vector<int>() : samples.facets,
+                             typename Traits::Concurrency_tag(), m_options.dislocations, carriers,
                              m_engine.close_face_finder(), m_engine.star_sweeps_maker());
     }
     return mesh;

@@ -5,19 +5,19 @@
 #ifndef CGAL_POWER_RTF_CELLS_NEIGHBOR_CYCLES_H
 #define CGAL_POWER_RTF_CELLS_NEIGHBOR_CYCLES_H
 
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL::PowerRTF {
 
 /// Those of cell i are `neighbors[first[i]]` to `neighbors[first[i + 1] - 1]`, counter-clockwise
 /// seen from outside; negative: a side of the guard square.
 struct Neighbor_cycles {
-  std::vector<std::size_t> first = {0};
-  std::vector<int> neighbors;
+  internal::Unset_vector<std::size_t> first = {0};
+  internal::Unset_vector<int> neighbors;
 
   class Cycle {
   public:
@@ -38,11 +38,11 @@ struct Neighbor_cycles {
   template <class Cycle_of>
   Neighbor_cycles(int cells, const Cycle_of& cycle,
                   internal::Concurrency concurrency = Sequential_tag())
-      : first(cells + 1, 0)
+      : first(cells + 1)
   {
     internal::for_each_index(concurrency, cells, [&](int i) { first[i] = cycle(i).size(); });
-    internal::resize_in_parallel(concurrency, neighbors,
-                                 internal::exclusive_scan(concurrency, cells + 1, first.data()));
+    first[cells] = internal::exclusive_scan(concurrency, cells, first.data());
+    neighbors.resize(first[cells]);
     internal::for_each_index(concurrency, cells, [&](int i) {
       std::copy(cycle(i).begin(), cycle(i).end(), neighbors.begin() + first[i]);
     });

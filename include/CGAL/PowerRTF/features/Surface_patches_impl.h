@@ -60,7 +60,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
   surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
   for (std::size_t v = 0; v < originals.size(); ++v)
     surface.vertex_normals[originals[v]] += m_own->vertex_normals[v];
-  internal::mend_vertex_normals(surface);
+  internal::mend_vertex_normals(surface, concurrency);
 }
 
 CGAL_POWER_RTF_INLINE void Surface_patches::place_features()

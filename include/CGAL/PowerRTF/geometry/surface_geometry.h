@@ -22,19 +22,24 @@ namespace internal {
 
 /// Gives vertices whose facets' normals cancel (the rim of a folded sheet) the normal of their
 /// largest facet.
-inline void mend_vertex_normals(Surface& surface)
+inline void mend_vertex_normals(Surface& surface, Concurrency concurrency)
 {
-  std::vector<double> largest(surface.points.size(), 0);
-  for (std::size_t f = 0; f < surface.triangles.size(); ++f)
-    for (const int v : surface.triangles[f])
-      if (surface.facet_areas[f] > largest[v] && squared_length(surface.vertex_normals[v]) < 0.5) {
-        largest[v] = surface.facet_areas[f];
-        surface.vertex_normals[v] = 0.5 * surface.facet_normals[f]; // 0.5: still to be replaced
-      }
-  for (Vec3d& n : surface.vertex_normals) {
+  const int vertices = static_cast<int>(surface.points.size());
+  const auto is_short = [&](int v) { return squared_length(surface.vertex_normals[v]) < 0.5; };
+  if (!select(concurrency, vertices, is_short).empty()) {
+    std::vector<double> largest(vertices, 0);
+    for (std::size_t f = 0; f < surface.triangles.size(); ++f)
+      for (const int v : surface.triangles[f])
+        if (surface.facet_areas[f] > largest[v] && is_short(v)) {
+          largest[v] = surface.facet_areas[f];
+          surface.vertex_normals[v] = 0.5 * surface.facet_normals[f]; // 0.5: still to be replaced
+        }
+  }
+  for_each_index(concurrency, vertices, [&](int v) {
+    Vec3d& n = surface.vertex_normals[v];
     n = normalized(n);
     if (squared_length(n) == 0) n = {0, 0, 1}; // all its facets are degenerate
-  }
+  });
 }
 
 /// Where a half goes on smoothly as its mirror image, its normals are along the plane.
@@ -96,7 +101,7 @@ inline void compute_geometry(Surface& surface, internal::Concurrency concurrency
     surface.vertex_normals[v] = l > no_direction ? sum * (1 / l) : Vec3d{0, 0, 0};
     return !(l > no_direction);
   });
-  if (!cancelled.empty()) internal::mend_vertex_normals(surface);
+  if (!cancelled.empty()) internal::mend_vertex_normals(surface, concurrency);
   if (surface.mirror) internal::level_mirror_normals(surface);
   internal::for_each_index(concurrency, facets, [&](int f) {
     if (angles[f] != std::array<double, 3>{0, 0, 0}) return;
