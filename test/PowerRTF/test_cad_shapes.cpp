@@ -127,7 +127,7 @@ TEST_CASE("a bracket with fillets keeps its flat faces")
 TEST_CASE("triangles between creases are round on average")
 {
   // without rounding and a spacing that follows the strips: .899, .941 and .929, and 1.6, .6 and
-  // 1.2 % above 90 degrees
+  // 1.2 % above 90 degrees; without another connectivity: .921, .950 and .944, and .4, .2 and .4 %
   const auto check = [](const shapes::Soup& soup, double least_mean, double most_above_90) {
     const judged_run::Scratch_folder folder;
     const Run run = met_run(folder, soup, {3000});
@@ -136,9 +136,9 @@ TEST_CASE("triangles between creases are round on average")
     CHECK(double(run.report["q_min"]) >= 0.69);
     CHECK(double(run.report["theta_min"]) >= 38);
   };
-  check(shapes::gear(0.5), 0.918, 0.005);
-  check(shapes::bracket(3, 16), 0.949, 0.003);
-  check(shapes::drilled_plate(3, 2), 0.944, 0.007);
+  check(shapes::gear(0.5), 0.929, 0.003);
+  check(shapes::bracket(3, 16), 0.956, 0.002);
+  check(shapes::drilled_plate(3, 2), 0.952, 0.004);
 }
 
 TEST_CASE("a plate with holes keeps its flat faces")

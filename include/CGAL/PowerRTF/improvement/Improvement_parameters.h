@@ -10,6 +10,8 @@
 
 #include <CGAL/PowerRTF/smoothing/Smoothing_parameters.h>
 
+#include <array>
+
 namespace CGAL::PowerRTF::internal {
 
 struct Improvement_parameters {
@@ -19,7 +21,8 @@ struct Improvement_parameters {
     static constexpr int smoothing_passes = 2, last_smoothing_passes = 2;
     static constexpr int optimization_rounds = 8;
     static constexpr int sliding_passes = 2, sliding_rounds = 4;
-    static constexpr int rounding_rounds = 2, last_rounding_rounds = 3;
+    static constexpr int rounding_rounds = 4, last_rounding_rounds = 8;
+    static constexpr int reconnection_passes = 3, last_reconnection_passes = 2;
     /// Of the largest distance, in h: more is undone.
     static constexpr double max_distance_growth = 0.2;
     /// Share of the largest distance from which on a place is worth a vertex of its own.
@@ -95,7 +98,7 @@ struct Improvement_parameters {
     static constexpr int pair_steps = 10;
     static constexpr double min_spacing = 0.4; ///< of neighbors, in edges of the curve
     /// The same at most, where a crease is not straight: the distance to it grows with the square.
-    static constexpr double max_spacing = 1.1;
+    static constexpr double max_spacing = 1.05;
     static constexpr double straight = 1e-6;        ///< 1 - cosine of its turn
     static constexpr double corner_cosine = 0.7071; ///< curves that turn more have a corner
     static constexpr double max_turn_cosine = 0.9;  ///< of a triangle
@@ -113,18 +116,35 @@ struct Improvement_parameters {
 
   /// round_mesh.h
   struct Rounding {
-    static constexpr double badness_weight = 12; ///< where 1 - Q has 1
-    /// Unroundness: mean of the triangles of a star that stays; of a triangle that flips are tried
-    /// around.
-    static constexpr double good = 0.01, bad = 0.4;
+    /// Of the badness, where 1 - Q has 1: as long as what is bad can be mended, and at last.
+    static constexpr double badness_weight = 1.2, last_badness_weight = 9;
+    static constexpr double tolerated_badness = 0.02; ///< Q .71, or 38.9 degrees, or 86.2 degrees
+    static constexpr double good =
+        0.01; ///< unroundness: mean of the triangles of a star that stays
     /// The search in the tangent plane: the first step in the mean edge of the star, how often it
     /// is halved, and the number of steps.
-    static constexpr double first_step = 0.05;
-    static constexpr int max_halvings = 3, max_steps = 6;
-    /// Least shape of the triangles that a flip makes, before the search of the vertices around it.
-    static constexpr double min_flip_shape = 0.3;
-    static constexpr int passes_per_flip = 3;     ///< of that search
+    static constexpr double first_step = 0.03;
+    static constexpr int max_halvings = 3, max_steps = 4;
     static constexpr double min_agreement = 0.75; ///< that a star or a flip must keep, if it had it
+  };
+
+  /// reconnect_mesh.h
+  struct Reconnection {
+    /// Unroundness of a triangle whose edges stay; that none may get.
+    static constexpr double round = 0.1, bad = 0.6;
+    /// Excess around an edge that may be flipped, split or collapsed.
+    static constexpr double min_flip_excess = 1.5, min_split_excess = 0.75,
+                            max_collapse_excess = -1.5;
+    static constexpr double min_split_length = 1.1; ///< in the mean edge around
+    /// What a collapse may cost: a split that follows gains more.
+    static constexpr double vertex_worth = 0.1;
+    static constexpr double min_agreement =
+        0.999;                                 ///< that a change must keep, if there was so much
+    static constexpr double first_step = 0.15; ///< of the search: see above
+    static constexpr int passes = 4;           ///< of that search
+    /// Where it ends: what the change has cost when the corners, and when all have moved once and
+    /// twice.
+    static constexpr std::array<double, 3> hopeless{1.5, 1.5, 0.4}, hopeless_split{5, 5, 3};
   };
 
   /// cover_tips.h

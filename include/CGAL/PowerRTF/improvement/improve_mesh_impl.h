@@ -15,7 +15,7 @@
 //     if there are creases or borders, twice:
 //       slide vertices along them; optimize                                slide_features.h
 //     if there are creases:
-//       make triangles rounder on average                                  round_mesh.h
+//       make triangles rounder on average             round_mesh.h, reconnect_mesh.h
 //       move vertices off bent creases, so that their edges come near      fit_creases.h
 //     move vertices to far tips of the surface and pin them; optimize      cover_tips.h
 //     fit the mesh to the surface by least squares; optimize               fit_to_surface.h
@@ -48,6 +48,7 @@
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/improvement/lower_distances.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
+#include <CGAL/PowerRTF/improvement/reconnect_mesh.h>
 #include <CGAL/PowerRTF/improvement/relocate_vertices.h>
 #include <CGAL/PowerRTF/improvement/round_mesh.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
@@ -56,6 +57,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -139,7 +141,7 @@ private:
     optimize();
     if (has_features) slide();
     const bool is_creased = has_features && has_creases(stars);
-    if (is_creased) round(stars, Schedule::rounding_rounds, Schedule::healable_badness);
+    if (is_creased) round(stars, false);
     part.next(0.63);
     m_tracker.update_all();
     part.next(0.66);
@@ -155,7 +157,7 @@ private:
     part.next(1);
     relocate(stars, optimizer);
     if (is_creased) {
-      round(stars, Schedule::last_rounding_rounds, Triangle_badness::tolerable);
+      round(stars, true);
       m_tracker.update();
     }
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
@@ -176,12 +178,24 @@ private:
     });
   }
 
-  // `limit`: the badness that creases may bring upon triangles when they are fitted.
-  void round(Star_mesh& stars, int rounds, double limit)
+  // Makes triangles rounder on average; `at_last`: so that none is bad, as nothing mends them.
+  void round(Star_mesh& stars, bool at_last)
   {
+    using Rounding = Improvement_parameters::Rounding;
     Feature_slider slider(stars, m_surface);
-    Mesh_rounder(stars, slider).run(rounds);
-    Crease_fitter(stars, slider, limit).run();
+    Mesh_rounder rounder(stars, slider, Rounding::badness_weight);
+    rounder.run(Schedule::rounding_rounds);
+    if (at_last) {
+      Mesh_reconnector(stars, rounder, Improvement_parameters::Reconnection::bad)
+          .run(Schedule::last_reconnection_passes);
+      Mesh_rounder(stars, slider, Rounding::last_badness_weight)
+          .run(Schedule::last_rounding_rounds);
+    } else {
+      Mesh_reconnector(stars, rounder, std::numeric_limits<double>::infinity())
+          .run(Schedule::reconnection_passes);
+    }
+    Crease_fitter(stars, slider, at_last ? Triangle_badness::tolerable : Schedule::healable_badness)
+        .run();
   }
 
   // The triangles between locked vertices, too, as far as no faces intersect.

@@ -187,6 +187,7 @@ private:
 
   static double unroundness_around(const Star& star, const Vec3d& p)
   {
+    constexpr Unroundness unroundness{Improvement_parameters::Rounding::last_badness_weight};
     double sum = 0;
     for (const Star::Corner& c : star.corners) sum += unroundness(p, c.a, c.b);
     return Parameters::unroundness_weight * sum / double(star.corners.size());

@@ -9,6 +9,8 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 
+#include <cmath>
+
 namespace CGAL::PowerRTF::internal {
 
 /// The mean of the star's edges at its center, `p`.
@@ -50,6 +52,35 @@ Vec3d search_tangent_plane(const Vec3d& p, const Vec3d& normal, double step, dou
     }
   }
   return p + su * u + sw * w;
+}
+
+/// The same in three directions, of which the first that is better is taken. They turn from step to
+/// step, by the golden angle: where the energy has ridges, few lead downwards.
+/// \param turn of the first directions, in radians
+template <class Parameters, class Energy>
+Vec3d search_tangent_plane(const Vec3d& p, const Vec3d& normal, double step, double turn,
+                           double& least, const Energy& energy)
+{
+  constexpr double golden_angle = 2.3999632297286533, d = 0.8660254037844386;
+  const auto [x, y] = PowerRTF::Tangent_frame<double>(normal);
+  Vec3d best = p;
+  for (int i = 0, halved = 0; i < Parameters::max_steps && halved < Parameters::max_halvings; ++i) {
+    const double cosine = std::cos(turn), sine = std::sin(turn);
+    const Vec3d u = cosine * x + sine * y, w = cosine * y - sine * x, from = best;
+    for (const Vec3d& direction : {u, d * w - .5 * u, -d * w - .5 * u}) {
+      const double limit = clearly_less * least, e = energy(from + step * direction, limit);
+      if (!(e < limit)) continue;
+      least = e;
+      best = from + step * direction;
+      break;
+    }
+    if (best == from) {
+      step /= 2;
+      ++halved;
+    }
+    turn += golden_angle;
+  }
+  return best;
 }
 
 } // namespace CGAL::PowerRTF::internal
