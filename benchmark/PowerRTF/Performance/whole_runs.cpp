@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Whole runs from mesh to mesh in one process: milliseconds of each stage, medians of the runs
-// after one to warm up. Memory is that of the program (tools/memory_blocks.cpp).
+// after one to warm up; `--runs 0`: that one. Memory is that of the program
+// (tools/memory_blocks.cpp).
 //
 //   whole_runs MODEL [--refine N] [--samples N,N,...] [--traits cpu|cuda] [--runs N]
 //              [--density uniform|curvature] [--seed N]
@@ -93,7 +94,7 @@ void measure(const Arguments& a, const Mesh& mesh, std::size_t n)
         mesh, n, out, CGAL::PowerRTF::parameters::remeshing_options(options).geom_traits(Traits()));
     Stage_seconds seconds = report.seconds;
     seconds.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (run > 0) runs.push_back(seconds);
+    if (run > 0 || a.runs == 0) runs.push_back(seconds);
   }
   std::printf("%-5s n %-9zu facets %-8zu", a.traits.c_str(), n, std::size_t(num_faces(mesh)));
   const auto print = [&](const char* name, double Stage_seconds::*stage) {

@@ -199,9 +199,8 @@ private:
     const auto joins = [&](const Vec3d& from, int start, const Vec3d& to, int end) {
       const Surface_walk walk(m_surface, from, to, up);
       return walk.leads_to(start, [end](int facet) { return facet == end; }) || // mostly
-             walk.leads_to(start, [&](int facet) {
-               return holds_point(m_surface, facet, to, end, scale);
-             });
+             walk.leads_to(
+                 start, [&](int facet) { return holds_point(m_surface, facet, to, end, scale); });
     };
     return joins(p, f, q, g) || joins(q, g, p, f);
   }
