@@ -99,10 +99,7 @@ public:
   Report& report() { return m_report; }
   /// The current samples, in the order of the output's vertices: those with cells, then those on
   /// creases and borders.
-  PowerRTF::Samples samples() const
-  {
-    return PowerRTF::joined(m_patches.on_whole(m_engine.samples()), m_patches.features().samples);
-  }
+  PowerRTF::Samples samples() const { return with_features(m_engine.samples()); }
   /// The sites of the cells: the samples that have one, then the copies of those on creases and
   /// borders, one for each patch at them.
   PowerRTF::Samples sites() const { return m_engine.sites(); }
@@ -194,6 +191,12 @@ private:
     m_report.iterations.clear();
   }
 
+  /// The engine's samples on the whole surface, then those on creases and borders.
+  PowerRTF::Samples with_features(PowerRTF::Samples samples) const
+  {
+    return PowerRTF::joined(m_patches.on_whole(std::move(samples)), m_patches.features().samples);
+  }
+
   /// Algorithm 3, line 22, and its judgment.
   PowerRTF::Extracted_mesh judged_mesh()
   {
@@ -202,7 +205,7 @@ private:
     std::vector<int> carriers = all.facets; // of the patches; those on features may be others
     const std::vector<int>& on_features = features.samples.facets;
     carriers.insert(carriers.end(), on_features.begin(), on_features.end());
-    all = PowerRTF::joined(m_patches.on_whole(std::move(all)), features.samples);
+    all = with_features(std::move(all));
     PowerRTF::move_off_kept_edges(m_surface, all.size() - features.size(), all);
     PowerRTF::Extracted_mesh mesh;
     if (!m_surface.is_closed_up()) {

@@ -124,6 +124,12 @@ TEST_CASE("a lattice whose spacing grows like the radius turns with the angle")
   view.edges = edges.data();
   for (int leaf = 0; leaf < tree.view().leaves(); ++leaf)
     Find_neighbors_of_leaf{{view, tree.view(), 0, 0.85f}}(leaf);
+  std::vector<Lattice_edge> edges_by_node(edges.size()); // as a GPU looks for them
+  Lattice_view by_node = view;
+  by_node.edges = edges_by_node.data();
+  for (int i = 0; i < view.size; ++i) Find_neighbors_of_node{{by_node, tree.view(), 0, 0.85f}}(i);
+  CHECK(std::equal(edges.begin(), edges.end(), edges_by_node.begin(),
+                   [](const Lattice_edge& a, const Lattice_edge& b) { return a.node == b.node; }));
   std::vector<double> errors;
   for (int i = 0; i < view.size; ++i) {
     Set_turning{view}(i);

@@ -119,8 +119,7 @@ struct Improvement_parameters {
     /// Of the badness, where 1 - Q has 1: as long as what is bad can be mended, and at last.
     static constexpr double badness_weight = 1.2, last_badness_weight = 9;
     static constexpr double tolerated_badness = 0.02; ///< Q .71, or 38.9 degrees, or 86.2 degrees
-    static constexpr double good =
-        0.01; ///< unroundness: mean of the triangles of a star that stays
+    static constexpr double good = 0.01;              ///< mean unroundness in a star that stays
     /// The search in the tangent plane: the first step in the mean edge of the star, how often it
     /// is halved, and the number of steps.
     static constexpr double first_step = 0.03;
@@ -138,10 +137,9 @@ struct Improvement_parameters {
     static constexpr double min_split_length = 1.1; ///< in the mean edge around
     /// What a collapse may cost: a split that follows gains more.
     static constexpr double vertex_worth = 0.1;
-    static constexpr double min_agreement =
-        0.999;                                 ///< that a change must keep, if there was so much
-    static constexpr double first_step = 0.15; ///< of the search: see above
-    static constexpr int passes = 4;           ///< of that search
+    static constexpr double min_agreement = 0.999; ///< that a change must keep, if it was there
+    static constexpr double first_step = 0.15;     ///< of the search: see above
+    static constexpr int passes = 4;               ///< of that search
     /// Where it ends: what the change has cost when the corners, and when all have moved once and
     /// twice.
     static constexpr std::array<double, 3> hopeless{1.5, 1.5, 0.4}, hopeless_split{5, 5, 3};

@@ -55,7 +55,8 @@ public:
   {
     for (int round = 0; round < rounds; ++round) {
       flip();
-      for_each_movable(m, [&](Vertex v) { search(v, Parameters::first_step, round); });
+      const double turn = round; // radians: other directions in each
+      for_each_movable(m, [&](Vertex v) { search(v, Parameters::first_step, turn); });
       for (const Vertex v : m.working().mesh.vertices()) m_slider.slide(v, m_unroundness);
     }
   }
