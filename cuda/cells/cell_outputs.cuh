@@ -49,7 +49,7 @@ __device__ inline void write_edges(const Group_view<Real>& view, const Cell_outp
     const Real dx = polygon.x[l] - polygon.x[k], dy = polygon.y[l] - polygon.y[k];
     const std::size_t at = std::size_t(count) * view.cells + id;
     out.edge_neighbor[at] = view.caller[j];
-    out.edge_ratio[at] = std::sqrt((dx * dx + dy * dy) / (a * a + b * b));
+    out.edge_ratio[at] = float(std::sqrt((dx * dx + dy * dy) / (a * a + b * b)));
     ++count;
   }
   out.edge_count[id] = count;

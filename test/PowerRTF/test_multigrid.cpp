@@ -225,9 +225,10 @@ TEST_CASE("Components, cells without edges, and cells that are tied to a fixed s
 template <class Real>
 Graph<Real> two_hubs(int n)
 {
+  constexpr int others = 12; // a row has room for them, but not for those of four rows
   Graph<Real> g(n);
   for (int i = 0; i < 8; ++i)
-    for (int k = 0; k < 20; ++k) g.add(i, 8 + 4 * (20 * (i % 4) + k) + i / 4, 1);
+    for (int k = 0; k < others; ++k) g.add(i, 8 + 4 * (others * (i % 4) + k) + i / 4, 1);
   for (int i = 8; i + 1 < n; ++i) g.add(i, i + 1, 1);
   g.add(3, 4, 1);
   return g;

@@ -45,7 +45,7 @@ std::vector<double> newton_direction(const std::vector<double>& areas,
     if (out.edge_count[e.i] == out.edge_capacity) continue;
     const std::size_t place = std::size_t(out.edge_count[e.i]++) * n + e.i;
     out.edge_neighbor[place] = e.j;
-    out.edge_ratio[place] = e.ratio;
+    out.edge_ratio[place] = float(e.ratio);
   }
   solver.solve(n, areas.data(), density.data(), keeps_area.data(), capacity_tolerance, goal, true);
   return {solver.direction(), solver.direction() + n};
@@ -193,13 +193,16 @@ TEST_CASE("Newton's direction for many cells: the residual falls as far as is pr
                         row * m + (column + 1) % m, row * m + (column + m - 1) % m})
       edges.push_back({i, j, 1});
   }
-  // Two cells with more edges than there is room for. They lead to cells of the same
-  // direction, so that they change nothing, left out or not.
+  // Two cells with more edges than there is room for: the first ones stay, on both sides.
+  std::vector<Capacity_edge> kept = edges;
+  const int room = Laplacian_rows<float>::capacity - 4;
   for (const int hub : {0, m / 2})
-    for (int row = 2; row < 42; ++row) {
-      edges.push_back({hub, hub + row * m, 5});
-      edges.push_back({hub + row * m, hub, 5});
-    }
+    for (int row = 2; row < 42; ++row)
+      for (const Capacity_edge& e :
+           {Capacity_edge{hub, hub + row * m, 5}, {hub + row * m, hub, 5}}) {
+        edges.push_back(e);
+        if (row < 2 + room) kept.push_back(e);
+      }
   const std::vector<double> direction =
       newton_direction(areas, density, edges, std::vector<unsigned char>(m * m, 0));
   REQUIRE(direction.size() == areas.size());
@@ -207,7 +210,7 @@ TEST_CASE("Newton's direction for many cells: the residual falls as far as is pr
   double squares = 0, before = 0;
   for (const double area : areas) residual.push_back(1 - area);
   for (const double r : residual) before += r * r;
-  for (const Capacity_edge& e : edges)
+  for (const Capacity_edge& e : kept)
     residual[e.i] -= e.ratio / 2 * (direction[e.i] - direction[e.j]);
   for (const double r : residual) squares += r * r;
   CHECK(squares <= 0.03 * 0.03 * before);

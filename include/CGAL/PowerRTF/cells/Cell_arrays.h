@@ -46,7 +46,7 @@ struct Cell_outputs {
   unsigned char* status = nullptr; ///< a `Cell_status`
   int* edge_count = nullptr;       ///< edges with a neighbor, at most `edge_capacity`
   int* edge_neighbor = nullptr;    ///< edge k of cell i: [k * cells + i]
-  Real* edge_ratio = nullptr;      ///< its length over the tangential distance of the neighbor
+  float* edge_ratio = nullptr;     ///< its length over the tangential distance of the neighbor
   int edge_capacity = 0;
 };
 
@@ -82,7 +82,7 @@ write_polygon(const Sites_arrays<Real>& in, const Cell_outputs<Real>& out, int i
     const Real x = polygon.x[l] - polygon.x[k], y = polygon.y[l] - polygon.y[k];
     out.edge_neighbor[std::size_t(count) * in.cells + i] = j;
     out.edge_ratio[std::size_t(count++) * in.cells + i] =
-        std::sqrt((x * x + y * y) / (a * a + b * b));
+        float(std::sqrt((x * x + y * y) / (a * a + b * b)));
   }
   out.edge_count[i] = count;
 }

@@ -170,6 +170,11 @@ private:
     m_lbfgs.reset();
     m_long_lbfgs.reset();
   }
+  void forget_newton()
+  {
+    m_newton.reset();
+    m_are_edges_wanted = m_are_edges_known = m_are_components_known = false;
+  }
   Newton_solver<Real, Backend>& newton()
   {
     return m_newton ? *m_newton : m_newton.emplace(m_backend);

@@ -22,7 +22,8 @@ std::size_t Engine<R, B, C>::bytes(const Run_sizes& sizes, const Remeshing_optio
   const int n = static_cast<int>(sizes.samples);
   const bool has_lbfgs = options.position_method == Position_method::lbfgs;
   const bool has_newton = options.weight_method == Weight_method::newton;
-  // The lattice goes before the samples come, and the steps of L-BFGS before Newton's.
+  // The lattice goes before the samples come, the steps of L-BFGS before Newton's, and these before
+  // the neighbors.
   const std::size_t sampling =
       options.sampling == Sampling::lattice
           ? Lattice_field<B>::bytes(sizes.samples, sizes.facets, sizes.is_even)
@@ -30,18 +31,17 @@ std::size_t Engine<R, B, C>::bytes(const Run_sizes& sizes, const Remeshing_optio
   const bool has_features = sizes.has_patches; // which creases part
   const std::size_t samples = bytes_of_listed<Engine>(n, n, sizes.has_patches, has_features) +
                               C::bytes(n, has_features) + B::sort_bytes(n);
-  std::size_t steps = 0, best = 0;
-  if (has_lbfgs) {
-    best = bytes_of_listed<Best_state>(n);
-    steps = options.lbfgs_memory <= short_memory
-                ? bytes_of_listed<Lbfgs<R, B, short_memory>>(n)
-                : bytes_of_listed<Lbfgs<R, B, max_lbfgs_memory>>(n);
-  }
-  std::size_t end = has_newton ? Newton_solver<R, B>::bytes(n) : steps;
+  std::size_t positions = 0, weights = 0, extraction = 0;
+  if (has_lbfgs)
+    positions =
+        bytes_of_listed<Best_state>(n) + (options.lbfgs_memory <= short_memory
+                                              ? bytes_of_listed<Lbfgs<R, B, short_memory>>(n)
+                                              : bytes_of_listed<Lbfgs<R, B, max_lbfgs_memory>>(n));
+  if (has_newton) weights = Newton_solver<R, B>::bytes(n);
   if (options.extraction == Extraction_method::cells)
-    end += n * sizeof(Site<R>) + C::neighbors_bytes(n); // see neighbors()
+    extraction = n * sizeof(Site<R>) + C::neighbors_bytes(n); // see neighbors()
   return B::least_bytes() + Surface_arrays<R, B>::bytes(sizes, options) +
-         (std::max)(sampling, samples + best + (std::max)(steps, end));
+         (std::max)(sampling, samples + (std::max)({positions, weights, extraction}));
 }
 
 } // namespace CGAL::PowerRTF

@@ -185,6 +185,8 @@ std::vector<Cell_polygon> Engine<R, B, C>::cells()
 template <class R, class B, class C>
 Neighbor_cycles Engine<R, B, C>::neighbors()
 {
+  finish_cells();
+  forget_newton();
   Buffer<Site<R>> plain;
   plain.allocate(m_backend, m_size);
   copy_without_weights(m_backend, m_size, m_sites.data(), plain.data());
@@ -201,9 +203,8 @@ void Engine<R, B, C>::release_memory()
 {
   finish_cells();
   forget_lbfgs();
-  m_newton.reset();
+  forget_newton();
   m_best = {};
-  m_are_edges_wanted = m_are_edges_known = false;
   make_builder();
   m_builder->set_sites(sites());
 }

@@ -165,6 +165,7 @@ bool Engine<R, B, C>::newton_weights()
     newton().solve(m_cells, m_area.data(), m_density.data(), m_is_left_out.data(),
                    m_options.capacity_tolerance, m_newton_goal, !m_are_components_known);
     m_are_components_known = true;
+    m_are_edges_known = false;
     gather_weights(m_backend, m_cells, m_sites.data(), m_weights_before.data());
     for (const double step : newton_weight_steps) {
       if (step == 1 && m_has_newton_overshot) continue;
@@ -209,9 +210,12 @@ double Engine<R, B, C>::remember_best()
 template <class R, class B, class C>
 void Engine<R, B, C>::restore_best()
 {
-  if (!(remember_best() > 1)) return;
-  copy_state(m_backend, m_size, m_sites.data(), m_facets.data(), m_best.sites.data(),
-             m_best.facets.data());
+  const bool is_best = !(remember_best() > 1);
+  if (!is_best)
+    copy_state(m_backend, m_size, m_sites.data(), m_facets.data(), m_best.sites.data(),
+               m_best.facets.data());
+  m_best = {};
+  if (is_best) return;
   update_attributes();
   build_cells();
   forget_lbfgs();

@@ -13,7 +13,7 @@ namespace CGAL::PowerRTF {
 /// length: entry k of row i at [k * n + i].
 template <class Real>
 struct Laplacian_rows {
-  static constexpr int capacity = 24; // of the edges of most cells there are 5 to 7
+  static constexpr int capacity = 16; // of the edges of most cells there are 5 to 7
   int* size;
   int* column;
   Real* value; ///< -L_ij > 0

@@ -117,7 +117,6 @@ void subtract_component_means(Backend& backend, int n, double* x, const Componen
 template <class Real, class Backend>
 class Newton_solver {
 public:
-  static constexpr int edge_capacity = 16;
   /// A direction is near enough when it would bring all areas within this part of the capacity
   /// interval around their targets, or leave this part of the residual's norm: what one step
   /// leaves, the next one takes. On the host, where the cells take longer than the system, only the
@@ -136,12 +135,10 @@ public:
   {
     using S = Newton_solver;
     constexpr std::size_t row = Laplacian_rows<Row>::capacity;
-    f(&S::m_edge_count, n);
-    f(&S::m_edge_neighbor, n * edge_capacity);
-    f(&S::m_edge_ratio, n * edge_capacity);
-    for (auto array : {&S::m_row_size, &S::m_label, &S::m_is_anchored}) f(array, n);
+    for (auto array : {&S::m_row_size, &S::m_length, &S::m_label, &S::m_is_anchored}) f(array, n);
     f(&S::m_column, n * row);
     f(&S::m_value, n * row);
+    f(&S::m_is_tied, n);
     for (auto array : {&S::m_diagonal, &S::m_x, &S::m_r, &S::m_limits}) f(array, n);
     f(&S::m_exchanged, n <= Backend::max_resident ? 2 * n : 0);
   }
@@ -156,15 +153,15 @@ public:
   void add_outputs(int n, Cell_outputs<Real>& out)
   {
     internal::allocate_listed(m_backend, *this, n);
-    out.edge_count = m_edge_count.data();
-    out.edge_neighbor = m_edge_neighbor.data();
-    out.edge_ratio = m_edge_ratio.data();
-    out.edge_capacity = edge_capacity;
+    out.edge_count = m_row_size.data();
+    out.edge_neighbor = m_column.data();
+    out.edge_ratio = m_value.data();
+    out.edge_capacity = Laplacian_rows<Row>::capacity;
   }
 
-  /// Solves for the direction from areas and densities, after the edges have been written; 0 when
-  /// the system cannot be solved. Cells with `keeps_area[i]` have their own area as the target.
-  /// `find_components`: the cells may hang together in another way than last time.
+  /// Solves for the direction from areas and densities, after the edges have been written, which it
+  /// uses up; 0 when the system cannot be solved. Cells with `keeps_area[i]` have their own area as
+  /// the target. `find_components`: the cells may hang together in another way than last time.
   void solve(int n, const Real* area, const Real* density, const unsigned char* keeps_area,
              double capacity_tolerance, const Newton_goal& goal, bool find_components);
 
@@ -177,10 +174,6 @@ private:
   using Row = float; ///< of the matrix: iterations wait for memory
 
   void iterate();
-  Cell_edges<Real> edges() const
-  {
-    return {m_edge_count.data(), m_edge_neighbor.data(), m_edge_ratio.data()};
-  }
   Component_view components() { return {m_label.data(), m_is_anchored.data()}; }
   Laplacian_rows<Row> rows()
   {
@@ -192,10 +185,10 @@ private:
   int m_n = 0;
   double m_screening = 0;
   bool m_is_connected = false;
-  Buffer<int> m_edge_count, m_edge_neighbor;
-  Buffer<Real> m_edge_ratio;
-  Buffer<int> m_row_size, m_column, m_label, m_is_anchored;
+  Buffer<int> m_row_size, m_column; // of the cells' edges before
   Buffer<Row> m_value;
+  Buffer<int> m_length, m_label, m_is_anchored;
+  Buffer<unsigned char> m_is_tied;
   Buffer<double> m_diagonal, m_x, m_r, m_limits, m_scalars;
   Buffer<double> m_exchanged; // see `Resident_gradients`: one after the other
   Multigrid_gradients<Row, Backend> m_gradients;
@@ -209,10 +202,10 @@ void Newton_solver<Real, Backend>::solve(int n, const Real* area, const Real* de
 {
   m_n = n;
   m_screening = goal.screening * capacity_tolerance;
-  assemble_laplacian(m_backend, edges(), rows());
+  assemble_laplacian(m_backend, rows(), m_length.data(), m_is_tied.data());
   if (find_components)
-    m_is_connected =
-        PowerRTF::find_components(m_backend, rows(), edges(), components(), m_scalars.data()) == 1;
+    m_is_connected = PowerRTF::find_components(m_backend, rows(), m_is_tied.data(), components(),
+                                               m_scalars.data()) == 1;
   if (!m_is_connected)
     for (auto& s : m_sums) s.allocate(m_backend, n);
   long long* const sums[] = {m_is_connected ? nullptr : m_sums[0].data(),

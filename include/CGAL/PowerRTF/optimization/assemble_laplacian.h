@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The Laplacian of the cells from the edges that each cell has found.
+// The Laplacian of the cells from the edges that each cell has found, in the memory of these.
 #ifndef CGAL_POWER_RTF_OPTIMIZATION_ASSEMBLE_LAPLACIAN_H
 #define CGAL_POWER_RTF_OPTIMIZATION_ASSEMBLE_LAPLACIAN_H
 
@@ -12,74 +12,90 @@
 
 namespace CGAL::PowerRTF {
 
-/// The edges of n cells; see `Cell_outputs`.
-template <class Real>
-struct Cell_edges {
-  const int *count, *neighbor;
-  const Real* ratio;
-};
+namespace internal {
 
-/// Writes the rows of L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4 with the diagonal that makes their sums
-/// 0, plus the edges with sites that have no cell: the weights of these stay. The diagonal is
-/// screened.
-template <class Real, class Row, class Backend>
-void assemble_laplacian(Backend& backend, const Cell_edges<Real>& edges,
-                        const Laplacian_rows<Row>& a)
+/// Adds up the values of row i that belong to column j, and sets them to 0.
+template <class Row>
+CGAL_POWER_RTF_HD inline double take_values(const Laplacian_rows<Row>& a, int i, int j, int length)
 {
-  constexpr int capacity = Laplacian_rows<Real>::capacity;
-  const int n = a.n;
-  const std::size_t stride = n;
+  double sum = 0;
+  for (int k = 0; k < length; ++k) {
+    if (a.column[a.place(k, i)] != j) continue;
+    sum += a.value[a.place(k, i)];
+    a.value[a.place(k, i)] = 0;
+  }
+  return sum;
+}
 
-  // Own edges, with the other side's where the other cell has the edge too.
-  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
-    int size = 0;
-    for (int k = 0; k < edges.count[i]; ++k) {
-      const int j = edges.neighbor[k * stride + i];
-      if (j >= n) continue; // a site without a cell: see below
-      Real sum = edges.ratio[k * stride + i];
-      for (int l = 0; l < edges.count[j]; ++l)
-        if (edges.neighbor[l * stride + j] == i) sum += edges.ratio[l * stride + j];
-      a.column[size * stride + i] = j;
-      a.value[size++ * stride + i] = Row(sum / 4);
+/// Orders the first `length` entries of row i by their columns.
+template <class Row>
+CGAL_POWER_RTF_HD inline void sort_row(const Laplacian_rows<Row>& a, int i, int length)
+{
+  for (int k = 1; k < length; ++k) {
+    const int column = a.column[a.place(k, i)];
+    const Row value = a.value[a.place(k, i)];
+    int to = k;
+    for (; to > 0 && a.column[a.place(to - 1, i)] > column; --to) {
+      a.column[a.place(to, i)] = a.column[a.place(to - 1, i)];
+      a.value[a.place(to, i)] = a.value[a.place(to - 1, i)];
     }
-    a.size[i] = size;
-  });
-  // Edges that only the other cell has; they come in any order and are sorted.
+    a.column[a.place(to, i)] = column;
+    a.value[a.place(to, i)] = value;
+  }
+}
+
+} // namespace internal
+
+/// Makes rows of L_ij = -(e_ij/d_ij + e_ji/d_ji) / 4 where the edges are that the cells have found:
+/// their numbers, neighbors and ratios (see `Cell_outputs`) are `a.size`, `a.column` and `a.value`.
+/// The diagonal makes the sums 0, plus the edges with sites that have no cell, from n on: the
+/// weights of these stay. It is screened. L is symmetric.
+///
+/// \param length n numbers, to work with
+/// \param is_tied whether a cell has an edge with a site that has none
+template <class Row, class Backend>
+void assemble_laplacian(Backend& backend, const Laplacian_rows<Row>& a, int* length,
+                        unsigned char* is_tied)
+{
+  constexpr int capacity = Laplacian_rows<Row>::capacity;
+  const int n = a.n;
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { length[i] = a.size[i]; });
+  // The first of two cells writes what is the same for both. A value below 0: the other cell had
+  // not found the edge, and has it now if there is room.
   backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
-    for (int k = 0; k < edges.count[i]; ++k) {
-      const int j = edges.neighbor[k * stride + i];
-      if (j >= n) continue;
-      bool is_mutual = false;
-      for (int l = 0; l < edges.count[j]; ++l)
-        is_mutual = is_mutual || edges.neighbor[l * stride + j] == i;
-      if (is_mutual) continue;
-      const int place = atomic_add(&a.size[j], 1);
-      if (place >= capacity) continue;
-      a.column[place * stride + j] = i;
-      a.value[place * stride + j] = Row(edges.ratio[k * stride + i] / 4);
-    }
-  });
-  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
-    if (a.size[i] > capacity) { // which of the others came first is chance: the own edges stay
-      a.size[i] = 0;
-      for (int k = 0; k < edges.count[i]; ++k) a.size[i] += edges.neighbor[k * stride + i] < n;
-    }
     const int size = a.size[i];
-    double sum = 0;
-    for (int k = 0; k < edges.count[i]; ++k) // the weight of a site without a cell stays
-      if (edges.neighbor[k * stride + i] >= n) sum += double(edges.ratio[k * stride + i]) / 2;
-    for (int k = 1; k < size; ++k) {
-      const int column = a.column[k * stride + i];
-      const Row value = a.value[k * stride + i];
-      int place = k;
-      for (; place > 0 && a.column[(place - 1) * stride + i] > column; --place) {
-        a.column[place * stride + i] = a.column[(place - 1) * stride + i];
-        a.value[place * stride + i] = a.value[(place - 1) * stride + i];
-      }
-      a.column[place * stride + i] = column;
-      a.value[place * stride + i] = value;
+    for (int k = 0; k < size; ++k) {
+      const int j = a.column[a.place(k, i)];
+      if (j >= n || a.entry(i, j, k) < k) continue;
+      const int there = a.entry(j, i, a.size[j]);
+      const bool is_mutual = there < a.size[j];
+      if (is_mutual && j < i) continue;
+      double sum = internal::take_values(a, i, j, size);
+      if (is_mutual) sum += internal::take_values(a, j, i, a.size[j]);
+      const Row value = Row(sum / 4);
+      a.value[a.place(k, i)] = is_mutual ? value : -value;
+      if (is_mutual) a.value[a.place(there, j)] = value;
+      if (is_mutual) continue;
+      const int place = atomic_add(&length[j], 1);
+      if (place >= capacity) continue;
+      a.column[a.place(place, j)] = i;
+      a.value[a.place(place, j)] = value;
     }
-    for (int k = 0; k < size; ++k) sum += a.value[k * stride + i];
+  });
+  // Where there was not room for all others, which of them came first is chance: none stays.
+  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
+    const int size = length[i] > capacity ? a.size[i] : length[i];
+    internal::sort_row(a, i, size);
+    double sum = 0;
+    int k = 0;
+    for (; k < size && a.column[a.place(k, i)] < n; ++k) {
+      Row& value = a.value[a.place(k, i)];
+      if (value < 0) value = length[a.column[a.place(k, i)]] > capacity ? Row(0) : -value;
+      sum += value;
+    }
+    a.size[i] = k;
+    is_tied[i] = k < size;
+    for (; k < size; ++k) sum += double(a.value[a.place(k, i)]) / 2;
     a.diagonal[i] = sum * (1 + a.screening);
   });
 }

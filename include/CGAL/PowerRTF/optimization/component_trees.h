@@ -18,10 +18,11 @@ struct Component_view {
   int* is_anchored; ///< by label: whether a cell has an edge with a site that has none
 };
 
-/// Finds the components. \param scalar memory of the backend for one number
+/// Finds the components. \param is_tied see `assemble_laplacian()`
+/// \param scalar memory of the backend for one number
 /// \returns their number
-template <class Real, class Row, class Backend>
-int find_components(Backend& backend, const Laplacian_rows<Row>& a, const Cell_edges<Real>& edges,
+template <class Row, class Backend>
+int find_components(Backend& backend, const Laplacian_rows<Row>& a, const unsigned char* is_tied,
                     const Component_view& components, double* scalar)
 {
   const int n = a.n;
@@ -40,8 +41,7 @@ int find_components(Backend& backend, const Laplacian_rows<Row>& a, const Cell_e
       [=] CGAL_POWER_RTF_HD(const Totals<1, 0>& t) { *scalar = t.sum(0); });
   backend.fill(is_anchored, 0, n);
   backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
-    for (int k = 0; k < edges.count[i]; ++k)
-      if (edges.neighbor[a.place(k, i)] >= n) atomic_store(is_anchored + label[i], 1);
+    if (is_tied[i]) atomic_store(is_anchored + label[i], 1);
   });
   double count;
   backend.download(&count, scalar, 1);
