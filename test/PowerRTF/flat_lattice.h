@@ -22,7 +22,8 @@ struct Flat_lattice {
 
   std::vector<Vec3f> points;
   std::vector<double> angles; ///< of the axes
-  std::vector<Vec3f> normals, turning, axes;
+  std::vector<Vec3f> normals, turning;
+  std::vector<float> axes;
   std::vector<int> components;
   std::vector<float> spacing;
   std::vector<Stored_waves> waves;
@@ -80,7 +81,12 @@ struct Flat_lattice {
   }
 
 private:
-  static Vec3f axis_at(double theta) { return {float(std::cos(theta)), float(std::sin(theta)), 0}; }
+  static float axis_at(double theta)
+  {
+    const CGAL::PowerRTF::Tangent_frame<float> frame(Vec3f{0, 0, 1});
+    const Vec3f axis{float(std::cos(theta)), float(std::sin(theta)), 0};
+    return CGAL::PowerRTF::quarter_tangent({dot(axis, frame.u), dot(axis, frame.v)});
+  }
   /// `p`: from a point of the lattice
   static Stored_waves waves_at(const Vec3d& p, double theta, double h)
   {

@@ -82,6 +82,20 @@ TEST_CASE("a product of stored phasors can be stored")
     }
 }
 
+TEST_CASE("a turn in 16 bits")
+{
+  const auto turn_error = [](float turns) {
+    return distance_of(Short_turn(phasor_at(turns)), phasor_at(turns));
+  };
+  double worst = 0;
+  for (int k = -100000; k <= 100000; ++k) worst = std::max(worst, turn_error(float(k) / 200000));
+  CHECK(worst < 1e-4);
+  for (const Phasor p : {Phasor{1, 0}, Phasor{0, 1}, Phasor{-1, 0}, Phasor{0, -1}})
+    CHECK(distance_of(Short_turn(p), p) < 1e-4);
+  for (const Phasor p : {Phasor(Short_turn()), Phasor(Short_turn(Phasor{}))})
+    CHECK(distance_of(p, Phasor{}) == 0); // nothing is known
+}
+
 TEST_CASE("a perfect lattice is a fixed point, whatever the nodes' axes")
 {
   for (unsigned seed = 0; seed < 5; ++seed) {

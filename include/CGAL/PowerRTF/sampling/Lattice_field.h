@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -82,15 +83,15 @@ public:
     m_shares.set(m_backend, plan.shares);
     float reach = neighbor_reach;
     for (std::size_t l = 0; l < plan.free.size(); ++l) {
-      const auto make_nodes = [&](Level& level) {
-        m_backend.for_each(
-            level.free, Make_node<Real>{surface, strata(), plan.cube, m_shares.data(), level.free,
-                                        plan.seed_of(l), level.points.data(), level.normals.data(),
-                                        level.components.data(), level.spacing.data()});
-      };
-      m_levels.emplace_back(m_backend, plan.free[l], plan.sites[l], reach, make_nodes);
+      m_levels.emplace_back(plan.free[l], plan.sites[l], reach);
       reach *= 2;
     }
+    m_make_nodes = [this, surface](Level& level, std::uint64_t seed) {
+      m_backend.for_each(
+          level.free, Make_node<Real>{surface, strata(), m_plan.cube, m_shares.data(), level.free,
+                                      seed, level.points.data(), level.normals.data(),
+                                      level.components.data(), level.spacing.data()});
+    };
   }
 
   /// The most that fields for so many points hold at a time on a device: while the finest level's
@@ -99,17 +100,18 @@ public:
   {
     const std::vector<std::size_t> sizes = lattice_levels(points);
     const std::size_t n = sizes.front(), coarser = sizes.size() > 1 ? sizes[1] : 0;
-    std::size_t sum = facets * (2 * sizeof(int) + sizeof(double));
-    for (const std::size_t size : sizes) sum += Level::node_bytes(size);
+    const std::size_t nodes = facets * (2 * sizeof(int) + sizeof(double)) + Level::node_bytes(n);
     const std::size_t solved = Level::edges_bytes(n) + Level::solved_bytes(n, !is_even);
     const std::size_t selecting = n * (sizeof(unsigned char) + sizeof(int));
     const std::size_t chosen = points * (sizeof(int) + sizeof(Seen_point));
-    const std::size_t placing = n * sizeof(Stored_waves) + Level::solved_bytes(coarser, !is_even);
+    const std::size_t placing = n * sizeof(Stored_waves) + Level::node_bytes(coarser) +
+                                Level::solved_bytes(coarser, !is_even);
     const std::size_t choosing = n * sizeof(Seen_point) + selecting + chosen;
     const std::size_t gathering = chosen + selecting + points * sizeof(Sample_candidate);
     const std::size_t eliminating =
         chosen + points * sizeof(Sample_candidate) + choosing_bytes(points);
-    return sum + (std::max)({solved + placing, solved + choosing, solved + gathering, eliminating});
+    return nodes +
+           (std::max)({solved + placing, solved + choosing, solved + gathering, eliminating});
   }
 
   void solve(float factor) override
@@ -120,6 +122,7 @@ public:
       const internal::Progress_part level_part(std::ldexp(1., -2 * int(l))); // of all nodes
       internal::Progress_part part(0.2);
       if (coarser) coarser->edges = {};
+      level.make_nodes(m_backend, [&](Level& made) { m_make_nodes(made, m_plan.seed_of(l)); });
       level.scale = factor;
       level.find_neighbors(m_backend);
       part.next(0.4);
@@ -127,7 +130,7 @@ public:
         orient(level, coarser, coarser ? direction_sweeps : coarsest_sweeps);
       part.next(1);
       place(level, coarser, l == 0 ? last_wave_sweeps : wave_sweeps);
-      if (coarser) coarser->release();
+      if (coarser) coarser->release_nodes();
     }
   }
 
@@ -381,6 +384,7 @@ private:
   Given<int> m_bases, m_components; // the plan's strata
   Given<double> m_sums;
   Given<Component_share> m_shares;
+  std::function<void(Level&, std::uint64_t seed)> m_make_nodes;
   std::deque<Level> m_levels; // from fine to coarse
   Chosen_points<Backend> m_chosen;
 };

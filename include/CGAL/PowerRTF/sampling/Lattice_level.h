@@ -28,17 +28,22 @@ public:
   float reach = 0; ///< see `Find_lattice_neighbors`
   const Lattice_sites* sites = nullptr;
   Buffer<unsigned char> is_directed; ///< of the sites
-  Buffer<Vec3f> turning, axes;
+  Buffer<Vec3f> turning;
+  Buffer<float> axes;
   Buffer<Lattice_edge> edges;
   Buffer<Stored_waves> waves;
 
-  /// Keeps a reference to the sites. `make(*this)` makes the free nodes.
-  template <class Make>
-  Lattice_level(Backend& backend, std::size_t free_nodes, const Lattice_sites& its_sites,
-                float neighbor_reach, const Make& make)
+  /// Keeps a reference to the sites.
+  Lattice_level(std::size_t free_nodes, const Lattice_sites& its_sites, float neighbor_reach)
       : size(static_cast<int>(free_nodes + its_sites.size())), free(static_cast<int>(free_nodes)),
         reach(neighbor_reach), sites(&its_sites)
+  {}
+
+  /// Makes the nodes, if they are not there. `make(*this)` makes the free ones.
+  template <class Make>
+  void make_nodes(Backend& backend, const Make& make)
   {
+    if (points.size() > 0) return;
     for_each_of_node([&](auto array, auto) { (this->*array).allocate(backend, size); });
     make(*this);
     if (sites->size() == 0) return;
@@ -66,8 +71,8 @@ public:
     return v;
   }
 
-  // What n free nodes take on a device: always; from their neighbors on; until the finer level has
-  // what is solved.
+  // What n free nodes take on a device: from the beginning; from their neighbors on; once they are
+  // solved.
   static std::size_t node_bytes(std::size_t n)
   {
     std::size_t bytes = 0;
@@ -80,7 +85,7 @@ public:
   }
   static std::size_t solved_bytes(std::size_t n, bool is_turning)
   {
-    return n * ((is_turning ? 2 : 1) * sizeof(Vec3f) + sizeof(Stored_waves));
+    return n * ((is_turning ? sizeof(Vec3f) : 0) + sizeof(float) + sizeof(Stored_waves));
   }
 
   void find_turning(Backend& backend)
@@ -101,8 +106,8 @@ public:
   {
     constexpr float cos_angle = 0.2f; // nodes on the other side of a sheet are none
     if (edges.size() > 0) return;
-    edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
     const Point_tree tree(backend, points.data(), size);
+    edges.allocate(backend, static_cast<std::size_t>(size) * Lattice_view::degree);
     const Find_lattice_neighbors find{view(), tree.view(), cos_angle, reach};
     if constexpr (Backend::is_host)
       backend.for_each(tree.view().leaves(), Find_neighbors_of_leaf{find});
@@ -110,12 +115,18 @@ public:
       backend.for_each(size, Find_neighbors_of_node{find});
   }
 
-  /// Frees what finer levels need no longer.
+  /// Frees the fields.
   void release()
   {
     turning = {};
     axes = {};
     waves = {};
+  }
+  /// Frees the nodes and the fields, which finer levels need no longer.
+  void release_nodes()
+  {
+    release();
+    for_each_of_node([&](auto array, auto) { this->*array = {}; });
   }
 
 private:

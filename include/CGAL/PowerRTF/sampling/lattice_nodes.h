@@ -21,9 +21,9 @@ using Vec3f = Vec3<float>;
 struct Lattice_edge {
   static constexpr unsigned none = (1u << 29) - 1;
 
-  unsigned node : 29;   ///< the neighbor; `none`: there is none, nor any after it
-  unsigned sixths : 3;  ///< of a turn, from this node's axis to the neighbor's
-  Short_phasor turn[2]; ///< what its phasors are multiplied by
+  unsigned node : 29;  ///< the neighbor; `none`: there is none, nor any after it
+  unsigned sixths : 3; ///< of a turn, from this node's axis to the neighbor's
+  Short_turn turn[2];  ///< what its phasors are multiplied by
 };
 
 /// The waves whose crests are the rows of a hexagonal lattice, in the three directions: wave k has
@@ -52,11 +52,18 @@ struct Lattice_view {
   Lattice_edge* edges = nullptr; ///< `degree` per node, by increasing distance
 
   Vec3f* turning = nullptr; ///< angle of the lattice per length (`Set_turning`); null: none
-  Vec3f* axes = nullptr;    ///< unit tangents along a row of the lattice
+  float* axes = nullptr;    ///< `quarter_tangent()` of a row's direction in the tangent frame
   Stored_waves* waves = nullptr;
 
   /// h, the distance between neighbors in the lattice.
   CGAL_POWER_RTF_HD float spacing(int i) const { return scale * node_spacing[i]; }
+  /// The unit tangent along a row of the lattice.
+  CGAL_POWER_RTF_HD Vec3f axis(int i) const
+  {
+    const Tangent_frame<float> frame(normals[i]);
+    const Phasor a = phasor_of_quarter(axes[i]);
+    return a.x * frame.u + a.y * frame.v;
+  }
   CGAL_POWER_RTF_HD Lattice_edge* first_edge(int i) const
   {
     return edges + static_cast<std::size_t>(degree) * i;

@@ -37,8 +37,7 @@ CGAL_POWER_RTF_HD inline Phasor direction_turn(const Lattice_view& from, int j,
 /// u of a node whose axis is known.
 CGAL_POWER_RTF_HD inline Phasor axis_direction(const Lattice_view& view, int i)
 {
-  const Tangent_frame<float> frame(view.normals[i]);
-  return sixth_power({dot(view.axes[i], frame.u), dot(view.axes[i], frame.v)});
+  return sixth_power(phasor_of_quarter(view.axes[i]));
 }
 
 struct Set_direction_edges {
@@ -90,9 +89,7 @@ struct Set_axis {
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
-    const Tangent_frame<float> frame(view.normals[i]);
-    const Phasor a = phasor_at(turns_of(directions[i]) / 6);
-    view.axes[i] = a.x * frame.u + a.y * frame.v;
+    view.axes[i] = quarter_tangent(phasor_at(turns_of(directions[i]) / 6));
   }
 };
 

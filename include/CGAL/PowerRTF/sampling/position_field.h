@@ -23,7 +23,7 @@ struct Lattice_vector {
 CGAL_POWER_RTF_HD inline Lattice_vector unrolled(const Lattice_view& view, int i, const Vec3f& v,
                                                  float length)
 {
-  const Vec3f axis = view.axes[i];
+  const Vec3f axis = view.axis(i);
   const float x = dot(v, axis), y = dot(v, cross(view.normals[i], axis));
   const float flat = std::sqrt(x * x + y * y);
   const float factor = length / ((flat > 0.1f * length ? flat : 0.1f * length) * view.spacing(i));
@@ -40,9 +40,10 @@ struct Lattice_step {
 CGAL_POWER_RTF_HD inline Lattice_step lattice_step(const Lattice_view& from, int j,
                                                    const Lattice_view& to, int i)
 {
-  const Vec3f n = to.normals[i], axis = carried(from.axes[j], from.normals[j], n);
+  const Vec3f n = to.normals[i], own = to.axis(i);
+  const Vec3f axis = carried(from.axis(j), from.normals[j], n);
   const Phasor turned = // from the axis of i to that of j
-      Phasor{dot(axis, to.axes[i]), dot(axis, cross(n, to.axes[i]))} *
+      Phasor{dot(axis, own), dot(axis, cross(n, own))} *
       phasor_at(0.159154943f * turning_between(from, j, to, i));
   // Of the axes at 0, 1 and 2 sixths of a turn, the one that is nearest, or its opposite.
   constexpr float half = 0.5f, root = 0.866025404f; // sqrt 3 / 2
@@ -169,7 +170,7 @@ CGAL_POWER_RTF_HD inline Vec3f nearest_lattice_point(const Lattice_view& view, i
       y = from_y;
     }
   distance = std::sqrt(best);
-  const Vec3f axis = view.axes[i];
+  const Vec3f axis = view.axis(i);
   return view.points[i] - view.spacing(i) * (x * axis + y * cross(view.normals[i], axis));
 }
 
