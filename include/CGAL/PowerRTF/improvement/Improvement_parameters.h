@@ -180,6 +180,7 @@ struct Improvement_parameters {
   /// relocate_vertices.h
   struct Relocation {
     static constexpr int max_tips = 4, max_tries = 3; ///< whatever the size of the mesh
+    static constexpr std::size_t max_candidates = 1 << 17; ///< of the vertices to be spared
     static constexpr double min_distance = 0.2;       ///< in h: nearer places stay
     static constexpr double min_separation = 3;       ///< in h, of places that change
     static constexpr double intersection_radius = 4;  ///< in h, around a change: what is checked

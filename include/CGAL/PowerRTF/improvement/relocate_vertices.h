@@ -34,6 +34,7 @@ public:
 
   Vertex_relocator(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, Distance_tracker& tracker)
       : m(mesh), m_optimizer(optimizer), m_tracker(tracker), m_steep(mesh), m_spare_changed(mesh),
+        m_stride(1 + mesh.size() / Parameters::max_candidates),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size())))
   {}
 
@@ -257,15 +258,16 @@ private:
     return false;
   }
 
-  // The vertices in flat parts that leave the best triangles behind, apart from `places`.
+  // The vertices in flat parts that leave the best triangles behind, apart from `places`; of a
+  // large mesh, of some vertices: many are as good.
   std::vector<Vertex> find_spare(std::vector<Vec3d> places)
   {
     update_spare_badness();
     std::vector<std::pair<double, Vertex>> candidates;
-    for (const int v : select(m.concurrency(), int(m.size()), [&](int v) {
-           return m_spare_badness[v] < Parameters::max_collapse_badness;
+    for (const int k : select(m.concurrency(), int(m_spare_badness.size()), [&](int k) {
+           return m_spare_badness[k] < Parameters::max_collapse_badness;
          }))
-      candidates.push_back({m_spare_badness[v], Vertex(v)});
+      candidates.push_back({m_spare_badness[k], Vertex(k * m_stride)});
     sort(m.concurrency(), candidates.begin(), candidates.end());
     std::vector<Vertex> spare;
     for (const auto& [b, v] : candidates)
@@ -281,13 +283,16 @@ private:
   void update_spare_badness()
   {
     const std::vector<int> changed = m_spare_changed.take();
-    const auto update = [this](Vertex v) { m_spare_badness[v] = best_collapse(v).first; };
+    const auto update = [this](std::size_t v) {
+      if (v % m_stride == 0) m_spare_badness[v / m_stride] = best_collapse(Vertex(v)).first;
+    };
     if (m_spare_changed.are_few(changed)) {
       const std::vector<Vertex> around = vertices_around(m, changed);
       for_each_index(m.concurrency(), int(around.size()), [&](int k) { update(around[k]); });
     } else {
-      m_spare_badness.resize(m.size());
-      for_each_index(m.concurrency(), int(m.size()), [&](int v) { update(Vertex(v)); });
+      m_spare_badness.resize((m.size() + m_stride - 1) / m_stride);
+      for_each_index(m.concurrency(), int(m_spare_badness.size()),
+                     [&](int k) { update(k * m_stride); });
     }
   }
 
@@ -419,7 +424,8 @@ private:
   Distance_tracker& m_tracker;
   Watched_faces m_steep;                // have an edge that may be flipped and is steep
   Changed_vertices m_spare_changed;     // since the following was found
-  Unset_vector<double> m_spare_badness; // by vertex: see `best_collapse()`
+  std::size_t m_stride;                 // between the vertices that may be spared
+  Unset_vector<double> m_spare_badness; // of these: see `best_collapse()`
   double m_spacing, m_tolerable = 0;
 };
 

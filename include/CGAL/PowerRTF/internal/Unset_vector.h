@@ -5,6 +5,7 @@
 
 #include <CGAL/PowerRTF/internal/huge_pages.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <type_traits>
@@ -44,9 +45,23 @@ struct Unset_allocator : std::allocator<T> {
 };
 
 /// A vector whose `resize()` does not set the new items: threads set them, each its own, and so the
-/// memory comes in parallel, too.
+/// memory comes in parallel, too. It is copied from and to a `std::vector<T>`.
 template <class T>
-using Unset_vector = std::vector<T, Unset_allocator<T>>;
+class Unset_vector : public std::vector<T, Unset_allocator<T>> {
+  using Base = std::vector<T, Unset_allocator<T>>;
+
+public:
+  using Base::Base;
+  Unset_vector() = default;
+  Unset_vector(const std::vector<T>& v) : Base(v.begin(), v.end()) {}
+  operator std::vector<T>() const { return std::vector<T>(this->begin(), this->end()); }
+
+  friend bool operator==(const Unset_vector& a, const std::vector<T>& b)
+  {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+  friend bool operator==(const std::vector<T>& a, const Unset_vector& b) { return b == a; }
+};
 
 } // namespace CGAL::PowerRTF::internal
 

@@ -92,6 +92,7 @@ public:
                                       seed, level.points.data(), level.normals.data(),
                                       level.components.data(), level.spacing.data()});
     };
+    make_nodes(0);
   }
 
   /// The most that fields for so many points hold at a time on a device: while the finest level's
@@ -122,7 +123,7 @@ public:
       const internal::Progress_part level_part(std::ldexp(1., -2 * int(l))); // of all nodes
       internal::Progress_part part(0.2);
       if (coarser) coarser->edges = {};
-      level.make_nodes(m_backend, [&](Level& made) { m_make_nodes(made, m_plan.seed_of(l)); });
+      make_nodes(l);
       level.scale = factor;
       level.find_neighbors(m_backend);
       part.next(0.4);
@@ -307,6 +308,12 @@ private:
           view.free, Smooth_waves{level.view(), next.data(), sweep == 0 ? 1 : wave_acceleration});
       std::swap(level.waves, next);
     }
+  }
+
+  /// Of level `l`, if they are not there.
+  void make_nodes(std::size_t l)
+  {
+    m_levels[l].make_nodes(m_backend, [&](Level& to) { m_make_nodes(to, m_plan.seed_of(l)); });
   }
 
   Strata_view strata() const
