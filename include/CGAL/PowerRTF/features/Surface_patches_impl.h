@@ -65,7 +65,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
 
 CGAL_POWER_RTF_INLINE void Surface_patches::place_features()
 {
-  if (m_parents.empty()) return;
+  if (m_parents.empty() || m_features.sites.facets.empty()) return;
   std::vector<int> parts(m_whole.triangles.size());
   for (std::size_t f = m_parents.size(); f-- > 0;) parts[m_parents[f]] = static_cast<int>(f);
   for (int& f : m_features.sites.facets) f = parts[f];
