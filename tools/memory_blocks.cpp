@@ -14,6 +14,7 @@
 #endif
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) &&                                        \
     !POWER_RTF_HAS_FEATURE(address_sanitizer) && !POWER_RTF_HAS_FEATURE(thread_sanitizer)
+#define POWER_RTF_KEEPS_LARGE_BLOCKS
 
 #include <cstddef>
 #include <cstdint>
