@@ -6,9 +6,9 @@
 // (tools/memory_blocks.cpp).
 //
 //   whole_runs MODEL [--refine N] [--samples N,N,...] [--traits cpu|cuda] [--runs N]
-//              [--density uniform|curvature] [--seed N]
+//              [--density uniform|curvature] [--seed N] [--threads N]
 //
-// `--refine`: N times by Loop's subdivision.
+// `--refine`: N times by Loop's subdivision. `--threads`: at most (default: all).
 #include <CGAL/power_rtf_remeshing.h>
 #ifdef CGAL_POWER_RTF_WITH_CUDA
 #include <CGAL/PowerRTF/PowerRTF_cuda_traits_3.h>
@@ -18,6 +18,9 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/subdivision_method_3.h>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include <algorithm>
 #include <chrono>
@@ -38,7 +41,7 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 struct Arguments {
   std::string model, traits = "cpu", density = "uniform";
   std::vector<std::size_t> samples = {3000};
-  int refine = 0, runs = 5;
+  int refine = 0, runs = 5, threads = 0;
   unsigned seed = 0;
 };
 
@@ -57,6 +60,8 @@ Arguments parse(int argc, char** argv)
       a.refine = std::stoi(value);
     else if (word == "--runs")
       a.runs = std::stoi(value);
+    else if (word == "--threads")
+      a.threads = std::stoi(value);
     else if (word == "--seed")
       a.seed = unsigned(std::stoul(value));
     else if (word == "--traits")
@@ -119,6 +124,9 @@ int main(int argc, char** argv)
 {
   try {
     const Arguments a = parse(argc, argv);
+    const tbb::global_control limit(
+        tbb::global_control::max_allowed_parallelism,
+        std::size_t(a.threads > 0 ? a.threads : tbb::info::default_concurrency()));
     Mesh mesh;
     if (!CGAL::IO::read_polygon_mesh(a.model, mesh))
       throw std::invalid_argument(a.model + ": cannot be read");
