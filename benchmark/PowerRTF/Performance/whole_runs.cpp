@@ -19,8 +19,10 @@
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/subdivision_method_3.h>
 
+#ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#endif
 
 #include <algorithm>
 #include <chrono>
@@ -124,9 +126,11 @@ int main(int argc, char** argv)
 {
   try {
     const Arguments a = parse(argc, argv);
+#ifdef CGAL_LINKED_WITH_TBB
     const tbb::global_control limit(
         tbb::global_control::max_allowed_parallelism,
         std::size_t(a.threads > 0 ? a.threads : tbb::info::default_concurrency()));
+#endif
     Mesh mesh;
     if (!CGAL::IO::read_polygon_mesh(a.model, mesh))
       throw std::invalid_argument(a.model + ": cannot be read");
