@@ -290,7 +290,7 @@ private:
     for (int i = 0; i < view.size; ++i) {
       fields.nodes.push_back(m_cube.to_outside(to_double(view.points[i])));
       fields.normals.push_back(to_double(view.normals[i]));
-      fields.axes.push_back(to_double(view.axis(i)));
+      fields.axes.push_back(to_double(view.frame(i).axis));
       fields.spacing.push_back(view.spacing(i) / m_cube.scale);
     }
     fields.indices.resize(view.size);

@@ -145,8 +145,8 @@ inline int dislocation(const Lattice_view& view, const Node_loop& loop)
   float sums[Waves::size] = {0, 0, 0};
   int sixths = 0; // of a turn, from the axis of the step's end to that of the first node
   loop.for_each_step([&](int j, int k) {
-    const Lattice_step step = lattice_step(view, j, view, k);
-    const Waves arrived = carried(wave_edge(view, j, view, k), view.waves[j]);
+    const Lattice_step step = lattice_step(view, j, view, k, view.frame(k));
+    const Waves arrived = carried(wave_edge(view, j, view, k, view.frame(k)), view.waves[j]);
     sixths += step.sixths;
     const float phases[] = {step.phases[0], step.phases[1], -step.phases[0] - step.phases[1]};
     for (int m = 0; m < Waves::size; ++m) {

@@ -23,7 +23,14 @@ struct Lattice_edge {
 
   unsigned node : 29;  ///< the neighbor; `none`: there is none, nor any after it
   unsigned sixths : 3; ///< of a turn, from this node's axis to the neighbor's
-  Short_turn turn[2];  ///< what its phasors are multiplied by
+  union {
+    Short_phasor direction_turn; ///< what its direction is multiplied by, while these are smoothed
+    Short_turn turns[2];         ///< then: what its phasors are multiplied by
+  };
+
+  CGAL_POWER_RTF_HD explicit Lattice_edge(unsigned its_node = none, unsigned its_sixths = 0)
+      : node(its_node), sixths(its_sixths), turns{}
+  {}
 };
 
 /// The waves whose crests are the rows of a hexagonal lattice, in the three directions: wave k has
@@ -37,6 +44,11 @@ struct Basic_waves {
 };
 using Waves = Basic_waves<Phasor>;
 using Stored_waves = Basic_waves<Short_phasor>;
+
+/// The unit tangent at a node along a row of the lattice, and the one to its left.
+struct Lattice_frame {
+  Vec3f axis, left;
+};
 
 /// Nodes of one level of the hierarchy. Non-owning.
 struct Lattice_view {
@@ -57,12 +69,12 @@ struct Lattice_view {
 
   /// h, the distance between neighbors in the lattice.
   CGAL_POWER_RTF_HD float spacing(int i) const { return scale * node_spacing[i]; }
-  /// The unit tangent along a row of the lattice.
-  CGAL_POWER_RTF_HD Vec3f axis(int i) const
+  CGAL_POWER_RTF_HD Lattice_frame frame(int i) const
   {
     const Tangent_frame<float> frame(normals[i]);
     const Phasor a = phasor_of_quarter(axes[i]);
-    return a.x * frame.u + a.y * frame.v;
+    const Vec3f axis = a.x * frame.u + a.y * frame.v;
+    return {axis, cross(normals[i], axis)};
   }
   CGAL_POWER_RTF_HD Lattice_edge* first_edge(int i) const
   {
@@ -129,7 +141,7 @@ struct Find_lattice_neighbors {
     if (count < enough) count = tree.nearest<degree>(p, everywhere, found, counts);
     Lattice_edge* const edges = view.first_edge(i);
     for (int e = 0; e < degree; ++e)
-      edges[e] = {e < count ? unsigned(found[e]) : Lattice_edge::none, 0, {}};
+      edges[e] = Lattice_edge(e < count ? unsigned(found[e]) : Lattice_edge::none);
   }
 };
 

@@ -46,7 +46,7 @@ struct Set_direction_edges {
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
     for_each_edge(view, i, [&](Lattice_edge& edge) {
-      edge.turn[0] = direction_turn(view, int(edge.node), view, i);
+      edge.direction_turn = direction_turn(view, int(edge.node), view, i);
     });
   }
 };
@@ -75,7 +75,7 @@ struct Smooth_direction {
     Phasor sum = directions[i];
     if (i < view.free || !is_directed[i - view.free]) {
       for_each_edge(view, i, [&](const Lattice_edge& edge) {
-        sum = sum + Phasor(edge.turn[0]) * directions[edge.node];
+        sum = sum + Phasor(edge.direction_turn) * directions[edge.node];
       });
       sum = unit(sum);
     }

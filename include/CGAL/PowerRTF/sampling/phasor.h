@@ -46,13 +46,18 @@ CGAL_POWER_RTF_HD inline float nearest_integer(float x)
   return (x + ones) - ones;
 }
 
-/// The phasor of a full turn times `turns`, up to 3e-5; 1 for 2^21 turns and more, whose fractions
-/// a float does not have. (Taylor's series within a quarter: much faster than the library's
-/// functions, and the same on every machine.)
-CGAL_POWER_RTF_HD inline Phasor phasor_at(float turns)
+/// The number; 0 for 2^21 and more, whose fractions a float does not have.
+CGAL_POWER_RTF_HD inline float if_resolved(float turns)
 {
   constexpr float most = 1 << 21;
-  turns = turns > -most && turns < most ? turns : 0;
+  return turns > -most && turns < most ? turns : 0;
+}
+
+/// The phasor of a full turn times `turns`, up to 3e-5; 1 for 2^21 turns and more. (Taylor's series
+/// within a quarter: much faster than the library's functions, and the same on every machine.)
+CGAL_POWER_RTF_HD inline Phasor phasor_at(float turns)
+{
+  turns = if_resolved(turns);
   const float half_turns = nearest_integer(2 * turns);
   const float a = 6.28318531f * (turns - 0.5f * half_turns), a_2 = a * a;
   constexpr float by_6 = 1 / 6.f, by_20 = 1 / 20.f, by_42 = 1 / 42.f, by_72 = 1 / 72.f;
@@ -97,6 +102,14 @@ CGAL_POWER_RTF_HD inline float quarter_tangent(Phasor a)
   return sine / (1 + cosine);
 }
 
+/// The same of the phasor of a full turn times `turns`. (Lambert's continued fraction.)
+CGAL_POWER_RTF_HD inline float quarter_tangent_at(float turns)
+{
+  turns = if_resolved(turns);
+  const float a = 1.57079633f * (turns - nearest_integer(turns)), a_2 = a * a;
+  return a * (945 + a_2 * (a_2 - 105)) / (945 + a_2 * (15 * a_2 - 420));
+}
+
 /// The phasor with this `quarter_tangent()`. (Without functions, in fewer steps than
 /// `phasor_at()`.)
 CGAL_POWER_RTF_HD inline Phasor phasor_of_quarter(float t)
@@ -106,25 +119,22 @@ CGAL_POWER_RTF_HD inline Phasor phasor_of_quarter(float t)
   return {cosine * cosine - sine * sine, 2 * sine * cosine};
 }
 
-/// A phasor of length 1, or 0, in a quarter of the memory, up to 1e-4.
+/// A phasor of length 1 in a quarter of the memory, up to 1e-4.
 class Short_turn {
 public:
   Short_turn() = default;
-  CGAL_POWER_RTF_HD Short_turn(Phasor a)
-  {
-    if (a.x != 0 || a.y != 0)
-      m_tangent = static_cast<std::int16_t>(nearest_integer(one * quarter_tangent(a)));
-  }
+  CGAL_POWER_RTF_HD explicit Short_turn(float turns)
+      : m_tangent(static_cast<std::int16_t>(nearest_integer(one * quarter_tangent_at(turns))))
+  {}
   CGAL_POWER_RTF_HD operator Phasor() const
   {
     constexpr float by_one = 1 / one;
-    return m_tangent == zero ? Phasor() : phasor_of_quarter(by_one * float(m_tangent));
+    return phasor_of_quarter(by_one * float(m_tangent));
   }
 
 private:
   static constexpr float one = 32767;
-  static constexpr std::int16_t zero = -32768;
-  std::int16_t m_tangent = zero; // of a quarter of the angle
+  std::int16_t m_tangent = 0; // of a quarter of the angle
 };
 
 /// The angle in turns, from -1/2 to 1/2.

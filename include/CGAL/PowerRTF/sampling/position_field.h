@@ -19,14 +19,13 @@ struct Lattice_vector {
   float x, y;
 };
 
-/// `v`, of the given length, in the frame of node `i`: unrolled, not projected.
-CGAL_POWER_RTF_HD inline Lattice_vector unrolled(const Lattice_view& view, int i, const Vec3f& v,
-                                                 float length)
+/// `v`, of the given length, in a frame: unrolled, not projected.
+CGAL_POWER_RTF_HD inline Lattice_vector unrolled(const Lattice_frame& frame, float spacing,
+                                                 const Vec3f& v, float length)
 {
-  const Vec3f axis = view.axis(i);
-  const float x = dot(v, axis), y = dot(v, cross(view.normals[i], axis));
+  const float x = dot(v, frame.axis), y = dot(v, frame.left);
   const float flat = std::sqrt(x * x + y * y);
-  const float factor = length / ((flat > 0.1f * length ? flat : 0.1f * length) * view.spacing(i));
+  const float factor = length / ((flat > 0.1f * length ? flat : 0.1f * length) * spacing);
   return length > 0 ? Lattice_vector{factor * x, factor * y} : Lattice_vector{0, 0};
 }
 
@@ -36,14 +35,16 @@ struct Lattice_step {
   float phases[2]; ///< what the first two waves pass through, in turns
 };
 
-/// From node `j` to node `i`; the phases are the means of those that the two nodes see.
+/// From node `j` to node `i`, whose frame is `own`; the phases are the means of those that the two
+/// nodes see.
 CGAL_POWER_RTF_HD inline Lattice_step lattice_step(const Lattice_view& from, int j,
-                                                   const Lattice_view& to, int i)
+                                                   const Lattice_view& to, int i,
+                                                   const Lattice_frame& own)
 {
-  const Vec3f n = to.normals[i], own = to.axis(i);
-  const Vec3f axis = carried(from.axis(j), from.normals[j], n);
+  const Lattice_frame other = from.frame(j);
+  const Vec3f axis = carried(other.axis, from.normals[j], to.normals[i]);
   const Phasor turned = // from the axis of i to that of j
-      Phasor{dot(axis, own), dot(axis, cross(n, own))} *
+      Phasor{dot(axis, own.axis), dot(axis, own.left)} *
       phasor_at(0.159154943f * turning_between(from, j, to, i));
   // Of the axes at 0, 1 and 2 sixths of a turn, the one that is nearest, or its opposite.
   constexpr float half = 0.5f, root = 0.866025404f; // sqrt 3 / 2
@@ -61,7 +62,8 @@ CGAL_POWER_RTF_HD inline Lattice_step lattice_step(const Lattice_view& from, int
   if (most < 0) sixths += 3;
   const Vec3f d = step_between(from, j, to, i);
   const float distance = length(d);
-  const Lattice_vector here = unrolled(to, i, d, distance), there = unrolled(from, j, d, distance);
+  const Lattice_vector here = unrolled(own, to.spacing(i), d, distance),
+                       there = unrolled(other, from.spacing(j), d, distance);
   const float x = 0.5f * (here.x + best.x * there.x - best.y * there.y);
   const float y = 0.5f * (here.y + best.y * there.x + best.x * there.y);
   constexpr float slope = 0.577350269f; // 1 / sqrt 3
@@ -70,21 +72,19 @@ CGAL_POWER_RTF_HD inline Lattice_step lattice_step(const Lattice_view& from, int
 
 /// What the waves of node `j` need to become those of node `i`: the waves seen from a lattice that
 /// is turned by sixths, and the phases of the way.
-CGAL_POWER_RTF_HD inline Lattice_edge wave_edge(const Lattice_view& from, int j,
-                                                const Lattice_view& to, int i)
+CGAL_POWER_RTF_HD inline Lattice_edge
+wave_edge(const Lattice_view& from, int j, const Lattice_view& to, int i, const Lattice_frame& own)
 {
-  const Lattice_step step = lattice_step(from, j, to, i);
-  Lattice_edge edge;
-  edge.node = unsigned(j);
-  edge.sixths = unsigned(step.sixths);
-  for (int k = 0; k < 2; ++k) edge.turn[k] = phasor_at(step.phases[k]);
+  const Lattice_step step = lattice_step(from, j, to, i, own);
+  Lattice_edge edge(unsigned(j), unsigned(step.sixths));
+  for (int k = 0; k < 2; ++k) edge.turns[k] = Short_turn(step.phases[k]);
   return edge;
 }
 
 /// The waves of the edge's node as they arrive.
 CGAL_POWER_RTF_HD inline Waves carried(const Lattice_edge& edge, const Stored_waves& from)
 {
-  const Phasor first = edge.turn[0], second = edge.turn[1];
+  const Phasor first = edge.turns[0], second = edge.turns[1];
   const Phasor turn[] = {first, second, conjugate(first * second)};
   Waves to;
   for (int k = 0; k < Waves::size; ++k) {
@@ -104,8 +104,9 @@ struct Set_wave_edges {
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
-    for_each_edge(view, i,
-                  [&](Lattice_edge& edge) { edge = wave_edge(view, int(edge.node), view, i); });
+    const Lattice_frame own = view.frame(i);
+    for_each_edge(
+        view, i, [&](Lattice_edge& edge) { edge = wave_edge(view, int(edge.node), view, i, own); });
   }
 };
 
@@ -118,7 +119,8 @@ struct Refine_waves {
     const int j = coarse_node(coarse, fine, i);
     const bool has_guess = is_carried(coarse.normals[j], fine.normals[i]);
     fine.waves[i] =
-        stored(has_guess ? carried(wave_edge(coarse, j, fine, i), coarse.waves[j]) : Waves{});
+        stored(has_guess ? carried(wave_edge(coarse, j, fine, i, fine.frame(i)), coarse.waves[j])
+                         : Waves{});
   }
 };
 
@@ -170,8 +172,8 @@ CGAL_POWER_RTF_HD inline Vec3f nearest_lattice_point(const Lattice_view& view, i
       y = from_y;
     }
   distance = std::sqrt(best);
-  const Vec3f axis = view.axis(i);
-  return view.points[i] - view.spacing(i) * (x * axis + y * cross(view.normals[i], axis));
+  const Lattice_frame frame = view.frame(i);
+  return view.points[i] - view.spacing(i) * (x * frame.axis + y * frame.left);
 }
 
 } // namespace CGAL::PowerRTF
