@@ -87,7 +87,7 @@ TEST_CASE("a turn by the tangent of a quarter of its angle")
   double worst = 0, worst_short = 0;
   for (int k = -100000; k <= 100000; ++k) {
     const float turns = float(k) / 50000;
-    const Phasor exact = phasor_at(turns);
+    const Phasor exact{float(std::cos(2 * pi * turns)), float(std::sin(2 * pi * turns))};
     worst = std::max(worst, distance_of(phasor_of_quarter(quarter_tangent(exact)), exact));
     worst_short = std::max(worst_short, distance_of(Short_turn(turns), exact));
   }
