@@ -7,12 +7,12 @@ whole_run_rooflines.py PROGRAM MODEL [ARGUMENT ...] > results/gpu_stages.md
 
 PROGRAM is the built whole_runs; one run of it on MODEL, with the arguments, is watched by Nsight
 Compute (ncu) at the clocks that the GPU chooses, with caches as the kernels before have left them.
-The kernels count to the part of the library whose folder has their source: the first name in
-theirs that is defined in one. Percentages are means over the time of what a part, or a kernel,
-reaches of the most that the GPU could: `issue`, instructions of the schedulers; `DRAM` and `L2`,
-bytes of device memory and of the cache before it; `warps`, the warps that a multiprocessor can
-hold. What is above 60 per cent limits; where nothing is, latency does: too few warps, or threads
-that wait for memory one after another.
+Or PROGRAM is a file NAME.csv with what ncu has printed (see `profile()`), on a machine without
+Python. The kernels count to the part of the library whose folder has their source: the first name
+in theirs that is defined in one. Percentages are means over the time of what a part, or a kernel,
+reaches of the most that the GPU could: `issue`, instructions of the schedulers; `DRAM`, bytes of
+device memory. What is above 60 per cent limits; where neither is, latency does: too few warps, or
+threads that wait for caches and for one another.
 """
 
 import collections
@@ -29,8 +29,6 @@ TIME = "gpu__time_duration.sum"
 SHARES = {
     "issue": "smsp__issue_active.avg.pct_of_peak_sustained_elapsed",
     "DRAM": "dram__throughput.avg.pct_of_peak_sustained_elapsed",
-    "L2": "lts__throughput.avg.pct_of_peak_sustained_elapsed",
-    "warps": "sm__warps_active.avg.pct_of_peak_sustained_active",
 }
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1, "s": 1e3}
 LIMIT = 60  # per cent
@@ -46,7 +44,7 @@ def definitions():
     for top, suffixes in (("include/CGAL/PowerRTF", (".h",)), ("cuda", (".h", ".cuh", ".cu"))):
         for file in sorted((ROOT / top).rglob("*")):
             if file.suffix in suffixes and "test" not in file.parts:
-                folder = file.parent.relative_to(ROOT / top).as_posix()
+                folder = file.parent.relative_to(ROOT / top).as_posix().replace(".", "backend")
                 for one, other in pattern.findall(file.read_text()):
                     folders.setdefault(one or other, folder)
     return folders
@@ -54,9 +52,13 @@ def definitions():
 
 def profile(command):
     """Name, milliseconds and shares of each kernel."""
-    out = subprocess.run(["ncu", "--clock-control", "none", "--cache-control", "none", "--csv",
-                          "--page", "raw", "--metrics", ",".join([TIME, *SHARES.values()]),
-                          *command], check=True, capture_output=True, text=True).stdout
+    if command[0].endswith(".csv"):
+        out = pathlib.Path(command[0]).read_text()
+    else:
+        out = subprocess.run(["ncu", "--clock-control", "none", "--cache-control", "none", "--csv",
+                              "--page", "raw", "--metrics", ",".join([TIME, *SHARES.values()]),
+                              *command, "--runs", "0"],
+                             check=True, capture_output=True, text=True).stdout
     rows = list(csv.reader(line for line in out.splitlines() if line.startswith('"')))
     names, units = rows[0], rows[1]
 
@@ -84,7 +86,7 @@ def table(groups, heading):
     for name, kernels in groups:
         total = sum(ms for ms, _ in kernels)
         means = [sum(ms * shares[k] for ms, shares in kernels) / total for k in range(len(SHARES))]
-        share, limit = max(zip(means[:-1], SHARES))
+        share, limit = max(zip(means, SHARES))
         print(f"| {name} | {len(kernels)} | {total:.2f} | "
               f"{' | '.join(f'{mean:.0f} %' for mean in means)} | "
               f"{limit if share > LIMIT else 'latency'} |")
@@ -94,7 +96,7 @@ def main():
     folders = definitions()
     parts, names = collections.defaultdict(list), collections.defaultdict(list)
     everything = []
-    for name, ms, shares in profile([*sys.argv[1:], "--runs", "0"]):
+    for name, ms, shares in profile(sys.argv[1:]):
         part, short = place(name, folders)
         parts[part].append((ms, shares))
         names[f"{part}: {short}"].append((ms, shares))
