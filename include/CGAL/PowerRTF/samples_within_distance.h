@@ -40,14 +40,14 @@ double smallest_of_falling(double first, double most, const Ratio& ratio)
 }
 
 /// The same where `ratio` scatters about what it should be, by some tenths: below, a few numbers do
-/// by luck. Of the next ten, each 3 % smaller, the smallest that does is taken, then of the ten
+/// by luck. Of the next fifteen, each 2 % smaller, the smallest that does is taken, then of those
 /// below that, and so on, until none does or one is hopeless. From the smallest on up: one that
 /// does saves all above it.
 template <class Ratio>
 std::size_t smallest_number(double first, double most, const Ratio& ratio)
 {
-  constexpr double step = 1.03, hopeless = 1.4, least = 4;
-  constexpr int reach = 10;
+  constexpr double step = 1.02, hopeless = 1.4, least = 4;
+  constexpr int reach = 15;
   const double met = smallest_of_falling(first, std::floor(most), ratio);
   const auto number = [met](int k) {
     return static_cast<std::size_t>(std::floor(met / std::pow(step, k)));
