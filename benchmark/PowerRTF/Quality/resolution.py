@@ -21,6 +21,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from common import BUILD, ROOT, build, made_by, markdown  # noqa: E402
@@ -35,7 +36,8 @@ TEXT = """# Distances and lengths that are asked for
 Distances: `--relative-max-distance X` chooses n; the certified bound of the distance both ways, by the \
 report and by the judge from the file as written, in % of the diagonal; the fewest samples of runs with .5 n \
 to .98 n, in steps of 2 % of n, of which the judge's bound is no larger than asked; and n over it. Those \
-runs may be lucky, as the last column says: the share of those that do, of all from the fewest on.
+runs may be lucky, as the next column says: the share of those that do, of all from the fewest on. The last \
+one is the time of the search, in runs with n samples.
 
 """
 
@@ -44,13 +46,16 @@ def run(options, model, *arguments, judged=False):
     """The report, and what the judge says, its bound of the distance too, where that is asked for."""
     with tempfile.TemporaryDirectory() as folder:
         mesh, report = pathlib.Path(folder, "mesh.off"), pathlib.Path(folder, "report.json")
+        start = time.perf_counter()
         process = subprocess.run(
             [options.program, model, mesh, *map(str, arguments), "--density", options.density,
              "--report", report, "--threads", "1", "--quiet"],
             capture_output=True, text=True, check=False)
+        wall = time.perf_counter() - start
         if process.returncode not in (0, 3):
             sys.exit(process.stderr)
         result = json.loads(report.read_text(encoding="utf-8"))
+        result["wall"] = wall
         if judged:
             process = subprocess.run([options.judge, model, mesh, "--bound"], capture_output=True,
                                      text=True, check=True)
@@ -61,6 +66,7 @@ def run(options, model, *arguments, judged=False):
 def distance_row(options, pool, name, model, distance):
     report = run(options, model, "--relative-max-distance", distance, judged=True)
     n = report["vertices"]
+    search_time = report["wall"] / run(options, model, "--samples", n)["wall"]
     numbers = [round(factor * n) for factor in FACTORS]
     runs = pool.map(lambda m: run(options, model, "--samples", m, judged=True), numbers)
     does = [r["judged"]["distance_bound"] <= 100 * distance for r in runs]
@@ -69,7 +75,8 @@ def distance_row(options, pool, name, model, distance):
     found = report["judged"]["distance_bound"]
     is_met = not report["missed_guarantees"] and found <= 100 * distance
     row = [name, f"{100 * distance:g}", n, f"{report['distance_bound']:.4f}", f"{found:.4f}",
-           "yes" if is_met else "no", fewest, f"{n / fewest:.2f}", f"{sum(after) / len(after):.2f}"]
+           "yes" if is_met else "no", fewest, f"{n / fewest:.2f}", f"{sum(after) / len(after):.2f}",
+           f"{search_time:.1f}"]
     print(*row, "".join(".x"[d] for d in does), flush=True)
     return row, is_met
 
@@ -113,7 +120,7 @@ def main():
         lengths = list(pool.map(lambda row: length_row(options, *row),
                                 [(*m, length) for m in there for length in LENGTHS]))
     text = TEXT + markdown(["model", "asked", "n", "bound", "judge", "kept", "fewest", "n / fewest",
-                            "of more"], [row for row, _ in distances])
+                            "of more", "runs"], [row for row, _ in distances])
     text += "\nLengths: `--relative-edge-length X`, in % of the diagonal; the median edge over it.\n\n"
     text += markdown(["model", "asked", "n", "median / asked"], lengths)
     text += "\n" + made_by(__file__, [os.path.basename(argument.rstrip("/"))

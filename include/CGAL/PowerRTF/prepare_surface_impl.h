@@ -63,26 +63,30 @@ inline std::vector<Edge> merged_edges(std::vector<Edge> edges, const Polygon_sou
   return edges;
 }
 
-/// The creases beside those that are found or given: lines, and the boundaries of labels.
+/// The lines of `fields`, as edges of the surface.
+/// \param soup what the surface has become of
+inline std::vector<Edge> line_edges(const Surface& surface, const Polygon_soup& soup,
+                                    const Surface_fields& fields, Concurrency concurrency)
+{
+  std::vector<Edge> lines = merged_edges(fields.lines, soup, concurrency);
+  lines.insert(lines.end(), fields.lines.begin(), fields.lines.end());
+  return lines.empty() ? lines : marked_edges(surface, std::move(lines), concurrency);
+}
+
+/// The edges of the surface between facets with different labels.
 /// \param soup what the surface has become of
 /// \throws Invalid_input_error there are not as many labels as polygons
-inline std::vector<Edge> more_creases(const Surface& surface, const Polygon_soup& soup,
-                                      const Surface_fields& fields, bool is_oriented,
-                                      Concurrency concurrency)
+inline std::vector<Edge> label_edges(const Surface& surface, const Polygon_soup& soup,
+                                     const Surface_fields& fields, bool is_oriented,
+                                     Concurrency concurrency)
 {
-  std::vector<Edge> lines = merged_edges(fields.lines, soup, concurrency), creases;
-  lines.insert(lines.end(), fields.lines.begin(), fields.lines.end());
-  if (!lines.empty()) creases = marked_edges(surface, std::move(lines), concurrency);
-  if (fields.labels.empty()) return creases;
+  if (fields.labels.empty()) return {};
   if (fields.labels.size() + 1 != soup.first.size())
     throw Invalid_input_error("there are " + std::to_string(fields.labels.size()) + " labels for " +
                               std::to_string(soup.first.size() - 1) + " facets");
   const Sources sources = find_sources(soup, surface.normalization, is_oriented, surface.points,
                                        surface.triangles, concurrency);
-  const std::vector<Edge> boundaries =
-      label_boundaries(surface, values_at(fields.labels, sources.faces), concurrency);
-  creases.insert(creases.end(), boundaries.begin(), boundaries.end());
-  return creases;
+  return label_boundaries(surface, values_at(fields.labels, sources.faces), concurrency);
 }
 
 } // namespace internal
@@ -116,8 +120,10 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
     keep_edges(surface, fields.kept_edges,
                internal::merged_edges(fields.kept_edges, soup, concurrency));
   }
-  const std::vector<Edge> more_creases =
-      internal::more_creases(surface, soup, fields, report.faces_as_input(), concurrency);
+  const std::vector<Edge> lines = internal::line_edges(surface, soup, fields, concurrency),
+                          label_edges = internal::label_edges(surface, soup, fields,
+                                                              report.faces_as_input(), concurrency);
+  surface.has_labels = !label_edges.empty();
   soup = {}; // its memory
   part.next(0.2);
   Remeshing_options with_number = options;
@@ -130,7 +136,8 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
     with_number.number_of_samples = number_of_samples(surface, options, concurrency);
     fields.creases ? set_creases(surface, *fields.creases, concurrency)
                    : set_creases(surface, with_number, concurrency);
-    add_creases(surface, more_creases);
+    add_creases(surface, lines);
+    add_creases(surface, label_edges);
     set_density_by_fields();
   };
   part.next(0.75);

@@ -20,19 +20,17 @@ namespace CGAL::PowerRTF {
 namespace internal {
 
 /// The smallest n up to `most` with `ratio(n) <= 1`, to a tenth, where `ratio` falls about as 1 /
-/// n, if it falls; `most` if there is none. The search begins with `first`. \returns n and its
-/// ratio
+/// n, if it falls; `most` if there is none. The search begins with `first`.
 template <class Ratio>
-std::pair<double, double> smallest_of_falling(double first, double most, const Ratio& ratio)
+double smallest_of_falling(double first, double most, const Ratio& ratio)
 {
   constexpr double near_enough = 1.1, step = 1.04, least = 4, farthest = 4;
-  double failed = least - 1, met = std::numeric_limits<double>::infinity(), ratio_of_met = 0;
+  double failed = least - 1, met = std::numeric_limits<double>::infinity();
   for (double n = std::round(std::clamp(first, least, most));;) {
     const double r = ratio(static_cast<std::size_t>(n));
     (r <= 1 ? met : failed) = n;
-    if (r <= 1) ratio_of_met = r;
-    if (failed == most) return {most, r};
-    if (met <= near_enough * failed || met == failed + 1) return {met, ratio_of_met};
+    if (failed == most) return most;
+    if (met <= near_enough * failed || met == failed + 1) return met;
     // A little more than it should be, and between what has been tried.
     const double next = std::round(n * step * std::clamp(r, 1 / farthest, farthest));
     const double low = std::max(failed + 1, std::ceil(step * failed)),
@@ -41,23 +39,32 @@ std::pair<double, double> smallest_of_falling(double first, double most, const R
   }
 }
 
-/// The same where `ratio` scatters about what it should be, by some tenths: from there on down,
-/// until four numbers in a row, each 6 % smaller, do not do, or one is hopeless.
+/// The same where `ratio` scatters about what it should be, by some tenths: below, a few numbers do
+/// by luck. Of the next fifteen, each 2 % smaller, the smallest that does is taken, then of those
+/// below that, and so on, until none does or one is hopeless. From the smallest on up: one that
+/// does saves all above it.
 template <class Ratio>
 std::size_t smallest_number(double first, double most, const Ratio& ratio)
 {
-  constexpr double step = 1.06, hopeless = 1.4, least = 4;
-  constexpr int patience = 4;
-  most = std::floor(most);
-  auto [met, r] = smallest_of_falling(first, most, ratio);
-  int failures = 0;
-  for (double n = std::floor(met / step); n >= least && r < hopeless && failures < patience;
-       n = std::floor(n / step)) {
-    r = ratio(static_cast<std::size_t>(n));
-    failures = r <= 1 ? 0 : failures + 1;
-    if (r <= 1) met = n;
+  constexpr double step = 1.02, hopeless = 1.4, least = 4;
+  constexpr int reach = 15;
+  const double met = smallest_of_falling(first, std::floor(most), ratio);
+  const auto number = [met](int k) {
+    return static_cast<std::size_t>(std::floor(met / std::pow(step, k)));
+  };
+  int best = 0, tried = 0, last = static_cast<int>(std::log(met / least) / std::log(step));
+  while (tried < std::min(best + reach, last)) {
+    const int end = std::min(best + reach, last);
+    for (int k = end; k > tried; --k) {
+      const double r = ratio(number(k));
+      if (r > hopeless) last = k - 1;
+      if (r > 1) continue;
+      best = k;
+      break;
+    }
+    tried = end;
   }
-  return static_cast<std::size_t>(met);
+  return number(best);
 }
 
 } // namespace internal

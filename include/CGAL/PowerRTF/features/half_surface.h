@@ -34,6 +34,7 @@ public:
     set_heights(mirror, nearness);
     m_half.mirror = mirror;
     m_half.normalization = whole.normalization;
+    m_half.has_labels = whole.has_labels;
     std::vector<int> polygon;
     for (const Triangle& t : whole.triangles) {
       const auto [low, high] = std::minmax({m_heights[t[0]], m_heights[t[1]], m_heights[t[2]]});

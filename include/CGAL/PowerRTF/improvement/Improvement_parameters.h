@@ -114,6 +114,16 @@ struct Improvement_parameters {
     static constexpr double max_turn_cosine = 0.9; ///< of a triangle by one move
   };
 
+  /// keep_areas.h
+  struct Areas {
+    static constexpr int rounds = 3;
+    /// Of the gradient of the area, that a vertex moves by at once. Chords of length h lose h^2 /
+    /// 24 r^2 of a cylinder's area, and at a vertex, with its share sqrt(3) / 2 h^2 of it, that
+    /// takes .05; much more would make bumps grow.
+    static constexpr double most = 1 / 12.;
+    static constexpr double max_turn_cosine = 0.9; ///< of a triangle by one move
+  };
+
   /// round_mesh.h
   struct Rounding {
     /// Of the badness, where 1 - Q has 1: as long as what is bad can be mended, and at last.

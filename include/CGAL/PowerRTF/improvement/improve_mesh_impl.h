@@ -30,6 +30,7 @@
 //     if there are creases: make triangles rounder on average, fit the creases
 //     move vertices to far tips where that makes no triangle bad
 //     if there are creases: lower the largest distances                    lower_distances.h
+//     if there are labels: give them their areas                                keep_areas.h
 //     if no faces intersect and the largest distance has hardly grown:
 //       unlock all vertices; optimize, with only what makes no faces intersect; done
 //     else lock vertices of the faces that do: the one that has moved farthest, then all corners,
@@ -46,6 +47,7 @@
 #include <CGAL/PowerRTF/improvement/fit_creases.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
+#include <CGAL/PowerRTF/improvement/keep_areas.h>
 #include <CGAL/PowerRTF/improvement/lower_distances.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
 #include <CGAL/PowerRTF/improvement/reconnect_mesh.h>
@@ -164,6 +166,10 @@ private:
     if (is_creased) {
       m_tracker.update();
       Distance_lowerer(stars, m_tracker, m_flat).run(Schedule::far_share);
+      m_tracker.update();
+    }
+    if (m_surface.has_labels) {
+      Area_keeper(stars, Triangle_badness::tolerable).run();
       m_tracker.update();
     }
   }
