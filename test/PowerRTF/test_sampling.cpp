@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "creased_surface.h"
 #include "relative_distances.h"
 #include "shapes.h"
 
@@ -258,6 +259,21 @@ TEST_CASE("rotation and order change the samples, not their distribution")
       CHECK(distances.front() > 0.55);
       CHECK(distances[500] == doctest::Approx(0.74).epsilon(0.05));
     }
+}
+
+TEST_CASE("round patches with five samples around them get one in the middle")
+{
+  const std::size_t n = 16; // on a can as high as it is wide
+  const Surface can = shapes::with_creases(shapes::can(60, 4), n);
+  const Cut_surface cut = cut_along_creases(can);
+  const Feature_samples features = sample_features(can, cut, n);
+  REQUIRE(features.size() == 10);
+  const auto topology = internal::known_topology(cut.surface, CGAL::Sequential_tag());
+  std::multiset<std::size_t> samples;
+  for (const Component_share& share :
+       component_shares(cut.surface, n, features, *topology, CGAL::Sequential_tag()))
+    samples.insert(share.samples);
+  CHECK(samples == std::multiset<std::size_t>{1, 1, 4});
 }
 
 TEST_CASE("components share the samples by mass, at least four each")

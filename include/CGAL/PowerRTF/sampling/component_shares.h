@@ -103,8 +103,9 @@ inline double density_mass(const Surface& surface, int f)
 
 } // namespace internal
 
-/// Shares `n` samples, those of `features` among them, by the components' masses; each gets as many
-/// as its topology needs if `n` allows. \param topology of the surface
+/// Shares `n` samples, those of `features` among them, so that all components have triangles of the
+/// same mean mass; each gets as many as its topology needs if `n` allows.
+/// \param topology of the surface
 inline std::vector<Component_share> component_shares(const Surface& surface, std::size_t n,
                                                      const Feature_samples& features,
                                                      const internal::Topology& topology,
@@ -112,8 +113,6 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
 {
   const std::vector<int>& component = topology.component;
   const int components = topology.size();
-  std::vector<std::size_t> least;
-  for (const Component_topology& c : topology.components) least.push_back(c.least_samples());
   const double mass = density_integral(surface, concurrency);
   std::vector<double> masses(components, 0);
   if (components == 1)
@@ -121,16 +120,21 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
   else
     for (std::size_t f = 0; f < component.size(); ++f)
       masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
-  std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
-  const double cell_mass = mass / equivalent_cells(n, features);
-  for (std::size_t s = 0; s < features.sites.size(); ++s) {
-    const int c = features.sites.patches[s];
-    least[c] = 0;
-    free_masses[c] = (std::max)(0., free_masses[c] - features.shares[s] * cell_mass);
+  const double cell_mass = mass / equivalent_cells(surface, n, features);
+  std::vector<double> sites(components, 0), rooms; // for samples inside
+  for (const int c : features.sites.patches) ++sites[c];
+  std::vector<std::size_t> least;
+  for (int c = 0; c < components; ++c) {
+    const Component_topology& shape = topology.components[c];
+    rooms.push_back(masses[c] / cell_mass);
+    if (sites[c] > 0) // as equivalent_cells() has it
+      rooms.back() += static_cast<double>(shape.euler_characteristic) - sites[c] / 2;
+    least.push_back(sites[c] > 0 ? 0 : shape.least_samples());
   }
-  if (!(*std::max_element(free_masses.begin(), free_masses.end()) > 0)) free_masses = masses;
+  for (double& room : rooms) room = (std::max)(0., room);
+  if (!(*std::max_element(rooms.begin(), rooms.end()) > 0)) rooms = masses;
   const std::vector<std::size_t> samples =
-      internal::allocate_samples(free_masses, least, n - features.size());
+      internal::allocate_samples(rooms, least, n - features.size());
   std::vector<Component_share> shares;
   for (std::size_t c = 0; c < masses.size(); ++c)
     shares.push_back(
