@@ -146,6 +146,15 @@ TEST_CASE("triangles between creases are round on average")
   check(shapes::drilled_plate(3, 2), "curvature", 0.937, 0.003);
 }
 
+TEST_CASE("in strips with room for one row, triangles are round without samples inside")
+{
+  const judged_run::Scratch_folder folder; // with such samples .925, 2.4 % and 26 degrees
+  const Run run = met_run(folder, shapes::gear(1.2), {3000, "curvature"});
+  CHECK(double(run.report["q_avg"]) >= 0.935);
+  CHECK(double(run.report["above_90"]) <= 0.014);
+  CHECK(double(run.report["theta_min"]) >= 29);
+}
+
 TEST_CASE("a plate with holes keeps its flat faces")
 {
   check_flat_faces(shapes::drilled_plate(3, 2), true, 6); // as thick as 5
