@@ -111,11 +111,27 @@ TEST_CASE("samples line creases and borders evenly")
         CHECK(dot(cross(along, center - sites.points[s]), surface.facet_normals[sites.facets[s]]) >
               0);
       }
-      double turns = 0; // each sample on a smooth crease has two halves, on a border one
-      for (double share : features.shares) turns += share;
-      CHECK(equivalent_cells(n, features) ==
-            doctest::Approx(double(n) - double(features.size()) + turns));
     }
+  }
+}
+
+TEST_CASE("a surface with samples on creases and borders has room for half its triangles")
+{
+  struct Part {
+    shapes::Soup soup;
+    int characteristic;
+    bool has_borders;
+  };
+  for (const Part& part : {Part{shapes::box(5), 2, false}, Part{shapes::can(80, 6), 2, false},
+                           Part{shapes::plane_patch(8, 8), 1, true},
+                           Part{shapes::open_cylinder(60, 10, 1, 3), 0, true}}) {
+    const std::size_t n = 1000;
+    const Surface surface = shapes::with_creases(part.soup, n);
+    const Cut_surface cut = cut_along_creases(surface);
+    const Feature_samples features = sample_features(surface, cut, n);
+    const double border = part.has_borders ? double(features.size()) : 0;
+    CHECK(equivalent_cells(cut.surface, n, features) ==
+          doctest::Approx(double(n) - border / 2 - part.characteristic));
   }
 }
 

@@ -1,5 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "creased_surface.h"
+#include "odd_shapes.h"
 #include "relative_distances.h"
 #include "shapes.h"
 
@@ -258,6 +260,50 @@ TEST_CASE("rotation and order change the samples, not their distribution")
       CHECK(distances.front() > 0.55);
       CHECK(distances[500] == doctest::Approx(0.74).epsilon(0.05));
     }
+}
+
+TEST_CASE("round patches with five samples around them get one in the middle")
+{
+  const std::size_t n = 16; // on a can as high as it is wide
+  const Surface can = shapes::with_creases(shapes::can(60, 4), n);
+  const Cut_surface cut = cut_along_creases(can);
+  const Feature_samples features = sample_features(can, cut, n);
+  REQUIRE(features.size() == 10);
+  const auto topology = internal::known_topology(cut.surface, CGAL::Sequential_tag());
+  std::multiset<std::size_t> samples;
+  for (const Component_share& share :
+       component_shares(cut.surface, n, features, *topology, CGAL::Sequential_tag()))
+    samples.insert(share.samples);
+  CHECK(samples == std::multiset<std::size_t>{1, 1, 4});
+}
+
+TEST_CASE("strips with room for one row of triangles, and less than one sample, get none")
+{
+  const std::size_t n = 260; // a little farther apart than the bar is wide
+  const shapes::Soup bar = translated(shapes::long_box(10, 1, 1), {20, 0, 0});
+  const Surface parts = shapes::with_creases(joined(scaled(shapes::box(3), 3), bar), n);
+  const Cut_surface cut = cut_along_creases(parts);
+  const Feature_samples features = sample_features(parts, cut, n);
+  const auto topology = internal::known_topology(cut.surface, CGAL::Sequential_tag());
+  const std::vector<char> is_narrow = internal::narrow_components(cut.surface, features, *topology);
+  const auto shares = component_shares(cut.surface, n, features, *topology, CGAL::Sequential_tag());
+  CHECK(std::count(is_narrow.begin(), is_narrow.end(), 1) == 4); // the long sides
+  const std::vector<int>& patches = features.sites.patches;
+  double room = 0;
+  for (int c = 0; c < topology->size(); ++c) {
+    if (!is_narrow[c]) continue;
+    CHECK(shares[c].samples == 0);
+    const auto sites = static_cast<double>(std::count(patches.begin(), patches.end(), c));
+    room += std::max(0., shares[c].mass / shares[c].cell_mass - sites / 2 + 1);
+  }
+  CHECK(room > 1);
+  CHECK(room < 4);
+
+  std::vector<double> rooms{-1, 0.4, 0.8, 10}, small{0.4, 0.4, 1};
+  internal::empty_small_rooms({1, 0, 1, 0}, rooms);
+  CHECK(rooms == std::vector<double>{0, 0.4, 0, 10});
+  internal::empty_small_rooms({1, 1, 0}, small); // where would all go?
+  CHECK(small == std::vector<double>{0.4, 0.4, 1});
 }
 
 TEST_CASE("components share the samples by mass, at least four each")

@@ -298,6 +298,26 @@ TEST_CASE("holes and parts smaller than the spacing stay what they are across th
   }
 }
 
+TEST_CASE("the curves at the mirror have as many samples as are wanted, more or fewer than fit")
+{
+  const Soup patch = shapes::plane_patch(6, 6);
+  const Soup two = shapes::joined(patch, shapes::translated(patch, {20, 0, 0}));
+  const Surface whole = shapes::make_surface(two);
+  const Surface half = half_surface(whole, {1, (whole.points[0].y + whole.points.back().y) / 2});
+  const std::vector<Feature_curve> curves = feature_curves(half, 0);
+  const double spacing = std::sqrt(whole.area / 100);
+  for (const std::size_t wanted : {6, 7, 12, 30}) {
+    CAPTURE(wanted);
+    internal::Curve_sampler sampler(half, curves);
+    sampler.set_count_at_mirror(wanted, spacing);
+    std::size_t found = 0;
+    for (const Edge_place& place : sampler.run(spacing).places)
+      found +=
+          half.is_at_mirror(half.points[place.from]) && half.is_at_mirror(half.points[place.to]);
+    CHECK(found == wanted);
+  }
+}
+
 TEST_CASE("within a half no edge joins vertices at the mirror, nor does a collapse make one")
 {
   using Vertex = internal::Working_mesh::Vertex;

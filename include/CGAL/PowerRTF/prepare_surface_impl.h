@@ -156,7 +156,8 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   if (has_lengths)
     report.samples_asked =
         set_wanted_lengths(surface, options, fields, report.samples_asked, concurrency);
-  if (follows_width) refine_narrow_patches(surface, report.samples_asked, concurrency);
+  if (follows_width)
+    refine_narrow_patches(surface, report.samples_asked, options.gradation, concurrency);
   if (is_refined) refine_thin_parts(surface, report.samples_asked, concurrency);
   return surface;
 }

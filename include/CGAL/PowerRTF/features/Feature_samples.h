@@ -28,7 +28,6 @@ struct Feature_samples {
   /// For each site the next one along its patch's boundary, the patch to the left; -1: none.
   std::vector<int> next;
   std::vector<int> samples_of_sites; ///< the sample that each site is a copy of
-  std::vector<double> shares;        ///< of a full turn that each site's patch takes around it
 
   std::size_t size() const { return samples.size(); }
 };

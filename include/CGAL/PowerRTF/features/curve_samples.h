@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -47,9 +48,13 @@ public:
   {
     return count(spacing, [](const Feature_curve& c) { return c.is_mirror; });
   }
-  /// Makes so many at the mirror, where the longest curve gets what is missing.
+  /// Makes so many at the mirror: spaced wider where there would be more, and the longest curve
+  /// gets what is missing.
   void set_count_at_mirror(std::size_t wanted, double spacing)
   {
+    const std::size_t most =
+        (std::max)(wanted, count_at_mirror(std::numeric_limits<double>::infinity()));
+    while (count_at_mirror(spacing) > most) m_stretch *= 1.05;
     for (std::size_t c = 0; c < m_curves.size(); ++c)
       if (m_curves[c].is_mirror &&
           (m_adapted == none || m_sums[c].back() > m_sums[m_adapted].back()))
@@ -93,15 +98,17 @@ private:
   std::size_t count(double spacing, const IsWanted& is_wanted) const
   {
     std::size_t count = 0;
-    std::vector<char> is_corner(m_surface.points.size(), 0);
+    std::vector<int> corners;
     for (std::size_t c = 0; c < m_curves.size(); ++c) {
       if (!is_wanted(m_curves[c])) continue;
       count += segments(c, spacing);
       if (!m_curves[c].has_corners) continue;
       --count;
-      is_corner[m_curves[c].vertices.front()] = is_corner[m_curves[c].vertices.back()] = 1;
+      corners.push_back(m_curves[c].vertices.front());
+      corners.push_back(m_curves[c].vertices.back());
     }
-    return count + std::count(is_corner.begin(), is_corner.end(), 1);
+    sort_uniquely(corners);
+    return count + corners.size();
   }
 
   /// Length of edge `ab` times sqrt(rho), integrated over the linear density.
@@ -128,6 +135,7 @@ private:
     const bool is_closed = curve.vertices.front() == curve.vertices.back();
     const double least = is_closed ? 3 : curve.parallels > 1 || is_bow(curve) ? 2 : 1;
     constexpr double most = 1e9; // more than memory holds
+    if (curve.is_mirror) spacing *= m_stretch;
     const double fitting = std::floor(m_sums[c].back() / spacing + 0.5);
     const double segments = std::clamp(fitting, least, most);
     return static_cast<std::size_t>(c == m_adapted ? (std::max)(least, segments + m_added)
@@ -155,6 +163,7 @@ private:
   std::vector<std::vector<double>> m_sums; // of each curve: weighted length up to each vertex
   std::size_t m_adapted = none;            // the curve that gets `m_added` segments more
   double m_added = 0;
+  double m_stretch = 1; // of the spacing at the mirror
 };
 
 } // namespace internal

@@ -42,12 +42,11 @@ inline double strip_limit(const Patch_shape& patch, double spacing, int most_row
 }
 
 /// \returns whether the spacing is within the limits
-inline bool refine_strips(Surface& surface, std::size_t n, const Crease_patches& patches,
-                          int most_rows, Concurrency concurrency)
+inline bool refine_strips(Surface& surface, std::size_t n, double gradation,
+                          const Crease_patches& patches, int most_rows, Concurrency concurrency)
 {
-  constexpr double gradation = 0.15;
-  constexpr std::size_t facets_per_sample = 8; // slivers between creases would take any number
-  const Spacing_bounds bounds{0.25, most_rows > 1 ? 1.06 : 1.1, 1.5, true,
+  constexpr std::size_t facets_per_sample = 16; // slivers between creases would take any number
+  const Spacing_bounds bounds{0.25, most_rows > 1 ? 1.12 : 2, 1.5, true,
                               surface.triangles.size() + facets_per_sample * n};
   std::vector<int> patch_of = patches.of_facet;
   return refine_within_limits(
@@ -76,17 +75,18 @@ inline bool refine_strips(Surface& surface, std::size_t n, const Crease_patches&
 /// Brings the spacing of `n` samples by `surface.vertex_density` within 1.4 times the width of the
 /// patches between creases, and, where these are bands, or flat strips, with room for three or four
 /// rows of triangles, so far down that the nearest whole number of rows fits in. The spacing
-/// elsewhere becomes up to 1.06 times as large for that, and facets that are too large are split.
-/// Where that does not suffice, those with several rows stay, and it may become 1.1 times as large;
+/// elsewhere becomes up to 1.12 times as large for that, and facets that are too large are split.
+/// Where that does not suffice, those with several rows stay, and it may become twice as large;
 /// where that does not, all stay. A surface without such patches stays, too.
-inline void refine_narrow_patches(Surface& surface, std::size_t n,
+/// \param gradation the largest growth of the spacing around such patches; 0: any
+inline void refine_narrow_patches(Surface& surface, std::size_t n, double gradation,
                                   internal::Concurrency concurrency = Sequential_tag())
 {
   if (surface.creases.empty()) return;
   const internal::Crease_patches patches(surface);
   for (const int most_rows : {4, 1}) {
     Surface refined = surface;
-    if (!internal::refine_strips(refined, n, patches, most_rows, concurrency)) continue;
+    if (!internal::refine_strips(refined, n, gradation, patches, most_rows, concurrency)) continue;
     surface = std::move(refined);
     return;
   }

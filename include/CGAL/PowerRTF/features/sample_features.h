@@ -78,7 +78,6 @@ private:
     std::vector<int> outgoing(cut.points.size(), -1);
     for (int h = 0; h < halfedges; ++h)
       if (opposite[h] == Facet_adjacency::none) outgoing[halfedge_source(triangles, h)] = h;
-    const std::vector<double> turns = turns_of(outgoing);
 
     std::vector<char> seen(halfedges, 0);
     for (int start = 0; start < halfedges; ++start) {
@@ -88,7 +87,7 @@ private:
         seen[h] = 1;
         const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
         const int from = m_cut.originals[a], to = m_cut.originals[b];
-        if (at_vertex[from] >= 0) add_site(at_vertex[from], h, 0, turns[a]);
+        if (at_vertex[from] >= 0) add_site(at_vertex[from], h, 0);
         const Edge edge = sorted_edge(from, to);
         const auto begin =
             std::lower_bound(on_edges.begin(), on_edges.end(), std::make_pair(edge, -1),
@@ -96,11 +95,11 @@ private:
         const auto end =
             std::find_if(begin, on_edges.end(), [&](const auto& x) { return x.first != edge; });
         if (from < to)
-          for (auto it = begin; it != end; ++it) add_site(it->second, h, along(it->second), 0.5);
+          for (auto it = begin; it != end; ++it) add_site(it->second, h, along(it->second));
         else
           for (auto it = end; it != begin;) {
             --it;
-            add_site(it->second, h, 1 - along(it->second), 0.5);
+            add_site(it->second, h, 1 - along(it->second));
           }
       }
       const std::size_t last = m_result.sites.size();
@@ -110,22 +109,7 @@ private:
     finish_samples();
   }
 
-  /// The angle of the cut surface around each boundary vertex, in full turns.
-  std::vector<double> turns_of(const std::vector<int>& outgoing) const
-  {
-    const Surface& cut = m_cut.surface;
-    std::vector<double> turns(cut.points.size(), 0);
-    for (const Triangle& t : cut.triangles)
-      for (int i = 0; i < 3; ++i) {
-        if (outgoing[t[i]] < 0) continue;
-        const Vec3d a = cut.points[t[(i + 1) % 3]] - cut.points[t[i]];
-        const Vec3d b = cut.points[t[(i + 2) % 3]] - cut.points[t[i]];
-        turns[t[i]] += std::atan2(length(cross(a, b)), dot(a, b)) / (2 * 3.14159265358979323846);
-      }
-    return turns;
-  }
-
-  void add_site(int sample, int h, double at, double turn)
+  void add_site(int sample, int h, double at)
   {
     const Surface& cut = m_cut.surface;
     std::array<double, 3> weights{0, 0, 0};
@@ -138,7 +122,6 @@ private:
     sites.density.push_back(m_result.samples.density[sample]);
     sites.weights.push_back(0);
     sites.patches.push_back(cut.facet_patches[h / 3]);
-    m_result.shares.push_back(turn);
     m_result.samples_of_sites.push_back(sample);
   }
 
@@ -192,13 +175,16 @@ inline std::size_t min_feature_samples(const Surface& surface)
       .count(std::numeric_limits<double>::infinity());
 }
 
-/// The number of cells of the mean size that the surface has room for when `n` samples are spread
-/// over it, `features` among them: samples on a border have half a cell.
-inline double equivalent_cells(std::size_t n, const Feature_samples& features)
+/// The number of cells of the mean size that `cut`, a surface cut along its creases, has room for
+/// when `n` samples are spread over it, `features` among them: half as many as triangles. By
+/// Euler's formula a mesh with k vertices inside and b on its border has 2 k + b - 2 chi of these.
+inline double equivalent_cells(const Surface& cut, std::size_t n, const Feature_samples& features)
 {
-  double cells = static_cast<double>(n) - static_cast<double>(features.size());
-  for (const double share : features.shares) cells += share;
-  return (std::max)(1., cells);
+  const double facets = static_cast<double>(cut.triangles.size()),
+               border = static_cast<double>(cut.adjacency.border_edges);
+  const double characteristic = static_cast<double>(cut.points.size()) - (facets + border) / 2;
+  const double inside = static_cast<double>(n) - static_cast<double>(features.size());
+  return (std::max)(1., inside + static_cast<double>(features.sites.size()) / 2 - characteristic);
 }
 
 /// Samples on the corners, creases and borders of `surface`, spaced like `n` samples in all.
@@ -226,7 +212,7 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
                               std::to_string(count(infinity)));
   double spacing = spacing_constant(surface, n);
   while (count(spacing) > 16 * n) spacing *= 1.05; // a density may be large on the curves alone
-  spacing *= std::sqrt(static_cast<double>(n) / equivalent_cells(n, samples(spacing)));
+  spacing *= std::sqrt(static_cast<double>(n) / equivalent_cells(cut.surface, n, samples(spacing)));
   // On slender surfaces there may be more border than n samples can line.
   while (count(spacing) > n) spacing *= 1.05;
   return samples(spacing);

@@ -24,7 +24,7 @@ namespace CGAL::PowerRTF::internal {
 /// The spacing of n samples, and limits of it.
 class Limited_spacing {
 public:
-  /// \param gradation the largest growth of the spacing around what is limited
+  /// \param gradation the largest growth of the spacing around what is limited; 0: any
   Limited_spacing(const Surface& surface, std::size_t n, double gradation, Concurrency concurrency)
       : m_surface(surface), m_concurrency(concurrency),
         m_constant(spacing_constant(surface, n, concurrency)), m_gradation(gradation)
@@ -39,6 +39,10 @@ public:
     const auto& rho = m_surface.vertex_density;
     const auto [a, b, c] = m_surface.triangles[f];
     return m_constant / std::sqrt((rho[a] + rho[b] + rho[c]) / 3);
+  }
+  double spacing_at_vertex(int v) const
+  {
+    return m_constant / std::sqrt(m_surface.vertex_density[v]);
   }
 
   /// Of the spacing on facet `f`.
@@ -64,10 +68,10 @@ public:
       for (const int v : m_surface.triangles[f]) atomic_min(&limits[v], limit(f));
     });
     for_each_index(m_concurrency, vertices, [&](int v) {
-      const double h = m_constant / std::sqrt(m_surface.vertex_density[v]);
+      const double h = spacing_at_vertex(v);
       result[v] = (std::min)(factor * h, (std::max)(floor * h, limits[v]));
     });
-    limit_growth(edges, m_gradation, result, m_concurrency);
+    if (m_gradation > 0) limit_growth(edges, m_gradation, result, m_concurrency);
     return result;
   }
 
@@ -109,16 +113,19 @@ struct Spacing_bounds {
 };
 
 /// The edges, by a halfedge of each, that are too long for the lengths at a facet, where the
-/// spacing is too large, or where its corners differ by more than 20 %. The density is linear on
-/// facets: lengths grow too steeply near the far end of a facet that is too large.
+/// spacing is too large, or where its corners differ by more than 20 %, and not all of them are as
+/// they were. The density is linear on facets: lengths grow too steeply near the far end of a facet
+/// that is too large.
 inline std::vector<int> edges_to_halve(const Surface& surface, const Limited_spacing& spacing,
                                        double longest_edge, double floor,
                                        const std::vector<double>& lengths, Concurrency concurrency)
 {
   constexpr double similar = 1.2;
   const std::vector<int>& opposite = surface.adjacency.opposite;
+  const auto is_lowered = [&](int v) { return lengths[v] < spacing.spacing_at_vertex(v); };
   const auto is_long_for = [&](double l, int f) {
     const auto [a, b, c] = surface.triangles[f];
+    if (!is_lowered(a) && !is_lowered(b) && !is_lowered(c)) return false;
     const auto [low, high] = std::minmax({lengths[a], lengths[b], lengths[c]});
     const double h = spacing.spacing(f),
                  shortest = (std::min)(low, (std::max)(floor * h, spacing.limit(f)));

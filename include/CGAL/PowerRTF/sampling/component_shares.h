@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_COMPONENT_SHARES_H
 #define CGAL_POWER_RTF_SAMPLING_COMPONENT_SHARES_H
 
+#include <CGAL/PowerRTF/features/narrow_patches.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/sampling/Component_share.h>
@@ -65,6 +66,46 @@ inline std::vector<std::size_t> allocate_samples(const std::vector<double>& mass
   return samples;
 }
 
+/// Whether components are strips with no room for more than one row of triangles between the
+/// samples of `features` on both their sides. \param topology of the surface
+inline std::vector<char> narrow_components(const Surface& surface, const Feature_samples& features,
+                                           const Topology& topology)
+{
+  const Samples& sites = features.sites;
+  std::vector<Patch_shape> shapes(topology.size());
+  std::vector<int> counts(shapes.size(), 0);
+  std::vector<char> result(shapes.size(), 0);
+  if (sites.size() == 0) return result;
+  for (std::size_t f = 0; f < topology.component.size(); ++f)
+    shapes[topology.component[f]].area += surface.facet_areas[f];
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    shapes[sites.patches[s]].perimeter += length(sites.points[features.next[s]] - sites.points[s]);
+    ++counts[sites.patches[s]];
+  }
+  for (std::size_t c = 0; c < shapes.size(); ++c) {
+    shapes[c].loops = static_cast<int>(topology.components[c].border_loops);
+    const double width = shapes[c].strip()[0];
+    result[c] = counts[c] > 0 && width * counts[c] < shapes[c].perimeter;
+  }
+  return result;
+}
+
+/// Leaves no negative rooms for samples, and none for less than one sample in narrow components,
+/// where that would make flat triangles; unless there were too few others for all samples.
+inline void empty_small_rooms(const std::vector<char>& is_narrow, std::vector<double>& rooms)
+{
+  constexpr double most_growth = 1.2;
+  std::vector<double> large = rooms;
+  for (std::size_t c = 0; c < rooms.size(); ++c) {
+    rooms[c] = (std::max)(0., rooms[c]);
+    large[c] = is_narrow[c] && rooms[c] < 1 ? 0 : rooms[c];
+  }
+  const auto sum = [](const std::vector<double>& all) {
+    return std::accumulate(all.begin(), all.end(), 0.);
+  };
+  if (sum(rooms) <= most_growth * sum(large)) rooms.swap(large);
+}
+
 /// The facets sorted by component, with running sums of what the candidates are proportional to.
 struct Facet_distribution {
   std::vector<int> facets;        ///< #F, component by component
@@ -103,8 +144,9 @@ inline double density_mass(const Surface& surface, int f)
 
 } // namespace internal
 
-/// Shares `n` samples, those of `features` among them, by the components' masses; each gets as many
-/// as its topology needs if `n` allows. \param topology of the surface
+/// Shares `n` samples, those of `features` among them, so that all components have triangles of the
+/// same mean mass; each gets as many as its topology needs if `n` allows.
+/// \param topology of the surface
 inline std::vector<Component_share> component_shares(const Surface& surface, std::size_t n,
                                                      const Feature_samples& features,
                                                      const internal::Topology& topology,
@@ -112,8 +154,6 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
 {
   const std::vector<int>& component = topology.component;
   const int components = topology.size();
-  std::vector<std::size_t> least;
-  for (const Component_topology& c : topology.components) least.push_back(c.least_samples());
   const double mass = density_integral(surface, concurrency);
   std::vector<double> masses(components, 0);
   if (components == 1)
@@ -121,16 +161,21 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
   else
     for (std::size_t f = 0; f < component.size(); ++f)
       masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
-  std::vector<double> free_masses = masses; // without the parts of the samples on the boundaries
-  const double cell_mass = mass / equivalent_cells(n, features);
-  for (std::size_t s = 0; s < features.sites.size(); ++s) {
-    const int c = features.sites.patches[s];
-    least[c] = 0;
-    free_masses[c] = (std::max)(0., free_masses[c] - features.shares[s] * cell_mass);
+  const double cell_mass = mass / equivalent_cells(surface, n, features);
+  std::vector<double> sites(components, 0), rooms; // for samples inside
+  for (const int c : features.sites.patches) ++sites[c];
+  std::vector<std::size_t> least;
+  for (int c = 0; c < components; ++c) {
+    const Component_topology& shape = topology.components[c];
+    rooms.push_back(masses[c] / cell_mass);
+    if (sites[c] > 0) // as equivalent_cells() has it
+      rooms.back() += static_cast<double>(shape.euler_characteristic) - sites[c] / 2;
+    least.push_back(sites[c] > 0 ? 0 : shape.least_samples());
   }
-  if (!(*std::max_element(free_masses.begin(), free_masses.end()) > 0)) free_masses = masses;
+  internal::empty_small_rooms(internal::narrow_components(surface, features, topology), rooms);
+  if (!(*std::max_element(rooms.begin(), rooms.end()) > 0)) rooms = masses;
   const std::vector<std::size_t> samples =
-      internal::allocate_samples(free_masses, least, n - features.size());
+      internal::allocate_samples(rooms, least, n - features.size());
   std::vector<Component_share> shares;
   for (std::size_t c = 0; c < masses.size(); ++c)
     shares.push_back(
