@@ -37,7 +37,8 @@ const int sizes[] = {0, 1, 2, 4095, 4096, 4097, 100000};
 TEST_CASE("an unset vector is copied from and to a vector")
 {
   const std::vector<int> set{3, 1, 4};
-  internal::Unset_vector<int> unset = set;
+  internal::Unset_vector<int> unset;
+  unset = set;
   unset.push_back(1);
   const std::vector<int> back = unset;
   CHECK(back == std::vector<int>{3, 1, 4, 1});

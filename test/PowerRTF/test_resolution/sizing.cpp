@@ -200,7 +200,7 @@ TEST_CASE("edges are about as long as the bounds allow")
   const auto range = [&](const Remeshing_options& options) {
     const std::vector<double> all =
         edge_lengths_of(remesh(soup, Resolution::size_factor(), field, {}, options).soup);
-    return std::pair{all[all.size() / 100], all[all.size() * 99 / 100]};
+    return std::pair{all[all.size() / 50], all[all.size() * 49 / 50]};
   };
   const auto [low, high] = range(bounded);
   CHECK(low > 0.8 * 0.1);

@@ -189,14 +189,14 @@ struct Improvement_parameters {
 
   /// relocate_vertices.h
   struct Relocation {
-    static constexpr int max_tips = 4, max_tries = 3; ///< whatever the size of the mesh
+    static constexpr int max_tips = 4, max_tries = 3;      ///< whatever the size of the mesh
     static constexpr std::size_t max_candidates = 1 << 17; ///< of the vertices to be spared
-    static constexpr double min_distance = 0.2;       ///< in h: nearer places stay
-    static constexpr double min_separation = 3;       ///< in h, of places that change
-    static constexpr double intersection_radius = 4;  ///< in h, around a change: what is checked
-    static constexpr double steep_sine = 0.5;         ///< of the angle of edge and surface
-    static constexpr double flat_agreement = 0.9;     ///< of stars that can spare their vertex
-    static constexpr double worthwhile_share = 0.85;  ///< of the distance, that a flip must leave
+    static constexpr double min_distance = 0.2;            ///< in h: nearer places stay
+    static constexpr double min_separation = 3;            ///< in h, of places that change
+    static constexpr double intersection_radius = 4; ///< in h, around a change: what is checked
+    static constexpr double steep_sine = 0.5;        ///< of the angle of edge and surface
+    static constexpr double flat_agreement = 0.9;    ///< of stars that can spare their vertex
+    static constexpr double worthwhile_share = 0.85; ///< of the distance, that a flip must leave
     /// Badness right after the change that can be healed.
     static constexpr double max_collapse_badness = 1, max_split_badness = 5;
     static constexpr int optimization_rounds = 16;

@@ -53,7 +53,13 @@ class Unset_vector : public std::vector<T, Unset_allocator<T>> {
 public:
   using Base::Base;
   Unset_vector() = default;
-  Unset_vector(const std::vector<T>& v) : Base(v.begin(), v.end()) {}
+  explicit Unset_vector(const std::vector<T>& v) : Base(v.begin(), v.end()) {}
+  template <class Vector, class = std::enable_if_t<std::is_same_v<Vector, std::vector<T>>>>
+  Unset_vector& operator=(const Vector& v) // of no type that `= {}` could mean
+  {
+    this->assign(v.begin(), v.end());
+    return *this;
+  }
   operator std::vector<T>() const { return std::vector<T>(this->begin(), this->end()); }
 
   friend bool operator==(const Unset_vector& a, const std::vector<T>& b)
