@@ -67,6 +67,8 @@ public:
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }
   friend bool operator==(const std::vector<T>& a, const Unset_vector& b) { return b == a; }
+  friend bool operator!=(const Unset_vector& a, const std::vector<T>& b) { return !(a == b); }
+  friend bool operator!=(const std::vector<T>& a, const Unset_vector& b) { return !(a == b); }
 };
 
 } // namespace CGAL::PowerRTF::internal
