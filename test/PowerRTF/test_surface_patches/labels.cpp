@@ -108,14 +108,11 @@ TEST_CASE("labels of a smooth surface keep their lines and their areas")
 
 TEST_CASE("labels keep their areas where the triangles are large beside the surface's radius")
 {
-  const auto slice = [](const Vec3d& p) { return int(std::floor(3 * p.z)); };
-  const Labeled input(shapes::torus(160, 80, 1, 0.15), sector), ball(shapes::icosphere(5), slice);
-  for (const auto& [labeled, n] : {std::pair(&input, 400), std::pair(&ball, 250)}) {
-    Labeled output;
-    remesh(*labeled, n, output);
-    const auto before = labeled->areas(), after = output.areas();
-    for (const auto& [label, area] : before) CHECK(after.at(label) == Approx(area).epsilon(0.005));
-  }
+  const Labeled input(shapes::torus(160, 80, 1, 0.15), sector);
+  Labeled output;
+  remesh(input, 400, output);
+  const auto before = input.areas(), after = output.areas();
+  for (const auto& [label, area] : before) CHECK(after.at(label) == Approx(area).epsilon(0.005));
 }
 
 TEST_CASE("straight lines between labels of a flat surface stay straight: areas are the same")
