@@ -123,12 +123,9 @@ inline std::vector<double> numbers_of_array(const Real_array& array)
 }
 
 /// A NumPy array of `Number` that owns the entries, or their rounded copies.
-/// \tparam Rows a vector of rows, moved from
-template <class Number, class Rows>
-nb::object to_array(Rows&& rows)
+template <class Number, class Row>
+nb::object to_array(std::vector<Row>&& rows)
 {
-  static_assert(std::is_rvalue_reference<Rows&&>::value, "the rows are taken");
-  using Row = typename Rows::value_type;
   constexpr bool is_real = std::is_same<Row, Vec3d>::value || std::is_same<Row, double>::value;
   using Entry = std::conditional_t<is_real, double, int>;
   constexpr std::size_t columns = sizeof(Row) / sizeof(Entry);

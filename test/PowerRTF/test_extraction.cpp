@@ -80,8 +80,8 @@ void check_topology(const Surface& surface, const Samples& samples, const Extrac
   REQUIRE(mesh.points.size() >= samples.size());
   using Coordinates = std::array<double, 3>;
   std::set<Coordinates> vertices;
-  for (const Vec3d& p : surface.points) vertices.insert({p.x, p.y, p.z});
-  for (const Vec3d& p : samples.points) vertices.insert({p.x, p.y, p.z});
+  for (const auto* points : {&surface.points, &samples.points})
+    for (const Vec3d& p : *points) vertices.insert({p.x, p.y, p.z});
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const Vec3d& p = mesh.points[v];
     if (v >= samples.size() || p != samples.points[v]) CHECK(vertices.count({p.x, p.y, p.z}) == 1);

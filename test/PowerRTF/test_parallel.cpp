@@ -34,20 +34,6 @@ const int sizes[] = {0, 1, 2, 4095, 4096, 4097, 100000};
 
 } // namespace
 
-TEST_CASE("an unset vector is copied from and to a vector")
-{
-  const std::vector<int> set{3, 1, 4};
-  internal::Unset_vector<int> unset;
-  unset = set;
-  unset.push_back(1);
-  const std::vector<int> back = unset;
-  CHECK(back == std::vector<int>{3, 1, 4, 1});
-  CHECK((unset == back && back == unset));
-  CHECK((unset != set && set != unset));
-  const std::vector<int>& chosen = set.empty() ? set : unset;
-  CHECK(chosen == back);
-}
-
 TEST_CASE("a scan has the sums of what is before")
 {
   for (const int n : sizes)

@@ -109,10 +109,15 @@ CGAL_POWER_RTF_INLINE Samples Surface_engine_base::gather(std::size_t count) con
 {
   const Engine_samples from = m_engine->samples();
   Samples to;
-  for (auto items : {&to.points, &to.normals}) items->resize(count);
-  for (auto items : {&to.density, &to.weights}) items->resize(count);
-  to.facets.resize(count);
-  to.patches.resize(from.patches.empty() ? 0 : count);
+  const auto resize = [&](auto& items, bool is_there) {
+    if (is_there) internal::resize_in_parallel(m_concurrency, items, count);
+  };
+  resize(to.points, true);
+  resize(to.normals, true);
+  resize(to.density, true);
+  resize(to.weights, true);
+  resize(to.facets, true);
+  resize(to.patches, !from.patches.empty());
   internal::for_each_index(m_concurrency, int(count), [&](int i) {
     to.points[i] = from.points[i];
     to.normals[i] = from.normals[i];

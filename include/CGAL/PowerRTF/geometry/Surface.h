@@ -9,7 +9,6 @@
 #include <CGAL/PowerRTF/geometry/snapped.h>
 #include <CGAL/PowerRTF/geometry/vector.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
-#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <algorithm>
 #include <array>
@@ -143,15 +142,12 @@ struct Surface {
 /// Points on the surface. The arrays have one entry per sample, in an order that stays the same
 /// from the initial sampling to the vertices of the output.
 struct Samples {
-  template <class T>
-  using Vector = internal::Unset_vector<T>; ///< as a `std::vector`, and copied from and to one
-
-  Vector<Vec3d> points;   ///< \f$s_i\f$, unit-box coordinates
-  Vector<int> facets;     ///< the surface's facet that carries \f$s_i\f$
-  Vector<Vec3d> normals;  ///< \f$n_i\f$, unit
-  Vector<double> density; ///< \f$\rho(s_i)\f$
-  Vector<double> weights; ///< \f$w_i\f$ (length squared); mean 0
-  Vector<int> patches;    ///< of the facets; empty: all on one patch
+  std::vector<Vec3d> points;   ///< \f$s_i\f$, unit-box coordinates
+  std::vector<int> facets;     ///< the surface's facet that carries \f$s_i\f$
+  std::vector<Vec3d> normals;  ///< \f$n_i\f$, unit
+  std::vector<double> density; ///< \f$\rho(s_i)\f$
+  std::vector<double> weights; ///< \f$w_i\f$ (length squared); mean 0
+  std::vector<int> patches;    ///< of the facets; empty: all on one patch
 
   std::size_t size() const { return points.size(); }
 };

@@ -5,7 +5,6 @@
 
 #include <CGAL/PowerRTF/internal/huge_pages.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <type_traits>
@@ -45,31 +44,9 @@ struct Unset_allocator : std::allocator<T> {
 };
 
 /// A vector whose `resize()` does not set the new items: threads set them, each its own, and so the
-/// memory comes in parallel, too. It is copied from and to a `std::vector<T>`.
+/// memory comes in parallel, too.
 template <class T>
-class Unset_vector : public std::vector<T, Unset_allocator<T>> {
-  using Base = std::vector<T, Unset_allocator<T>>;
-
-public:
-  using Base::Base;
-  Unset_vector() = default;
-  explicit Unset_vector(const std::vector<T>& v) : Base(v.begin(), v.end()) {}
-  template <class Vector, class = std::enable_if_t<std::is_same_v<Vector, std::vector<T>>>>
-  Unset_vector& operator=(const Vector& v) // of no type that `= {}` could mean
-  {
-    this->assign(v.begin(), v.end());
-    return *this;
-  }
-  operator std::vector<T>() const { return std::vector<T>(this->begin(), this->end()); }
-
-  friend bool operator==(const Unset_vector& a, const std::vector<T>& b)
-  {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end());
-  }
-  friend bool operator==(const std::vector<T>& a, const Unset_vector& b) { return b == a; }
-  friend bool operator!=(const Unset_vector& a, const std::vector<T>& b) { return !(a == b); }
-  friend bool operator!=(const std::vector<T>& a, const Unset_vector& b) { return !(a == b); }
-};
+using Unset_vector = std::vector<T, Unset_allocator<T>>;
 
 } // namespace CGAL::PowerRTF::internal
 

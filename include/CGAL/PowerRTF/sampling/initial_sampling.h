@@ -37,10 +37,13 @@ void add_samples(const Surface& surface, const Places& places, Samples& samples,
                  Concurrency concurrency = Sequential_tag())
 {
   const std::size_t before = samples.size(), size = before + places.size();
-  samples.points.resize(size);
-  samples.facets.resize(size);
-  samples.normals.resize(size);
-  samples.density.resize(size);
+  const auto resize = [&](auto& items) {
+    before > 0 ? items.resize(size) : resize_in_parallel(concurrency, items, size);
+  };
+  resize(samples.points);
+  resize(samples.facets);
+  resize(samples.normals);
+  resize(samples.density);
   for_each_index(concurrency, static_cast<int>(places.size()), [&](int k) {
     const auto& [f, b] = places[k];
     const Triangle& t = surface.triangles[f];

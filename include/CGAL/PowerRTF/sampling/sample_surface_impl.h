@@ -60,7 +60,7 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
   }
   if (topology->size() > 1)
     for (const int f : samples.facets) samples.patches.push_back(component[f]);
-  samples.weights = internal::filled(backend.concurrency(), samples.size(), 0.);
+  samples.weights.assign(samples.size(), 0);
   return samples;
 }
 
