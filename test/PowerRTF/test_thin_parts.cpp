@@ -204,6 +204,9 @@ TEST_CASE("narrow strips between creases: the spacing follows their width, gradu
       return result;
     };
     for (const double before : chamfer_spacings()) CHECK(1.4 * width < 0.9 * before);
+    std::vector<double> before;
+    for (int v = 0; v < static_cast<int>(s.points.size()); ++v)
+      before.push_back(spacing_at(s, n, v));
     refine_narrow_patches(s, n, o.gradation);
     CHECK(s.area == doctest::Approx(area));
     for (const double after : chamfer_spacings()) {
@@ -214,6 +217,9 @@ TEST_CASE("narrow strips between creases: the spacing follows their width, gradu
     for (int v = 0; v < static_cast<int>(s.points.size()); ++v)
       widest = std::max(widest, spacing_at(s, n, v));
     CHECK(widest > 1.6 * width);
+    // vertices keep their numbers
+    for (std::size_t v = 0; v < before.size(); ++v)
+      CHECK(spacing_at(s, n, int(v)) <= (density == Density::uniform ? 1.3 : 2.001) * before[v]);
     const Surface_edges edges = surface_edges(s);
     for (int v = 0; v < static_cast<int>(s.points.size()); ++v)
       for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
