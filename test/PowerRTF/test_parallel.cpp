@@ -4,6 +4,7 @@
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
+#include <CGAL/PowerRTF/internal/label_trees.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -228,5 +229,17 @@ TEST_CASE("memory that another has left is filled again")
     const auto values = filled(CGAL::Parallel_if_available_tag(), n, std::uint64_t(7));
     CHECK(values.size() == std::size_t(n));
     CHECK(std::count(values.begin(), values.end(), 7u) == n);
+  }
+}
+
+TEST_CASE("items are hung under their root while others halve the way there")
+{
+  constexpr int size = 1 << 14;
+  for (int run = 0; run < 300; ++run) {
+    std::vector<int> label(size, 0); // a tree of long ways
+    for (int i = 1; i < size; ++i) label[i] = (std::max)(0, i - 1 - i * 7919 % 3);
+    for_each_index(CGAL::Parallel_if_available_tag(), size,
+                   [&](int i) { atomic_store(&label[i], root_of(label.data(), i)); });
+    REQUIRE(std::count(label.begin(), label.end(), 0) == size);
   }
 }

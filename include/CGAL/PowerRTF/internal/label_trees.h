@@ -10,11 +10,12 @@
 namespace CGAL::PowerRTF {
 
 /// The root of a tree of labels that fall from item to item; halves the way for those who follow.
+/// A label never rises, so one that somebody has set to the root meanwhile stays so.
 CGAL_POWER_RTF_HD inline int root_of(int* label, int i)
 {
   for (int next = atomic_load(label + i); next < i;) {
     const int after = atomic_load(label + next);
-    if (after < next) atomic_store(label + i, after);
+    if (after < next) atomic_min(label + i, after);
     i = next;
     next = after;
   }
