@@ -19,10 +19,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <mutex>
 #include <new>
+#include <utility>
 
 #include <malloc.h>
 #include <sys/mman.h>
@@ -35,6 +37,24 @@ constexpr std::size_t page = std::size_t(1) << 21, large = 2 * page;
 [[maybe_unused]] const bool keeps_pages =
     mallopt(M_MMAP_MAX, 0) + mallopt(M_TRIM_THRESHOLD, -1) + mallopt(M_TOP_PAD, 16 * large) > 0;
 #endif
+
+/// Straight from the C library: the operators below may ask for the lock that is held.
+template <class T>
+struct Plain_allocator {
+  using value_type = T;
+  Plain_allocator() = default;
+  template <class U>
+  Plain_allocator(const Plain_allocator<U>&)
+  {}
+  T* allocate(std::size_t n)
+  {
+    if (void* const block = std::malloc(n * sizeof(T))) return static_cast<T*>(block);
+    throw std::bad_alloc();
+  }
+  void deallocate(T* block, std::size_t) { std::free(block); }
+  friend bool operator==(const Plain_allocator&, const Plain_allocator&) { return true; }
+  friend bool operator!=(const Plain_allocator&, const Plain_allocator&) { return false; }
+};
 
 /// Blocks of whole huge pages. Those that are freed are one with their neighbors.
 class Large_blocks {
@@ -62,7 +82,9 @@ public:
   }
 
 private:
-  using Blocks = std::map<char*, std::size_t>; // sizes by beginning
+  /// Sizes by beginning.
+  using Blocks = std::map<char*, std::size_t, std::less<char*>,
+                          Plain_allocator<std::pair<char* const, std::size_t>>>;
 
   char* take(std::size_t size)
   {
