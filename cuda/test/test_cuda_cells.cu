@@ -8,6 +8,8 @@
 #include "device_case.h"
 #include "plain_weight_passes.h"
 
+#include <CGAL/PowerRTF/internal/label_trees.h>
+
 #include <cstdio>
 #include <memory>
 
@@ -291,6 +293,25 @@ TEST_CASE("the paper's passes are those of the host")
   CHECK(std::abs(done - host_done) <= 2);
   CHECK(std::fabs(mean) < 1e-6 * h2);
   d.compare("after the paper's passes");
+}
+
+TEST_CASE("items are hung under their root while others halve the way there")
+{
+  constexpr int size = 1 << 18;
+  Cuda_backend::Buffer<int> labels;
+  labels.allocate(*backend, size);
+  int* const label = labels.data();
+  std::vector<int> found(size);
+  for (int run = 0; run < 20; ++run) {
+    backend->for_each(size, [=] __device__(int i) { // trees of long ways
+      label[i] = i % 4096 < 4 ? i - i % 4096 : i - 1 - i * 7919 % 3;
+    });
+    backend->for_each(size, [=] __device__(int i) { atomic_store(label + i, root_of(label, i)); });
+    backend->download(found.data(), label, size);
+    int wrong = 0;
+    for (int i = 0; i < size; ++i) wrong += found[i] != i - i % 4096;
+    REQUIRE(wrong == 0);
+  }
 }
 
 int main(int argc, char** argv)

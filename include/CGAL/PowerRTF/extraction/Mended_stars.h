@@ -239,6 +239,9 @@ private:
     std::vector<int> due;
     for (int k = 0; k < static_cast<int>(m_pieces.size()); ++k)
       if (m_pieces[k].triangles.empty()) due.push_back(k);
+    std::stable_sort(due.begin(), due.end(), [this](int k, int l) { // what takes longest first
+      return m_pieces[k].facets.size() > m_pieces[l].facets.size();
+    });
     for_each_chunk<ConcurrencyTag>(static_cast<int>(due.size()), 1,
                                    [&](int k, int) { triangulate(m_pieces[due[k]]); });
     return true;
@@ -249,7 +252,7 @@ private:
     std::vector<std::pair<int, int>> facets; // and their pieces
     for (std::size_t k = 0; k < m_pieces.size(); ++k)
       for (const int f : m_pieces[k].facets) facets.emplace_back(f, static_cast<int>(k));
-    std::sort(facets.begin(), facets.end());
+    sort<ConcurrencyTag>(facets.begin(), facets.end());
     boost::disjoint_sets_with_storage<> sets(m_pieces.size());
     for (std::size_t k = 1; k < facets.size(); ++k)
       if (facets[k].first == facets[k - 1].first)
@@ -268,10 +271,10 @@ private:
       piece.open.insert(piece.open.end(), m_pieces[k].open.begin(), m_pieces[k].open.end());
       piece.triangles.clear();
     }
-    for (Piece& piece : joined) {
-      sort_uniquely(piece.facets);
-      sort_uniquely(piece.open);
-    }
+    for_each_chunk<ConcurrencyTag>(static_cast<int>(joined.size()), 1, [&](int k, int) {
+      sort_uniquely(joined[k].facets);
+      sort_uniquely(joined[k].open);
+    });
     m_pieces = std::move(joined);
   }
 
@@ -305,7 +308,7 @@ private:
     m_made.clear();
     for (const auto& [a, b, c] : m_made_triangles)
       m_made.insert(m_made.end(), {{a, b, c}, {b, c, a}, {c, a, b}});
-    std::sort(m_made.begin(), m_made.end());
+    sort<ConcurrencyTag>(m_made.begin(), m_made.end());
     std::fill(m_has_made.begin(), m_has_made.end(), 0);
     for (const Triangle_at& t : m_made) m_has_made[t[0]] = 1;
   }

@@ -165,16 +165,15 @@ private:
   std::vector<Edge> steep_edges()
   {
     const auto& mesh = m.working().mesh;
-    std::vector<Edge> edges;
     const auto is_wanted = [&](Halfedge h) { return is_steep(h) && m.is_free(mesh.edge(h)); };
-    for (const Working_mesh::Face f : m_steep.find([&](Working_mesh::Face f) {
-           const Halfedge h = mesh.halfedge(f);
-           return is_wanted(h) || is_wanted(mesh.next(h)) || is_wanted(mesh.prev(h));
-         }))
-      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
-        if (is_wanted(h)) edges.push_back(mesh.edge(h));
-    sort_uniquely(edges);
-    return edges;
+    const auto& faces = m_steep.find([&](Working_mesh::Face f) {
+      const Halfedge h = mesh.halfedge(f);
+      return is_wanted(h) || is_wanted(mesh.next(h)) || is_wanted(mesh.prev(h));
+    });
+    return gather_uniquely<Edge>(m.concurrency(), int(faces.size()), [&](int k, auto&& add) {
+      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(faces[k])))
+        if (is_wanted(h)) add(mesh.edge(h));
+    });
   }
 
   bool is_steep(Halfedge h) const

@@ -23,7 +23,7 @@ using Keyed_items = Unset_vector<std::pair<std::uint64_t, int>>;
 inline void sort_by_digit(Concurrency concurrency, const Keyed_items& items, int shift,
                           Keyed_items& sorted)
 {
-  constexpr int digits = 256, min_chunk = 1 << 15; // threads come too late for less
+  constexpr int digits = 256, min_chunk = 1 << 12;
   const int n = static_cast<int>(items.size()), chunk = (std::max)(min_chunk, n / 64 + 1),
             chunks = (n + chunk - 1) / chunk;
   const auto digit = [&](int i) { return items[i].first >> shift & (digits - 1); };
