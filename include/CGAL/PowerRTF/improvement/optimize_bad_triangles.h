@@ -185,7 +185,7 @@ private:
   // Neighbors one after the other, the others at once.
   void search(const std::vector<Vertex>& vertices)
   {
-    constexpr int chunk = 4;
+    constexpr int chunk = 8;
     for (const std::vector<Vertex>& some : colored(vertices))
       for_each_chunk(concurrency(), int(some.size()), chunk, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) search(some[k]);

@@ -138,8 +138,6 @@ std::vector<T> concatenated(Concurrency concurrency, const std::vector<std::vect
   for (std::size_t k = 0; k < parts.size(); ++k) first[k + 1] = first[k] + parts[k].size();
   std::vector<T> all;
   resize_in_parallel(concurrency, all, first.back());
-  constexpr std::size_t few = 1 << 16; // bytes that one thread has copied before others have begun
-  if (first.back() * sizeof(T) < few) concurrency = Sequential_tag();
   for_each_chunk(concurrency, static_cast<int>(parts.size()), 1, [&](int k, int) {
     std::copy(parts[k].begin(), parts[k].end(), all.begin() + first[k]);
   });
