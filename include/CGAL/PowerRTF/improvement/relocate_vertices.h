@@ -172,7 +172,7 @@ private:
     });
     return gather_uniquely<Edge>(m.concurrency(), int(faces.size()), [&](int k, auto&& add) {
       for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(faces[k])))
-        if (is_wanted(h)) add(mesh.edge(h));
+        if (is_wanted(h)) add(Edge(mesh.edge(h).idx())); // whichever halfedge it was found by
     });
   }
 
