@@ -300,7 +300,8 @@ private:
       const Stage stage("improvement", m_report.seconds.improvement);
       PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
                              typename Traits::Concurrency_tag(), m_options.dislocations, carriers,
-                             m_engine.close_face_finder(), m_engine.star_sweeps_maker());
+                             m_engine.close_face_finder(), m_engine.star_sweeps_maker(),
+                             m_report.max_distance * surface.normalization.scale);
     }
     return mesh;
   }

@@ -202,6 +202,35 @@ TEST_CASE("where a vertex is missing, one comes from a flat part")
     }
 }
 
+TEST_CASE("a distance that is asked for is kept where few places are farther away")
+{
+  // a dent with sharp walls is no crease; of a sphere with so many samples all else is nearer
+  shapes::Soup soup = shapes::icosphere(4);
+  for (Vec3d& p : soup.points)
+    if (p.z > 0.9) p = 0.85 * p;
+  const std::size_t n = 1500;
+  const Case c = make_case(soup, n, 1, Sampling::stratified);
+  const Facet_tree tree(c.surface.points, c.surface.triangles);
+  const auto bound = [&](double asked) {
+    Extracted_mesh mesh = c.raw;
+    REQUIRE(improve_mesh(c.surface, tree, mesh, CGAL::Sequential_tag(), Dislocations::annihilate,
+                         {}, {}, {}, asked));
+    const Remeshing_report before = judge(c.surface, c.raw), after = judge(c.surface, mesh);
+    check_kept(before, after);
+    CHECK(after.self_intersections == 0);
+    CHECK(after.quality.q_min > 0.6);
+    CHECK(after.quality.theta_min > 30);
+    return surface_distance(c.surface.points, c.surface.triangles, tree, mesh.points,
+                            mesh.triangles, CGAL::Sequential_tag(), true)
+        .bound;
+  };
+  const double unasked = bound(0);
+  const Box3<double> box =
+      CGAL::PowerRTF::internal::bounding_box(c.surface.points, c.surface.triangles);
+  const double asked = 0.75 * unasked / 100 * length(box.hi - box.lo);
+  CHECK(bound(asked) <= 0.75 * unasked);
+}
+
 TEST_CASE("a tree of the surface can be shared")
 {
   const Case c = make_case(shapes::torus(60, 30, 1, 0.4), 300, 2);

@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one-sided distance from the surface to the mesh, sampled at the surface's vertices. For each
-// of them the nearest point of the mesh is kept, on a face whose normal agrees (if there is one).
-// After changes of the mesh it is updated by descent from face to face, which can overestimate
-// small distances; large ones are exact.
+// The one-sided distance from the surface to the mesh, sampled at the surface's vertices, or at
+// other points. For each of them the nearest point of the mesh is kept, on a face whose normal
+// agrees (if there is one). After changes of the mesh it is updated by descent from face to face,
+// which can overestimate small distances; large ones are exact.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 #define CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 
@@ -41,12 +41,22 @@ public:
 
   /// \pre `mesh` has a face
   explicit Distance_tracker(const Star_mesh& mesh)
+      : Distance_tracker(mesh, {}, std::numeric_limits<double>::infinity())
+  {}
+
+  /// Of `others` instead of the vertices, if there are any; any face may be nearest to them. From
+  /// `exact` on distances are.
+  Distance_tracker(const Star_mesh& mesh, Surface_points&& others, double exact)
       : m_mesh(&mesh),
-        m_tree_search_distance(Parameters::tree_search_distance *
-                               std::sqrt(mesh.projector().surface().area / double(mesh.size()))),
-        m_changed(mesh), m_points(tracked_points(surface(), mesh.projector().tree(),
-                                                 Parameters::max_points_per_vertex * mesh.size(),
-                                                 mesh.concurrency()))
+        m_tree_search_distance(
+            std::min(exact, Parameters::tree_search_distance *
+                                std::sqrt(mesh.projector().surface().area / double(mesh.size())))),
+        m_changed(mesh), m_others(std::move(others)),
+        m_points(m_others.points.empty()
+                     ? tracked_points(surface(), mesh.projector().tree(),
+                                      Parameters::max_points_per_vertex * mesh.size(),
+                                      mesh.concurrency())
+                     : tracked_points(m_others))
   {
     find_far();
     assign();
@@ -62,7 +72,8 @@ public:
   int size() const { return int(m_points.size()); }
   const Tracked_point& operator[](int i) const { return m_points[i]; }
   /// Of the surface, as its normal.
-  const Vec3d& point(int i) const { return surface().points[m_points[i].vertex]; }
+  const Vec3d& point(int i) const { return point(m_points[i]); }
+  /// \pre it is a vertex
   const Vec3d& normal(int i) const { return surface().vertex_normals[m_points[i].vertex]; }
 
   /// Those that are nearest to a face.
@@ -156,6 +167,11 @@ private:
 
   const Working_mesh::Mesh& topology() const { return m_mesh->working().mesh; }
   const Surface& surface() const { return m_mesh->projector().surface(); }
+  bool are_vertices() const { return m_others.points.empty(); }
+  const Vec3d& point(const Tracked_point& w) const
+  {
+    return (are_vertices() ? surface().points : m_others.points)[w.vertex];
+  }
 
   // Descends, for some points, from vertices of the mesh that the facet of the surface there
   // carries, or those near in the order of the tree, until a point is not far.
@@ -248,8 +264,10 @@ private:
     for_each_chunk(concurrency, int(some.size()), 16, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         Tracked_point& w = m_points[some[k]];
-        const Vec3d &p = point(some[k]), &n = normal(some[k]);
-        int f = tree.nearest(p, n, Projection::min_normal_cosine, -1).facet;
+        const Vec3d& p = point(some[k]);
+        int f = -1;
+        if (are_vertices())
+          f = tree.nearest(p, normal(some[k]), Projection::min_normal_cosine, -1).facet;
         if (f < 0) f = tree.nearest(p).facet; // none agrees: any
         try_face(w, topology().halfedge(Face(faces[f])), Vertex(), {}, any);
       }
@@ -342,6 +360,7 @@ private:
 
   bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c) const
   {
+    if (!are_vertices()) return true;
     const Vec3d n = cross(b - a, c - a);
     return dot(n, surface().vertex_normals[w.vertex]) > Projection::min_normal_cosine * length(n);
   }
@@ -352,7 +371,7 @@ private:
                                         double distance) const
   {
     const auto [a, b, c] = corners(h, v, p);
-    const Vec3d& x = surface().points[w.vertex];
+    const Vec3d& x = point(w);
     Triangle_part part;
     const Vec3d y = nearest_point_on_triangle(x, a, b, c, part);
     const double d = length(y - x);
@@ -419,7 +438,7 @@ private:
   {
     try_face(w, w.face, v, p, any);
     for (const Bounded_face& f : faces) {
-      const double reach = clearly_less * length(surface().points[w.vertex] - f.center) - f.radius;
+      const double reach = clearly_less * length(point(w) - f.center) - f.radius;
       if (reach < w.distance) try_face(w, f.halfedge, v, p, w.distance);
     }
   }
@@ -431,6 +450,7 @@ private:
   const Star_mesh* m_mesh;
   double m_tree_search_distance; // the least distance that is searched for in the whole mesh
   Changed_vertices m_changed;    // since the last update
+  Surface_points m_others;       // or none: the surface's vertices are tracked
   Unset_vector<Tracked_point> m_points;
   Unset_vector<Face> m_face;                          // by point: as it was assigned
   std::optional<Buckets<int>> m_at_face;              // the points by face

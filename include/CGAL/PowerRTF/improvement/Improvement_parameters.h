@@ -185,6 +185,30 @@ struct Improvement_parameters {
     static constexpr double min_agreement = 0.75; ///< that a star must keep, if it had it
   };
 
+  /// keep_distance.h
+  struct Distance_keeping {
+    /// In the distance that is asked for: what the points that are looked at must keep, as between
+    /// them there is more, and how dense they are across edges of the surface.
+    static constexpr double goal = 0.93, step = 0.3;
+    /// In the goal: faces whose middles, and those of their edges, are nearer are so everywhere.
+    static constexpr double near_share = 0.3;
+    static constexpr int passes = 4;
+    /// Places at most: so many, and one more for each so many vertices of the mesh.
+    static constexpr int max_places = 50;
+    static constexpr int vertices_per_place = 10;
+    static constexpr double hopeless = 3; ///< distance, in the goal
+    /// Badness that a change may bring upon a triangle: Q .6, or 32 degrees, or 91 degrees.
+    static constexpr double max_badness = 0.13;
+    static constexpr double min_agreement = 0.1; ///< that a star must keep, if it had it
+    /// Mean unroundness of the triangles of a star, where the largest distance, in that of the
+    /// goal, has 1.
+    static constexpr double unroundness_weight = 0.5;
+    static constexpr double worthwhile_share = 0.9; ///< of the distance, that a flip must leave
+    /// Runs of the relocation, what they look at, in the farthest, and the badness that they leave.
+    static constexpr int relocations = 8;
+    static constexpr double far_share = 0.5, relocation_badness = 0.13;
+  };
+
   using Fitting = Fitting_parameters;
 
   /// relocate_vertices.h

@@ -31,13 +31,14 @@ class Facet_tree;
 /// `dislocations`: those that are kept cost roundness, not time. `carriers`: for the first
 /// points of `mesh`, or none, the facets that they probably lie on, which saves time. `find`,
 /// `make_sweeps`: what finds intersections and moves vertices instead, where it does.
+/// `max_distance`: that is asked for, in coordinates of the unit box, or 0.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                   internal::Concurrency concurrency = Sequential_tag(),
                   Dislocations dislocations = Dislocations::annihilate,
                   const std::vector<int>& carriers = {}, const Find_close_faces& find = {},
-                  const Make_star_sweeps& make_sweeps = {});
+                  const Make_star_sweeps& make_sweeps = {}, double max_distance = 0);
 
 /// The same with a tree of its own.
 bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,

@@ -30,6 +30,7 @@
 //     if there are creases: make triangles rounder on average, fit the creases
 //     move vertices to far tips where that makes no triangle bad
 //     if there are creases: lower the largest distances                    lower_distances.h
+//     if a largest distance is asked for: bring the mesh within it               keep_distance.h
 //     if there are labels: give them their areas                                keep_areas.h
 //     if no faces intersect and the largest distance has hardly grown:
 //       unlock all vertices; optimize, with only what makes no faces intersect; done
@@ -48,6 +49,7 @@
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/improvement/keep_areas.h>
+#include <CGAL/PowerRTF/improvement/keep_distance.h>
 #include <CGAL/PowerRTF/improvement/lower_distances.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
 #include <CGAL/PowerRTF/improvement/reconnect_mesh.h>
@@ -73,7 +75,7 @@ public:
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                 Concurrency concurrency, Dislocations dislocations,
                 const std::vector<int>& carriers, const Find_close_faces& find,
-                const Make_star_sweeps& make_sweeps)
+                const Make_star_sweeps& make_sweeps, double max_distance)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_carriers(carriers),
         m_find(find), m_concurrency(concurrency), m_dislocations(dislocations),
         m_sweeps(
@@ -83,6 +85,7 @@ public:
         m_stars(std::in_place, mesh, m_projector, carriers, concurrency), m_tracker(*m_stars),
         m_flat(surface, Flat_patches::level_sine, concurrency),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
+        m_max_distance(max_distance),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
 
@@ -166,6 +169,13 @@ private:
     if (is_creased) {
       m_tracker.update();
       Distance_lowerer(stars, m_tracker, m_flat).run(Schedule::far_share);
+      m_tracker.update();
+    }
+    if (m_max_distance > 0) {
+      m_tracker.update();
+      Vertex_relocator relocator(stars, optimizer, m_tracker);
+      Distance_keeper::relocate(relocator, m_max_distance);
+      Distance_keeper(stars, m_flat, m_max_distance).run();
       m_tracker.update();
     }
     if (m_surface.has_labels) {
@@ -306,7 +316,9 @@ private:
   std::optional<Star_mesh> m_stars; // of the attempt
   Distance_tracker m_tracker;
   Flat_patches m_flat;
-  double m_spacing, m_largest_distance;
+  double m_spacing;
+  double m_max_distance; // that is asked for, or 0
+  double m_largest_distance;
 };
 
 } // namespace internal
@@ -315,13 +327,13 @@ CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree
                                         Extracted_mesh& mesh, internal::Concurrency concurrency,
                                         Dislocations dislocations, const std::vector<int>& carriers,
                                         const Find_close_faces& find,
-                                        const Make_star_sweeps& make_sweeps)
+                                        const Make_star_sweeps& make_sweeps, double max_distance)
 {
   if (mesh.triangles.empty()) return true;
   try {
     internal::Progress_part part(0.12);
     internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, carriers, find,
-                                     make_sweeps);
+                                     make_sweeps, max_distance);
     part.next(0.98);
     improver.run();
     mesh.sort_triangles(concurrency);

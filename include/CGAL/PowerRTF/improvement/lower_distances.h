@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/features/flat_patches.h>
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Sampled_distance.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/round_mesh.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
@@ -28,15 +29,24 @@
 
 namespace CGAL::PowerRTF::internal {
 
+/// What is asked of moves that lower distances.
+struct Lowering_terms {
+  using Parameters = Improvement_parameters::Lowering;
+  double enough = 0; ///< see Sampled_distance.h
+  double max_badness = Parameters::max_badness, min_agreement = Parameters::min_agreement,
+         unroundness_weight = Parameters::unroundness_weight;
+};
+
 class Distance_lowerer {
 public:
   using Vertex = Star_mesh::Vertex;
   using Edge = Star_mesh::Edge;
   using Face = Working_mesh::Face;
 
-  /// `flat`: of the surface.
-  Distance_lowerer(Star_mesh& mesh, Distance_tracker& tracker, const Flat_patches& flat)
-      : m(mesh), m_tracker(tracker), m_flat(flat),
+  /// `flat`: of the surface. `terms`: of the moves.
+  Distance_lowerer(Star_mesh& mesh, Distance_tracker& tracker, const Flat_patches& flat,
+                   const Lowering_terms& terms = {})
+      : m(mesh), m_tracker(tracker), m_flat(flat), m_terms(terms), m_distance(mesh, terms.enough),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size())))
   {}
 
@@ -48,19 +58,39 @@ public:
     const int edges = int(mesh.num_edges());
     std::vector<std::pair<double, int>> far(edges + mesh.num_faces()); // edges, then faces
     for_each_index(m.concurrency(), int(far.size()), [&](int i) {
-      far[i] = {i < edges ? -middle_distance(Edge(i)) : -distance(Face(i - edges)), i};
+      far[i] = {i < edges ? -m_distance.middle(Edge(i)) : -m_distance.middle(Face(i - edges)), i};
     });
     const std::size_t most =
         std::min(far.size(), Parameters::max_places + m.size() / Parameters::vertices_per_place);
     std::partial_sort(far.begin(), far.begin() + most, far.end());
-    m_goal = std::max(-share * far.front().first, Parameters::min_distance * m_spacing);
+    set_goal(std::max(-share * far.front().first, Parameters::min_distance * m_spacing));
     for (std::size_t k = 0; k < most && -far[k].first > m_goal; ++k) {
+      Cancellation::poll();
       const int i = far[k].second;
-      for (int round = 0; round < Parameters::rounds; ++round) {
-        Cancellation::poll();
-        if (!(i < edges ? lower(Edge(i)) : lower(Face(i - edges)))) break;
-      }
+      i < edges ? lower(Edge(i)) : lower(Face(i - edges));
     }
+  }
+
+  /// The distance down to which the following lower what is farther away. \returns whether a vertex
+  /// has moved.
+  void set_goal(double distance) { m_goal = distance; }
+  bool lower(Edge e)
+  {
+    const auto [a, b, c, d] = m.corners(e);
+    return repeat(
+        [&, ends = std::array<Vertex, 2>{a, b}] { return m_distance(e) > m_goal && search(ends); });
+  }
+  bool lower(Face f)
+  {
+    return repeat([&] { return m_distance(f) > m_goal && search(m.working().corners(f)); });
+  }
+  /// The same of a tracked point: the vertices of the face that is nearest to it also try where it
+  /// is.
+  bool lower_tracked(int i)
+  {
+    return repeat([&] {
+      return m_tracker[i].distance > m_goal && search(m.working().corners(m_tracker[i].face), i);
+    });
   }
 
 private:
@@ -69,7 +99,6 @@ private:
   using Place = Surface_projector::Place;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  static constexpr double edge_points[] = {1 / 3., 1 / 2., 2 / 3.}; // where edges are measured
 
   // What a search keeps.
   struct Limits {
@@ -77,68 +106,40 @@ private:
     bool is_flat; // the vertex stays in the plane of its facet
   };
 
-  // Of a point of the mesh to the surface. `hint`: a facet near it.
-  double distance(const Vec3d& p, int hint) const
+  // As long as it moves vertices. \returns whether it has.
+  template <class Move>
+  static bool repeat(const Move& move)
   {
-    return length(m.projector().nearest(p, hint).point - p);
+    int round = 0;
+    while (round < Parameters::rounds && move()) ++round;
+    return round > 0;
   }
 
-  double middle_distance(Edge e) const
-  {
-    if (m.working().mesh.is_removed(e)) return 0;
-    const auto [a, b, c, d] = m.corners(e);
-    return distance(0.5 * (m.point(a) + m.point(b)), m.facet(a));
-  }
-
-  double distance(Edge e) const
-  {
-    const auto [a, b, c, d] = m.corners(e);
-    double farthest = 0;
-    for (const double t : edge_points)
-      farthest =
-          std::max(farthest, distance(m.point(a) + t * (m.point(b) - m.point(a)), m.facet(a)));
-    return farthest;
-  }
-
-  double distance(Face f) const
-  {
-    if (m.working().mesh.is_removed(f)) return 0;
-    const auto [a, b, c] = m.working().corners(f);
-    return distance((m.point(a) + m.point(b) + m.point(c)) * (1 / 3.), m.facet(a));
-  }
-
-  bool lower(Edge e)
-  {
-    const auto [a, b, c, d] = m.corners(e);
-    return distance(e) > m_goal && search(std::array<Vertex, 2>{a, b});
-  }
-
-  bool lower(Face f) { return distance(f) > m_goal && search(m.working().corners(f)); }
-
-  // \returns whether a vertex has moved.
+  // `tracked`: a point that the vertices try to come to, or -1.
   template <class Vertices>
-  bool search(const Vertices& vertices)
+  bool search(const Vertices& vertices, int tracked = -1)
   {
     bool has_moved = false;
     for (const Vertex v : vertices) {
       m.release(v);
-      if (m.is_movable(v) && !m.is_hub(v)) has_moved |= search(v);
+      if (m.is_movable(v) && !m.is_hub(v)) has_moved |= search(v, tracked);
     }
     return has_moved;
   }
 
-  bool search(Vertex v)
+  bool search(Vertex v, int tracked)
   {
     const Star star = m.star(v);
     const Vec3d p = m.point(v);
     const Limits limits{
-        std::max(Parameters::max_badness, Parameters::badness_growth * worst_badness(star, p)),
-        std::min(Parameters::min_agreement, m.agreement(star, p, m.normal(v))),
+        std::max(m_terms.max_badness, Parameters::badness_growth * worst_badness(star, p)),
+        std::min(m_terms.min_agreement, m.agreement(star, p, m.normal(v))),
         farthest_around(v, star, p, infinity), lies_flat(m.facet(v))};
     const double before = unroundness_around(star, p) + std::max(1., limits.farthest / m_goal);
     double least = before;
+    const Vec3d start = tracked < 0 ? p : towards(tracked, v, star, limits, least);
     const Vec3d q = search_tangent_plane<Parameters>(
-        p, m.normal(v), Parameters::first_step * mean_edge(star, p), least,
+        start, m.normal(v), Parameters::first_step * mean_edge(star, p), least,
         [&](const Vec3d& x, double limit) {
           return energy(v, star, m.project(v, x), limits, limit);
         });
@@ -147,6 +148,22 @@ private:
     if (!(least < before - Parameters::worthwhile) || !m.move_off(v, best.point)) return false;
     m_tracker.update_around(v);
     return true;
+  }
+
+  // Where the energy is least of: `v`, the tracked point, and from `v` all the way or a part of it
+  // that the mesh is from there.
+  Vec3d towards(int tracked, Vertex v, const Star& star, const Limits& limits, double& least) const
+  {
+    const Vec3d p = m.point(v), x = m_tracker.point(tracked), r = x - m_tracker[tracked].nearest;
+    Vec3d best = p;
+    for (const Vec3d& q : {x, p + r, p + 0.5 * r, p + 0.25 * r}) {
+      const double limit = clearly_less * least,
+                   e = energy(v, star, m.project(v, q), limits, limit);
+      if (!(e < limit)) continue;
+      least = e;
+      best = q;
+    }
+    return best;
   }
 
   // Searches along the normal.
@@ -185,30 +202,20 @@ private:
     return farthest < most ? uneven + std::max(1., farthest / m_goal) : infinity;
   }
 
-  static double unroundness_around(const Star& star, const Vec3d& p)
+  double unroundness_around(const Star& star, const Vec3d& p) const
   {
     constexpr Unroundness unroundness{Improvement_parameters::Rounding::last_badness_weight};
     double sum = 0;
     for (const Star::Corner& c : star.corners) sum += unroundness(p, c.a, c.b);
-    return Parameters::unroundness_weight * sum / double(star.corners.size());
+    return m_terms.unroundness_weight * sum / double(star.corners.size());
   }
 
   // The largest distance of the mesh around `v`, with `v` at `p`, and of the surface there; or any
   // that is no less than `limit`.
   double farthest_around(Vertex v, const Star& star, const Vec3d& p, double limit) const
   {
-    double farthest = 0;
-    const auto reaches_limit = [&](const Vec3d& q) {
-      farthest = std::max(farthest, distance(q, m.facet(v)));
-      return farthest >= limit;
-    };
-    if (reaches_limit(p)) return farthest;
-    for (const Star::Corner& c : star.corners) {
-      for (const double t : edge_points)
-        if (reaches_limit(p + t * (c.a - p))) return farthest;
-      if (reaches_limit((p + c.a + c.b) * (1 / 3.))) return farthest;
-    }
-    return std::max(farthest, m_tracker.farthest_around(v, p, limit));
+    const double farthest = m_tracker.farthest_around(v, p, limit);
+    return farthest >= limit ? farthest : std::max(farthest, m_distance.around(v, star, p, limit));
   }
 
   static double worst_badness(const Star& star, const Vec3d& p)
@@ -222,6 +229,8 @@ private:
   Star_mesh& m;
   Distance_tracker& m_tracker;
   const Flat_patches& m_flat;
+  Lowering_terms m_terms;
+  Sampled_distance m_distance;
   double m_spacing, m_goal = 0; // the goal: a distance
 };
 

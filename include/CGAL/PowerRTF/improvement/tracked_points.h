@@ -1,7 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The vertices of the surface from which the distance to the mesh is measured.
+// The vertices of the surface, or points of its edges, too, from which the distance to the mesh is
+// measured.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_TRACKED_POINTS_H
 #define CGAL_POWER_RTF_IMPROVEMENT_TRACKED_POINTS_H
 
@@ -13,8 +14,10 @@
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -24,7 +27,7 @@ struct Tracked_point {
   Vec3d nearest;
   double distance;
   Working_mesh::Halfedge face;
-  int vertex, facet; ///< of the surface
+  int vertex, facet; ///< of the surface; or the number of another point
   float weight;      ///< area of the surface that it stands for, of its vertices
 };
 
@@ -58,6 +61,51 @@ inline Unset_vector<Tracked_point> tracked_points(const Surface& surface, const 
         float(area)};
   });
   return points;
+}
+
+/// Points and the facets that they are on.
+struct Surface_points {
+  std::vector<Vec3d> points;
+  std::vector<int> facets;
+};
+
+/// All of them; their distances are infinite.
+inline Unset_vector<Tracked_point> tracked_points(const Surface_points& all)
+{
+  Unset_vector<Tracked_point> points;
+  points.resize(all.points.size());
+  for (int i = 0; i < int(all.points.size()); ++i)
+    points[i] = {all.points[i], std::numeric_limits<double>::infinity(), {}, i, all.facets[i], 0};
+  return points;
+}
+
+/// The vertices, and points of the edges: from one to the next, what lies in the plane of one facet
+/// of the edge comes by up to `step` nearer to that of the other.
+inline Surface_points points_of_edges(const Surface& surface, const Facet_tree& tree, double step)
+{
+  constexpr double most = 64;
+  Surface_points all;
+  const auto add = [&all](const Vec3d& p, int facet) {
+    all.points.push_back(p);
+    all.facets.push_back(facet);
+  };
+  std::vector<char> is_there(surface.points.size(), false);
+  for (const int f : tree.order())
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int a = halfedge_source(surface.triangles, h), o = surface.adjacency.opposite[h];
+      const Vec3d &p = surface.points[a],
+                  &q = surface.points[halfedge_target(surface.triangles, h)];
+      if (!std::exchange(is_there[a], true)) add(p, f);
+      if (o > h) continue; // the other facet's turn
+      double sine = 1;
+      if (o >= 0) {
+        const Vec3d &n = surface.facet_normals[f], &other = surface.facet_normals[o / 3];
+        if (dot(n, other) > 0) sine = length(cross(n, other));
+      }
+      const int parts = int(std::min(most, std::ceil(sine * length(q - p) / step)));
+      for (int i = 1; i < parts; ++i) add(p + double(i) / parts * (q - p), f);
+    }
+  return all;
 }
 
 } // namespace CGAL::PowerRTF::internal
