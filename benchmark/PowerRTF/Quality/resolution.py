@@ -7,7 +7,8 @@ resolution.py FOLDER ...            on the models there of MODELS
 resolution.py --jobs 16 FOLDER ...  16 runs at a time
 
 --relative-max-distance: the number of samples that it chooses, against the fewest that do, by runs
-with a factor of .5 to 1 of that number, in steps of 2 %; the distance that the judge finds.
+as those of its search (distance_runs) with a factor of .5 to 1 of that number, in steps of 2 %; the
+distance that the judge finds.
 --relative-edge-length: the median edge against the length that was asked for. Results:
 resolution.md in the folder --results. The exit code is 1 where a distance is larger than asked, else
 0.
@@ -16,6 +17,7 @@ resolution.md in the folder --results. The exit code is 1 where a distance is la
 import argparse
 import concurrent.futures
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -35,8 +37,8 @@ TEXT = """# Distances and lengths that are asked for
 
 Distances: `--relative-max-distance X` chooses n; the certified bound of the distance both ways, by the \
 report and by the judge from the file as written, in % of the diagonal; the fewest samples of runs with .5 n \
-to .98 n, in steps of 2 % of n, of which the judge's bound is no larger than asked; and n over it. Those \
-runs may be lucky, as the next column says: the share of those that do, of all from the fewest on. The last \
+to .98 n, in steps of 2 % of n, as those of the search, of which the bound is no larger than asked; and n over \
+it. Those runs may be lucky, as the next column says: the share of those that do, of all from the fewest on. The last \
 one is the time of the search, in runs with n samples.
 
 """
@@ -63,13 +65,22 @@ def run(options, model, *arguments, judged=False):
         return result
 
 
+def bound_of_run(options, model, distance, samples):
+    """Of a run as those of the search, in % of the diagonal; infinite where the samples are too few."""
+    process = subprocess.run([options.distance_runs, model, str(distance), options.density,
+                              str(samples)], capture_output=True, text=True, check=True)
+    return json.loads(process.stdout)["distance_bound"] if process.stdout else math.inf
+
+
 def distance_row(options, pool, name, model, distance):
     report = run(options, model, "--relative-max-distance", distance, judged=True)
     n = report["vertices"]
-    search_time = report["wall"] / run(options, model, "--samples", n)["wall"]
+    start = time.perf_counter()
+    bound_of_run(options, model, distance, n)
+    search_time = report["wall"] / (time.perf_counter() - start)
     numbers = [round(factor * n) for factor in FACTORS]
-    runs = pool.map(lambda m: run(options, model, "--samples", m, judged=True), numbers)
-    does = [r["judged"]["distance_bound"] <= 100 * distance for r in runs]
+    bounds = pool.map(lambda m: bound_of_run(options, model, distance, m), numbers)
+    does = [bound <= 100 * distance for bound in bounds]
     fewest = numbers[does.index(True)] if any(does) else n
     after = does[does.index(True):] if any(does) else [True]
     found = report["judged"]["distance_bound"]
@@ -98,13 +109,14 @@ def parse_arguments():
     parser.add_argument("--results", default=str(ROOT / "build/resolution"), metavar="FOLDER",
                         help="of resolution.md (build/resolution)")
     parser.add_argument("--programs", metavar="FOLDER",
-                        help="of power_rtf_remesh and judge; default: built here")
+                        help="of power_rtf_remesh, judge and distance_runs; default: built here")
     options = parser.parse_args()
     if not options.programs:
-        build(["power_rtf_remesh", "judge"])
+        build(["power_rtf_remesh", "judge", "distance_runs"])
         options.programs = BUILD / "bin"
     options.program = pathlib.Path(options.programs, "power_rtf_remesh").resolve()
     options.judge = pathlib.Path(options.programs, "judge").resolve()
+    options.distance_runs = pathlib.Path(options.programs, "distance_runs").resolve()
     return options
 
 
