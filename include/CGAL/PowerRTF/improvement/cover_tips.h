@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/tracked_points.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
@@ -65,11 +66,11 @@ private:
       const Vertex v = mesh.target(h);
       if (!m.is_movable(v) || m.is_hub(v)) continue;
       const Star star = m.star(v);
-      const Vec3d p = m.point(v), r = x - m_tracker[i].nearest;
+      const Vec3d p = m.point(v);
       const double agreement =
           std::min(Parameters::min_agreement, m.agreement(star, p, m.normal(v)));
       const double before = m_tracker.farthest_around(v, p);
-      for (const Vec3d& q : {x, p + r, p + 0.5 * r, p + 0.25 * r}) {
+      for (const Vec3d& q : places_towards(x, m_tracker[i].nearest, p)) {
         const auto place = m.project(v, q);
         if (place.facet < 0 || !keeps_shape(star, p, place.point) ||
             m.agreement(star, place.point, place.normal) < agreement)

@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/round_mesh.h>
 #include <CGAL/PowerRTF/improvement/tangent_search.h>
+#include <CGAL/PowerRTF/improvement/tracked_points.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
@@ -71,21 +72,21 @@ public:
     }
   }
 
-  /// The distance down to which the following lower what is farther away. \returns whether a vertex
-  /// has moved.
+  /// The distance down to which the following lower what is farther away.
   void set_goal(double distance) { m_goal = distance; }
+  /// Moves the ends of an edge. \returns whether one has moved
   bool lower(Edge e)
   {
     const auto [a, b, c, d] = m.corners(e);
     return repeat(
         [&, ends = std::array<Vertex, 2>{a, b}] { return m_distance(e) > m_goal && search(ends); });
   }
+  /// The same of the corners of a face.
   bool lower(Face f)
   {
     return repeat([&] { return m_distance(f) > m_goal && search(m.working().corners(f)); });
   }
-  /// The same of a tracked point: the vertices of the face that is nearest to it also try where it
-  /// is.
+  /// The same of those of the face that is nearest to a tracked point; they also try where it is.
   bool lower_tracked(int i)
   {
     return repeat([&] {
@@ -150,13 +151,12 @@ private:
     return true;
   }
 
-  // Where the energy is least of: `v`, the tracked point, and from `v` all the way or a part of it
-  // that the mesh is from there.
+  // Where the energy is least of: `v`, and where it may go for the tracked point to be nearer.
   Vec3d towards(int tracked, Vertex v, const Star& star, const Limits& limits, double& least) const
   {
-    const Vec3d p = m.point(v), x = m_tracker.point(tracked), r = x - m_tracker[tracked].nearest;
+    const Vec3d p = m.point(v);
     Vec3d best = p;
-    for (const Vec3d& q : {x, p + r, p + 0.5 * r, p + 0.25 * r}) {
+    for (const Vec3d& q : places_towards(m_tracker.point(tracked), m_tracker[tracked].nearest, p)) {
       const double limit = clearly_less * least,
                    e = energy(v, star, m.project(v, q), limits, limit);
       if (!(e < limit)) continue;

@@ -14,6 +14,7 @@
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -61,6 +62,14 @@ inline Unset_vector<Tracked_point> tracked_points(const Surface& surface, const 
         float(area)};
   });
   return points;
+}
+
+/// Where a vertex at `p` may go for the mesh to come nearer to `x`, which is now nearest to
+/// `nearest`: there, and from `p` all the way that the mesh is from it or a part.
+inline std::array<Vec3d, 4> places_towards(const Vec3d& x, const Vec3d& nearest, const Vec3d& p)
+{
+  const Vec3d r = x - nearest;
+  return {x, p + r, p + 0.5 * r, p + 0.25 * r};
 }
 
 /// Points and the facets that they are on.
