@@ -239,11 +239,6 @@ private:
     std::vector<int> due;
     for (int k = 0; k < static_cast<int>(m_pieces.size()); ++k)
       if (m_pieces[k].triangles.empty()) due.push_back(k);
-    // What takes longest first: a few large pieces would come late, and all would wait for them.
-    const auto large = due.begin() + (std::min)(due.size(), std::size_t(64));
-    std::partial_sort(due.begin(), large, due.end(), [this](int k, int l) {
-      return std::pair(m_pieces[l].facets.size(), k) < std::pair(m_pieces[k].facets.size(), l);
-    });
     for_each_chunk<ConcurrencyTag>(static_cast<int>(due.size()), 1,
                                    [&](int k, int) { triangulate(m_pieces[due[k]]); });
     return true;
