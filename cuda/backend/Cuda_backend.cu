@@ -13,7 +13,7 @@
 namespace CGAL::PowerRTF::device {
 
 Cuda_backend::Cuda_backend(int device)
-    : m_context(Device_context::of(device)), m_stream(m_context), m_pinned(*this, pinned_bytes)
+    : m_context(Device_context::of(device)), m_stream(m_context), m_stage(*this, stage_bytes)
 {
   internal::allocate_listed(*this, *this);
   fill(m_ticket.data(), 0u, 1);
@@ -54,10 +54,13 @@ void Cuda_backend::give_back_pinned(void* block, std::size_t bytes) noexcept
   m_context.pinned_memory().give_back(block, bytes);
 }
 
-char* Cuda_backend::stage(std::size_t part)
+char* Cuda_backend::stage(std::size_t bytes)
 {
-  if (!m_stages) m_stages.emplace(*this, 2 * stage_bytes);
-  return static_cast<char*>(m_stages->data()) + part % 2 * stage_bytes;
+  constexpr std::size_t alignment = 64;
+  if (m_staged + bytes > stage_bytes) synchronize();
+  char* const place = static_cast<char*>(m_stage.data()) + m_staged;
+  m_staged += (bytes + alignment - 1) / alignment * alignment;
+  return place;
 }
 
 namespace {
@@ -75,34 +78,36 @@ void copy_in_parallel(char* to, const char* from, std::size_t bytes)
 
 } // namespace
 
-void Cuda_backend::upload_staged(void* to, const void* from, std::size_t bytes)
+void Cuda_backend::upload_bytes(void* to, const void* from, std::size_t bytes)
 {
-  for (std::size_t begin = 0; begin < bytes; begin += stage_bytes) {
-    const std::size_t size = std::min(stage_bytes, bytes - begin);
-    char* const part = stage(begin / stage_bytes);
+  for (std::size_t begin = 0; begin < bytes; begin += part_bytes) {
+    const std::size_t size = std::min(part_bytes, bytes - begin);
+    char* const part = stage(size);
     copy_in_parallel(part, static_cast<const char*>(from) + begin, size);
-    synchronize(); // the part before
     check(cudaMemcpyAsync(static_cast<char*>(to) + begin, part, size, cudaMemcpyHostToDevice,
                           stream()),
           "upload");
   }
-  synchronize();
 }
 
-void Cuda_backend::download_staged(void* to, const void* from, std::size_t bytes)
+void Cuda_backend::download_bytes(void* to, const void* from, std::size_t bytes)
 {
+  // One of two in turn. The device reads what is to go up before it writes there.
+  const auto part = [&](std::size_t begin) {
+    return static_cast<char*>(m_stage.data()) + begin / part_bytes % 2 * part_bytes;
+  };
   const auto start = [&](std::size_t begin) {
     if (begin >= bytes) return;
-    check(cudaMemcpyAsync(stage(begin / stage_bytes), static_cast<const char*>(from) + begin,
-                          std::min(stage_bytes, bytes - begin), cudaMemcpyDeviceToHost, stream()),
+    check(cudaMemcpyAsync(part(begin), static_cast<const char*>(from) + begin,
+                          std::min(part_bytes, bytes - begin), cudaMemcpyDeviceToHost, stream()),
           "download");
   };
   start(0);
-  for (std::size_t begin = 0; begin < bytes; begin += stage_bytes) {
+  for (std::size_t begin = 0; begin < bytes; begin += part_bytes) {
     synchronize();
-    start(begin + stage_bytes);
-    copy_in_parallel(static_cast<char*>(to) + begin, stage(begin / stage_bytes),
-                     std::min(stage_bytes, bytes - begin));
+    start(begin + part_bytes);
+    copy_in_parallel(static_cast<char*>(to) + begin, part(begin),
+                     std::min(part_bytes, bytes - begin));
   }
 }
 

@@ -19,9 +19,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <new>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -204,25 +202,16 @@ public:
   /// Writes the items i of [0, n) with `is_wanted[i]` in order. \returns their number
   int select(int n, const unsigned char* is_wanted, int* items);
 
+  /// Returns once `from` is no longer needed; the device has the items when it comes to them.
   template <class T>
   void upload(T* to, const T* from, std::size_t n)
   {
-    const std::size_t bytes = n * sizeof(T);
-    if (bytes > staged_bytes) return upload_staged(to, from, bytes);
-    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream()), "upload");
-    synchronize();
+    upload_bytes(to, from, n * sizeof(T));
   }
   template <class T>
   void download(T* to, const T* from, std::size_t n)
   {
-    const std::size_t bytes = n * sizeof(T);
-    if (bytes > staged_bytes) return download_staged(to, from, bytes);
-    const bool is_small = bytes <= pinned_bytes; // at once, without the runtime's own buffer
-    check(cudaMemcpyAsync(is_small ? m_pinned.data() : static_cast<void*>(to), from, bytes,
-                          cudaMemcpyDeviceToHost, stream()),
-          "download");
-    synchronize();
-    if (is_small) std::memcpy(static_cast<void*>(to), m_pinned.data(), bytes);
+    download_bytes(to, from, n * sizeof(T));
   }
   template <class T>
   void fill(T* to, T value, std::size_t n)
@@ -244,7 +233,11 @@ public:
   }
 
   cudaStream_t stream() const { return m_stream->stream; }
-  void synchronize() { check(cudaStreamSynchronize(stream()), "waiting for the kernels"); }
+  void synchronize()
+  {
+    check(cudaStreamSynchronize(stream()), "waiting for the kernels");
+    m_staged = 0;
+  }
   int multiprocessors() const { return m_context.multiprocessors(); }
 
   /// The time on the device from `start_clock()` to the last `stop_clock()`.
@@ -281,12 +274,12 @@ private:
   void* take_pinned(std::size_t bytes);
   void give_back_pinned(void* block, std::size_t bytes) noexcept;
 
-  /// All threads of the host copy an array through pinned memory, part by part, where the runtime
-  /// would have one do it; the bus has a part meanwhile.
-  void upload_staged(void* to, const void* from, std::size_t bytes);
-  void download_staged(void* to, const void* from, std::size_t bytes);
-  /// Room for a part, one of two in turn.
-  char* stage(std::size_t part);
+  /// Through pinned memory, part by part: the bus has a part while the host's threads copy another,
+  /// and what is small is not waited for.
+  void upload_bytes(void* to, const void* from, std::size_t bytes);
+  void download_bytes(void* to, const void* from, std::size_t bytes);
+  /// Pinned memory that the host may write to. \pre `bytes` is at most `part_bytes`
+  char* stage(std::size_t bytes);
 
   template <class F>
   int max_team_blocks() const
@@ -312,10 +305,9 @@ private:
   Device_context& m_context;
   Borrowed_stream m_stream;
   std::size_t m_bytes = 0, m_most_bytes = 0;
-  static constexpr std::size_t pinned_bytes = 4096, staged_bytes = std::size_t(1) << 20,
-                               stage_bytes = std::size_t(1) << 22;
-  Pinned_block m_pinned;
-  std::optional<Pinned_block> m_stages; // once they are needed
+  static constexpr std::size_t part_bytes = std::size_t(1) << 21, stage_bytes = 4 * part_bytes;
+  Pinned_block m_stage;
+  std::size_t m_staged = 0; // bytes there that the device may still have to read
   Buffer<double> m_partials;
   Buffer<unsigned> m_ticket;
   Sort_arrays m_sort;
