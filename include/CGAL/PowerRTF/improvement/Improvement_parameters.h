@@ -64,6 +64,7 @@ struct Improvement_parameters {
     static constexpr int irregular_degree = 10; ///< of vertices that take no part
     static constexpr int rings = 4;             ///< around the flips, of vertices that move
     static constexpr int rounds_per_flip = 1, rounds = 3; ///< of their moves
+    static constexpr double min_step = 0.01; ///< of these, in the shortest edge of the star
     /// All that the rounds to come gain, at most, in the gain of the last one.
     static constexpr double gains_to_come = 1;
     static constexpr double min_agreement = 0.5;

@@ -248,6 +248,7 @@ private:
 
   bool flip_if_better(const std::vector<Edge>& flips)
   {
+    Cancellation::poll();
     const std::vector<Vertex> near = vertices_near(flips);
     const auto faces = m.working().faces_at(near);
     if (!lie_well(faces)) return false; // nor will they
@@ -273,10 +274,8 @@ private:
 
   void smooth(const std::vector<Vertex>& vertices)
   {
-    for (const Vertex v : vertices) {
-      Cancellation::poll();
-      if (m.is_movable(v)) smooth_vertex(m, v);
-    }
+    for (const Vertex v : vertices)
+      if (m.is_movable(v)) smooth_vertex(m, v, Parameters::min_step);
   }
 
   // Moves vertices. False as soon as it is clear that the faces' energy will not fall below

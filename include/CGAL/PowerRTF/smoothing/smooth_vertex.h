@@ -46,9 +46,11 @@ CGAL_POWER_RTF_HD double star_agreement(const Stars& m, const Star& star, const 
   return least;
 }
 
-/// One step of the vertex `v`, which may move. \tparam Stars as `Star_view`
+/// One step of the vertex `v`, which may move, if it is at least `min_step` long, in the shortest
+/// edge of the star. \tparam Stars as `Star_view`
 template <class Stars>
-CGAL_POWER_RTF_HD void smooth_vertex(Stars& m, typename Stars::Vertex v)
+CGAL_POWER_RTF_HD void smooth_vertex(Stars& m, typename Stars::Vertex v,
+                                     double min_step = Smoothing_parameters::min_step)
 {
   using Parameters = Smoothing_parameters;
   const auto star = m.star(v);
@@ -84,7 +86,7 @@ CGAL_POWER_RTF_HD void smooth_vertex(Stars& m, typename Stars::Vertex v)
   double su = scale * (hww * gu - huw * gw), sw = scale * (huu * gw - huw * gu);
   const double size = std::sqrt(su * su + sw * sw), unit = std::sqrt(shortest),
                limit = Parameters::max_step * unit;
-  if (!(size > Parameters::min_step * unit)) return;
+  if (!(size > min_step * unit)) return;
   if (size > limit) su *= limit / size, sw *= limit / size;
 
   for (int halving = 0; halving < 3; ++halving, su /= 2, sw /= 2) {
