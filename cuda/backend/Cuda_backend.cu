@@ -13,7 +13,8 @@
 namespace CGAL::PowerRTF::device {
 
 Cuda_backend::Cuda_backend(int device)
-    : m_context(Device_context::of(device)), m_stream(m_context), m_stage(*this, stage_bytes)
+    : m_context(Device_context::of(device)), m_stream(m_context),
+      m_memory(Memory_of_stream{m_context.memory(), stream()}), m_stage(*this, stage_bytes)
 {
   internal::allocate_listed(*this, *this);
   fill(m_ticket.data(), 0u, 1);
@@ -24,7 +25,7 @@ Cuda_backend::Cuda_backend(int device)
 
 void* Cuda_backend::take(std::size_t bytes)
 {
-  void* const block = m_context.memory().take(bytes);
+  void* const block = m_memory.take(bytes);
   if (!block)
     throw Cuda_error("the memory of the GPU does not suffice: " + gibibytes(bytes) +
                      " more were needed beside " + gibibytes(m_bytes) + " in use; " +
@@ -36,9 +37,12 @@ void* Cuda_backend::take(std::size_t bytes)
 
 void Cuda_backend::give_back(void* block, std::size_t bytes) noexcept
 {
-  cudaStreamSynchronize(stream());
-  m_context.memory().give_back(block, bytes);
+  m_memory.give_back(block, bytes);
   m_bytes -= bytes;
+  if (cudaStreamQuery(stream()) == cudaSuccess)
+    m_memory.release();
+  else
+    cudaGetLastError(); // that it is not ready is none
 }
 
 void* Cuda_backend::take_pinned(std::size_t bytes)

@@ -222,7 +222,10 @@ public:
   }
 
   /// Whether so many bytes are free now.
-  bool has_room(std::size_t bytes) const { return bytes <= m_context.free_bytes(); }
+  bool has_room(std::size_t bytes) const
+  {
+    return bytes <= m_context.free_bytes() + m_memory.kept();
+  }
 
   /// From the beginning; see listed_arrays.h.
   template <class F>
@@ -237,6 +240,7 @@ public:
   {
     check(cudaStreamSynchronize(stream()), "waiting for the kernels");
     m_staged = 0;
+    m_memory.release();
   }
   int multiprocessors() const { return m_context.multiprocessors(); }
 
@@ -269,7 +273,7 @@ private:
 
   /// \throws Cuda_error when the memory does not suffice
   void* take(std::size_t bytes);
-  /// The stream's work is waited for: the next who has it may be on another one.
+  /// Keeps the block for this stream as long as its work is under way.
   void give_back(void* block, std::size_t bytes) noexcept;
   void* take_pinned(std::size_t bytes);
   void give_back_pinned(void* block, std::size_t bytes) noexcept;
@@ -304,6 +308,7 @@ private:
 
   Device_context& m_context;
   Borrowed_stream m_stream;
+  Free_list<Memory_of_stream> m_memory;
   std::size_t m_bytes = 0, m_most_bytes = 0;
   static constexpr std::size_t part_bytes = std::size_t(1) << 21, stage_bytes = 4 * part_bytes;
   Pinned_block m_stage;

@@ -23,14 +23,14 @@ namespace CGAL::PowerRTF::device {
 struct Device_memory {
   /// \throws Cuda_error when the device fails
   static void* take(std::size_t bytes);
-  static void give_back(void* block) noexcept { cudaFree(block); }
+  static void give_back(void* block, std::size_t) noexcept { cudaFree(block); }
 };
 
 /// Memory of the host that devices see, too.
 struct Pinned_memory {
   /// \throws Cuda_error when a device fails
   static void* take(std::size_t bytes);
-  static void give_back(void* block) noexcept { cudaFreeHost(block); }
+  static void give_back(void* block, std::size_t) noexcept { cudaFreeHost(block); }
 };
 
 /// A stream, and events that tell its time.
@@ -89,6 +89,20 @@ public:
 private:
   Device_context& m_context;
   Timed_stream m_stream;
+};
+
+/// Device memory for the work of one stream, which comes to it in order.
+struct Memory_of_stream {
+  Free_list<Device_memory>& memory;
+  cudaStream_t stream;
+
+  void* take(std::size_t bytes) { return memory.take(bytes); }
+  /// The work is waited for: the next who has the block may be on another stream.
+  void give_back(void* block, std::size_t bytes) noexcept
+  {
+    cudaStreamSynchronize(stream);
+    memory.give_back(block, bytes);
+  }
 };
 
 } // namespace CGAL::PowerRTF::device

@@ -31,7 +31,7 @@ inline std::size_t block_size(std::size_t bytes)
 /// Its members may be called by several threads at once.
 ///
 /// \tparam Source where blocks come from: `take(bytes)` returns null where there is none,
-/// `give_back(block)` throws nothing
+/// `give_back(block, bytes)` throws nothing
 template <class Source>
 class Free_list {
 public:
@@ -60,7 +60,7 @@ public:
       m_blocks[size].push_back(block);
       m_kept += size;
     } catch (const std::bad_alloc&) {
-      m_source.give_back(block);
+      m_source.give_back(block, size);
     }
   }
 
@@ -73,8 +73,8 @@ public:
       std::swap(blocks, m_blocks);
       m_kept = 0;
     }
-    for (const auto& of_size : blocks)
-      for (void* const block : of_size.second) m_source.give_back(block);
+    for (const auto& [size, of_size] : blocks)
+      for (void* const block : of_size) m_source.give_back(block, size);
   }
 
   /// Bytes of the blocks that are kept.

@@ -44,7 +44,7 @@ struct Heap_source {
     heap->sizes[block] = bytes;
     return block;
   }
-  void give_back(void* block) noexcept
+  void give_back(void* block, std::size_t) noexcept
   {
     const std::lock_guard<std::mutex> lock(heap->mutex);
     heap->used -= heap->sizes.at(block);
@@ -54,6 +54,13 @@ struct Heap_source {
 };
 
 using List = Free_list<Heap_source>;
+
+struct List_source {
+  List* list;
+
+  void* take(std::size_t bytes) { return list->take(bytes); }
+  void give_back(void* block, std::size_t bytes) noexcept { list->give_back(block, bytes); }
+};
 
 } // namespace
 
@@ -117,6 +124,34 @@ TEST_CASE("where memory runs out, what is kept goes first; then there is none, a
   void* const small = list.take(4000);
   CHECK(small);
   list.give_back(small, 4000);
+}
+
+TEST_CASE("of two lists one may be the other's source")
+{
+  Heap heap;
+  heap.room = 20000;
+  List shared(Heap_source{&heap});
+  {
+    Free_list<List_source> first(List_source{&shared}), second(List_source{&shared});
+    void* const block = first.take(9000);
+    first.give_back(block, 9000);
+    CHECK(first.kept() == block_size(9000));
+    CHECK(shared.kept() == 0);
+    void* const other = second.take(9000);
+    CHECK(other != block); // which is the first list's
+    CHECK(first.take(9000) == block);
+    first.give_back(block, 9000);
+    first.release();
+    CHECK(shared.kept() == block_size(9000));
+    CHECK(second.take(9000) == block);
+    second.give_back(block, 9000);
+    second.give_back(other, 9000);
+    void* const large = second.take(15000); // only without those that both keep
+    CHECK(large);
+    CHECK(heap.used == block_size(15000));
+    second.give_back(large, 15000);
+  }
+  CHECK(shared.kept() == block_size(15000));
 }
 
 TEST_CASE("no two threads have the same block at once")
