@@ -21,6 +21,7 @@
 #include <CGAL/PowerRTF/features/split_off_image.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/option_table.h>
@@ -29,6 +30,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -154,6 +156,7 @@ private:
   void distribute(Visitor& visitor)
   {
     m_report.cancelled = false;
+    PowerRTF::internal::Meanwhile preparation([this] { prepare_improvement(); });
     sample();
     const Stage stage("optimization", m_report.seconds.optimization);
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
@@ -168,6 +171,7 @@ private:
                                        : m_options.position_method); // 15 to 19
     }
     if (!m_report.cancelled && !all_fixed()) equalize_capacities();
+    preparation.finish();
     m_report.constructions = m_engine.constructions();
     m_report.cells = m_engine.cell_counts();
     m_report.capacity = m_engine.capacity();
@@ -191,6 +195,14 @@ private:
     m_report.iterations.clear();
   }
 
+  void prepare_improvement()
+  {
+    if (m_options.improvement == PowerRTF::Improvement::yes)
+      m_prepared = PowerRTF::prepare_improvement(m_patches.surface(), m_engine.facet_tree(),
+                                                 m_options.number_of_samples,
+                                                 typename Traits::Concurrency_tag());
+  }
+
   /// The engine's samples on the whole surface, then those on creases and borders.
   PowerRTF::Samples with_features(PowerRTF::Samples samples) const
   {
@@ -209,7 +221,7 @@ private:
     PowerRTF::move_off_kept_edges(m_surface, all.size() - features.size(), all);
     PowerRTF::Extracted_mesh mesh;
     if (!m_surface.is_closed_up()) {
-      mesh = triangulate(m_surface, all, features, {}, carriers);
+      mesh = triangulate(m_surface, all, features, {}, std::move(carriers));
     } else {
       const PowerRTF::Opened_surface opened(m_surface, all, features);
       mesh = triangulate(opened.surface(), opened.samples(), opened.features(), opened.seams(), {});
@@ -288,7 +300,7 @@ private:
                                        const PowerRTF::Samples& samples,
                                        const PowerRTF::Feature_samples& features,
                                        const PowerRTF::Seam_places& seams,
-                                       const std::vector<int>& carriers)
+                                       std::vector<int> carriers)
   {
     PowerRTF::Extracted_mesh mesh;
     {
@@ -298,10 +310,11 @@ private:
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
-      PowerRTF::improve_mesh(m_patches.surface(), m_engine.facet_tree(), mesh,
-                             typename Traits::Concurrency_tag(), m_options.dislocations, carriers,
-                             m_engine.close_face_finder(), m_engine.star_sweeps_maker(),
-                             m_report.max_distance * surface.normalization.scale);
+      PowerRTF::improve_mesh(
+          m_patches.surface(), m_engine.facet_tree(), mesh, typename Traits::Concurrency_tag(),
+          {m_options.dislocations, m_report.max_distance * surface.normalization.scale,
+           std::move(carriers), m_engine.close_face_finder(), m_engine.star_sweeps_maker(),
+           std::move(m_prepared)});
     }
     return mesh;
   }
@@ -361,6 +374,7 @@ private:
   std::optional<PowerRTF::Surface> m_whole; // of which that is the half; none: it is the whole
   PowerRTF::Surface_patches m_patches;
   Engine m_engine;
+  std::shared_ptr<PowerRTF::Improvement_preparation> m_prepared; // for the next mesh
 };
 
 } // namespace CGAL

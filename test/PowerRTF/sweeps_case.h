@@ -53,7 +53,9 @@ public:
   Stars fitted(Star_sweeps_base& sweeps, double& gain) const
   {
     internal::Star_mesh mesh = m_mesh;
-    internal::Distance_tracker tracker(mesh);
+    internal::Distance_tracker tracker(
+        mesh, internal::tracked_points(m_case.surface, mesh.projector().tree(), mesh.size(),
+                                       mesh.concurrency()));
     const double before = mean_distance(tracker);
     const Flat_patches flat(m_case.surface);
     const internal::Surface_fitter fitter(mesh, tracker, flat, sweeps, 0.3);

@@ -213,8 +213,8 @@ TEST_CASE("a distance that is asked for is kept where few places are farther awa
   const Facet_tree tree(c.surface.points, c.surface.triangles);
   const auto bound = [&](double asked) {
     Extracted_mesh mesh = c.raw;
-    REQUIRE(improve_mesh(c.surface, tree, mesh, CGAL::Sequential_tag(), Dislocations::annihilate,
-                         {}, {}, {}, asked));
+    REQUIRE(improve_mesh(c.surface, tree, mesh, CGAL::Sequential_tag(),
+                         {Dislocations::annihilate, asked}));
     const Remeshing_report before = judge(c.surface, c.raw), after = judge(c.surface, mesh);
     check_kept(before, after);
     CHECK(after.self_intersections == 0);
@@ -251,8 +251,8 @@ TEST_CASE("the facets that carry points may be known, of some or wrongly")
   for (std::size_t v = 0; v < c.raw.points.size() / 2; ++v)
     carriers.push_back(v % 5 == 0 ? 0 : tree.nearest(c.raw.points[v]).facet);
   Extracted_mesh mesh = c.raw;
-  CHECK(improve_mesh(c.surface, tree, mesh, CGAL::Sequential_tag(), Dislocations::annihilate,
-                     carriers));
+  CHECK(improve_mesh(c.surface, tree, mesh, CGAL::Sequential_tag(),
+                     {Dislocations::annihilate, 0, carriers}));
   CHECK(mesh.points == other.points);
   CHECK(mesh.triangles == other.triangles);
 }

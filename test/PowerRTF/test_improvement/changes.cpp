@@ -91,7 +91,10 @@ TEST_CASE("after any changes far points are as far as the nearest face that agre
   using Parameters = internal::Improvement_parameters;
   Changing_mesh m;
   const auto& mesh = m.mesh.working().mesh;
-  internal::Distance_tracker tracker(m.mesh);
+  const internal::Surface_projector& projector = m.mesh.projector();
+  internal::Distance_tracker tracker(m.mesh,
+                                     internal::tracked_points(projector.surface(), projector.tree(),
+                                                              m.mesh.size(), m.mesh.concurrency()));
   std::size_t far = 0;
   for (int round = 1; round <= 6; ++round) { // few changes, and many
     CAPTURE(round);

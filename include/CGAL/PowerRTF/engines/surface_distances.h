@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/geometry/Area_samples.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
+#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/internal/scan.h>
@@ -124,14 +125,13 @@ struct Sampled_distance_arrays {
   }
 };
 
-/// Those of samples of `from`, and of its `vertices` as far as they are used, to `to`.
+/// Places samples of `from` into `a.points`, then its `vertices` as far as they are used.
+/// \returns the number of all
 template <class Backend>
-void find_sampled_distances(Backend& backend, const Surface_view<double>& from, int vertices,
-                            const Vec3d* points, const Surface_view<double>& to, int samples,
-                            Sampled_distances* result)
+int place_points(Backend& backend, const Surface_view<double>& from, int vertices,
+                 const Vec3d* points, int samples, Sampled_distance_arrays<Backend>& a)
 {
   const int facets = from.facet_tree.items, corners = 3 * facets;
-  Sampled_distance_arrays<Backend> a;
   allocate_listed(backend, a, std::size_t(vertices), std::size_t(facets), std::size_t(samples));
   backend.for_each(facets + 1, Facet_areas{from.facets, facets, a.areas.data()});
   exclusive_scan(backend, facets + 1, a.areas.data(), a.sums.data());
@@ -145,6 +145,14 @@ void find_sampled_distances(Backend& backend, const Surface_view<double>& from, 
                                    from.facet_vertices,
                                    a.first_corners.data(),
                                    a.points.data()});
+  return n;
+}
+
+/// Those of the first n of `a.points` to a surface; `samples`: how many of them come first.
+template <class Backend>
+void find_sampled_distances(Backend& backend, Sampled_distance_arrays<Backend>& a, int n,
+                            int samples, const Surface_view<double>& to, Sampled_distances* result)
+{
   backend.for_each_by_lanes(n,
                             Facet_distance_rule{to, a.points.data(), a.squared_distances.data()});
   backend.reduce_twice(
@@ -167,7 +175,7 @@ bool surface_distances(Backend& backend, const Surface_view<Real>& there,
   };
   const Packed_tree_layout layout(mesh.faces);
   if (!backend.has_room(bytes_of_listed<Facets>(surface) + bytes_of_listed<Facets>(mesh) +
-                        Tree::bytes(layout) + std::max(points_bytes(surface), points_bytes(mesh))))
+                        Tree::bytes(layout) + points_bytes(surface) + points_bytes(mesh)))
     return false;
   Facets of_surface, of_mesh;
   Tree tree;
@@ -181,10 +189,13 @@ bool surface_distances(Backend& backend, const Surface_view<Real>& there,
       placed_facets(backend, of_surface, there.facet_tree, there.facet_vertices, there.facet_nodes);
   const Vec3d* const mesh_points = uploaded(backend, of_mesh.points, mesh.points);
   const Surface_view<double> b = placed_mesh(backend, mesh, of_mesh, tree);
-  find_sampled_distances(backend, a, surface.vertices, surface_points, b, samples,
-                         &found.data()->from_surface);
-  find_sampled_distances(backend, b, mesh.vertices, mesh_points, a, samples,
-                         &found.data()->from_mesh);
+  Points from_surface, from_mesh;
+  const int n_surface =
+                place_points(backend, a, surface.vertices, surface_points, samples, from_surface),
+            n_mesh = place_points(backend, b, mesh.vertices, mesh_points, samples, from_mesh);
+  find_sampled_distances(backend, from_surface, n_surface, samples, b, &found.data()->from_surface);
+  find_sampled_distances(backend, from_mesh, n_mesh, samples, a, &found.data()->from_mesh);
+  Meanwhile::run();
   backend.download(&result, found.data(), 1);
   return true;
 }

@@ -39,28 +39,15 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Face = Working_mesh::Face;
 
-  /// \pre `mesh` has a face
-  explicit Distance_tracker(const Star_mesh& mesh)
-      : Distance_tracker(mesh, {}, std::numeric_limits<double>::infinity())
+  /// Of the surface's vertices. \pre `mesh` has a face
+  Distance_tracker(const Star_mesh& mesh, Unset_vector<Tracked_point>&& points)
+      : Distance_tracker(mesh, {}, std::move(points), std::numeric_limits<double>::infinity())
   {}
 
-  /// Of `others` instead of the vertices, if there are any; any face may be nearest to them. From
-  /// `exact` on distances are.
+  /// Of `others` instead; any face may be nearest to them. From `exact` on distances are.
   Distance_tracker(const Star_mesh& mesh, Surface_points&& others, double exact)
-      : m_mesh(&mesh),
-        m_tree_search_distance(
-            std::min(exact, Parameters::tree_search_distance *
-                                std::sqrt(mesh.projector().surface().area / double(mesh.size())))),
-        m_changed(mesh), m_others(std::move(others)),
-        m_points(m_others.points.empty()
-                     ? tracked_points(surface(), mesh.projector().tree(),
-                                      Parameters::max_points_per_vertex * mesh.size(),
-                                      mesh.concurrency())
-                     : tracked_points(m_others))
-  {
-    find_far();
-    assign();
-  }
+      : Distance_tracker(mesh, std::move(others), tracked_points(others), exact)
+  {}
 
   /// After the mesh has become another one with the same number of faces.
   void update_all()
@@ -154,6 +141,18 @@ public:
   }
 
 private:
+  Distance_tracker(const Star_mesh& mesh, Surface_points&& others,
+                   Unset_vector<Tracked_point>&& points, double exact)
+      : m_mesh(&mesh),
+        m_tree_search_distance(
+            std::min(exact, Parameters::tree_search_distance *
+                                std::sqrt(mesh.projector().surface().area / double(mesh.size())))),
+        m_changed(mesh), m_others(std::move(others)), m_points(std::move(points))
+  {
+    find_far();
+    assign();
+  }
+
   using Parameters = Improvement_parameters::Tracking;
   using Projection = Improvement_parameters::Projection;
 

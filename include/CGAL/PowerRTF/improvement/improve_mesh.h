@@ -14,11 +14,33 @@
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
 class Facet_tree;
+
+/// What `improve_mesh()` begins with, of the surface alone.
+struct Improvement_preparation;
+
+/// \param vertices of the mesh to come, or nearly so many
+std::shared_ptr<Improvement_preparation>
+prepare_improvement(const Surface& surface, const Facet_tree& tree, std::size_t vertices,
+                    internal::Concurrency concurrency = Sequential_tag());
+
+/// What is asked of `improve_mesh()`, and what may save it time.
+struct Improvement_settings {
+  /// Those that are kept cost roundness, not time.
+  Dislocations dislocations = Dislocations::annihilate;
+  double max_distance = 0;        ///< that is asked for, in coordinates of the unit box, or 0
+  std::vector<int> carriers{};    ///< the facets that the first points probably lie on, or none
+  Find_close_faces find{};        ///< finds intersections instead, where it does
+  Make_star_sweeps make_sweeps{}; ///< makes what moves vertices instead, where it does
+  /// For this surface and tree, for one mesh; none: it is made.
+  std::shared_ptr<Improvement_preparation> prepared{};
+};
 
 /// Improves the triangles of `mesh` and its distance to `surface`. Keeps the vertices' number, the
 /// topology, the feature edges and the border; vertices on these slide along them where that
@@ -28,17 +50,11 @@ class Facet_tree;
 ///
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
-/// `dislocations`: those that are kept cost roundness, not time. `carriers`: for the first
-/// points of `mesh`, or none, the facets that they probably lie on, which saves time. `find`,
-/// `make_sweeps`: what finds intersections and moves vertices instead, where it does.
-/// `max_distance`: that is asked for, in coordinates of the unit box, or 0.
 ///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                   internal::Concurrency concurrency = Sequential_tag(),
-                  Dislocations dislocations = Dislocations::annihilate,
-                  const std::vector<int>& carriers = {}, const Find_close_faces& find = {},
-                  const Make_star_sweeps& make_sweeps = {}, double max_distance = 0);
+                  const Improvement_settings& settings = {});
 
 /// The same with a tree of its own.
 bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,

@@ -41,6 +41,7 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_IMPROVE_MESH_IMPL_H
 
 #include <CGAL/PowerRTF/extraction/intersecting_faces.h>
+#include <CGAL/PowerRTF/features/flat_patches.h>
 #include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
@@ -57,35 +58,42 @@
 #include <CGAL/PowerRTF/improvement/round_mesh.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
+#include <CGAL/PowerRTF/improvement/tracked_points.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
+
+struct Improvement_preparation {
+  Flat_patches flat;
+  internal::Unset_vector<internal::Tracked_point> points; ///< until they are tracked
+};
+
 namespace internal {
 
 class Mesh_improver {
 public:
   /// \throw Invalid_input_error if `mesh` is not an oriented 2-manifold
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
-                Concurrency concurrency, Dislocations dislocations,
-                const std::vector<int>& carriers, const Find_close_faces& find,
-                const Make_star_sweeps& make_sweeps, double max_distance)
-      : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_carriers(carriers),
-        m_find(find), m_concurrency(concurrency), m_dislocations(dislocations),
+                Concurrency concurrency, const Improvement_settings& settings)
+      : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_settings(settings),
+        m_concurrency(concurrency), m_prepared(settings.prepared),
         m_sweeps(
-            make_sweeps ? make_sweeps(m_projector.descent(), surface.normalization.grid) : nullptr,
+            settings.make_sweeps
+                ? settings.make_sweeps(m_projector.descent(), surface.normalization.grid)
+                : nullptr,
             make_host_star_sweeps(m_projector.descent(), surface.normalization.grid, concurrency)),
         m_locked(mesh.points.size(), false),
-        m_stars(std::in_place, mesh, m_projector, carriers, concurrency), m_tracker(*m_stars),
-        m_flat(surface, Flat_patches::level_sine, concurrency),
+        m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency),
+        m_tracker(*m_stars, std::move(prepared().points)),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
-        m_max_distance(max_distance),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
 
@@ -95,7 +103,7 @@ public:
   {
     Progress_part part(0.93); // the first attempt, which mostly does
     for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
-      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_carriers, m_concurrency);
+      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency);
       Star_mesh& stars = *m_stars;
       stars.lock(m_locked);
       improve(stars, attempt == 1 ? 1 : 0);
@@ -120,12 +128,20 @@ private:
 
   using Schedule = Improvement_parameters::Schedule;
 
+  Improvement_preparation& prepared()
+  {
+    if (!m_prepared)
+      m_prepared =
+          prepare_improvement(m_surface, m_projector.tree(), m_mesh.points.size(), m_concurrency);
+    return *m_prepared;
+  }
+
   // One attempt; see the head of this file.
   void improve(Star_mesh& stars, int passes_less)
   {
     Progress_part part(0.1);
     Mesh_smoother smoother(stars, m_sweeps);
-    if (m_dislocations == Dislocations::annihilate) {
+    if (m_settings.dislocations == Dislocations::annihilate) {
       smoother.run(Schedule::smoothing_passes - std::exchange(passes_less, 0));
       part.next(0.2);
       Dislocation_annihilator(stars).run();
@@ -154,7 +170,7 @@ private:
     optimize();
     m_tracker.update();
     part.next(0.75);
-    Surface_fitter(stars, m_tracker, m_flat, m_sweeps, Schedule::healable_badness).run();
+    Surface_fitter(stars, m_tracker, m_prepared->flat, m_sweeps, Schedule::healable_badness).run();
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
     if (has_features && optimizer.is_needed()) slide();
@@ -168,14 +184,14 @@ private:
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
     if (is_creased) {
       m_tracker.update();
-      Distance_lowerer(stars, m_tracker, m_flat).run(Schedule::far_share);
+      Distance_lowerer(stars, m_tracker, m_prepared->flat).run(Schedule::far_share);
       m_tracker.update();
     }
-    if (m_max_distance > 0) {
+    if (m_settings.max_distance > 0) {
       m_tracker.update();
       Vertex_relocator relocator(stars, optimizer, m_tracker);
-      Distance_keeper::relocate(relocator, m_max_distance);
-      Distance_keeper(stars, m_flat, m_max_distance).run();
+      Distance_keeper::relocate(relocator, m_settings.max_distance);
+      Distance_keeper(stars, m_prepared->flat, m_settings.max_distance).run();
       m_tracker.update();
     }
     if (m_surface.has_labels) {
@@ -275,7 +291,8 @@ private:
     };
     for (const Face f : find_too_far(stars))
       if (!is_locked(f)) broken.push_back(f);
-    for (const auto& [f, g] : Intersection_finder(stars.working(), stars.concurrency()).all(m_find))
+    for (const auto& [f, g] :
+         Intersection_finder(stars.working(), stars.concurrency()).all(m_settings.find))
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
     return broken;
   }
@@ -307,33 +324,36 @@ private:
   const Surface& m_surface;
   Surface_projector m_projector;
   Extracted_mesh& m_mesh; // as it was extracted, until it is improved
-  const std::vector<int>& m_carriers;
-  const Find_close_faces& m_find;
+  const Improvement_settings& m_settings;
   Concurrency m_concurrency;
-  Dislocations m_dislocations;
+  std::shared_ptr<Improvement_preparation> m_prepared;
   Star_sweeps_of_two m_sweeps;
   std::vector<char> m_locked;
   std::optional<Star_mesh> m_stars; // of the attempt
   Distance_tracker m_tracker;
-  Flat_patches m_flat;
   double m_spacing;
-  double m_max_distance; // that is asked for, or 0
   double m_largest_distance;
 };
 
 } // namespace internal
 
+CGAL_POWER_RTF_INLINE std::shared_ptr<Improvement_preparation>
+prepare_improvement(const Surface& surface, const Facet_tree& tree, std::size_t vertices,
+                    internal::Concurrency concurrency)
+{
+  return std::make_shared<Improvement_preparation>(
+      Improvement_preparation{Flat_patches(surface, Flat_patches::level_sine, concurrency),
+                              internal::tracked_points(surface, tree, vertices, concurrency)});
+}
+
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
                                         Extracted_mesh& mesh, internal::Concurrency concurrency,
-                                        Dislocations dislocations, const std::vector<int>& carriers,
-                                        const Find_close_faces& find,
-                                        const Make_star_sweeps& make_sweeps, double max_distance)
+                                        const Improvement_settings& settings)
 {
   if (mesh.triangles.empty()) return true;
   try {
     internal::Progress_part part(0.12);
-    internal::Mesh_improver improver(surface, tree, mesh, concurrency, dislocations, carriers, find,
-                                     make_sweeps, max_distance);
+    internal::Mesh_improver improver(surface, tree, mesh, concurrency, settings);
     part.next(0.98);
     improver.run();
     mesh.sort_triangles(concurrency);

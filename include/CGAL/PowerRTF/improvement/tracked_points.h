@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -32,11 +33,13 @@ struct Tracked_point {
   float weight;      ///< area of the surface that it stands for, of its vertices
 };
 
-/// The vertices in spatial order: that in which the facets of the tree come to them. Of more than
-/// `most`, every k-th. Their distances are infinite.
+/// The vertices in spatial order: that in which the facets of the tree come to them. Where they are
+/// far more than `mesh_vertices`, every k-th. Their distances are infinite.
 inline Unset_vector<Tracked_point> tracked_points(const Surface& surface, const Facet_tree& tree,
-                                                  std::size_t most, Concurrency concurrency)
+                                                  std::size_t mesh_vertices,
+                                                  Concurrency concurrency)
 {
+  const std::size_t most = Improvement_parameters::Tracking::max_points_per_vertex * mesh_vertices;
   const int vertices = int(surface.points.size()), places = int(tree.order().size());
   const Buckets<int>& corners = surface.adjacency.corners;
   const auto for_each_corner = [&](int v, auto&& f) {

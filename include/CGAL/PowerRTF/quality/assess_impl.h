@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
@@ -62,32 +63,35 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   internal::Progress_part part(0.1);
   if (report.input_topology.faces == 0) // else it is that before facets were split
     report.input_topology = internal::manifold_topology(surface, concurrency);
-  report.topology = topology(mesh.triangles, concurrency);
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
-  report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
-  part.next(0.5);
+  part.next(0.4);
   report.self_intersections =
       self_intersections(mesh.points, mesh.triangles, concurrency, find_close);
   if (report.self_intersections > 0)
     report.input_self_intersections =
         self_intersections(surface.points, surface.triangles, concurrency);
-  part.next(0.6);
-  report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
-  if (report.quality.q_min < round_quality || report.quality.theta_min < round_angle)
-    report.thin = thin_parts(patches, mesh.points.size(), concurrency);
+  part.next(0.5);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
-  const Topology_statistics& t = report.topology;
-  const bool is_closed = t.oriented && t.border_edges == 0; // and so without non-manifold edges
-  const Edge_length_statistics lengths =
-      edge_lengths(mesh.points, mesh.triangles, concurrency, is_closed);
-  report.edge_length = {unit * lengths.mean, unit * lengths.median, unit * lengths.min,
-                        unit * lengths.max};
+  internal::Meanwhile judgment([&] { // while distances are found
+    report.topology = topology(mesh.triangles, concurrency);
+    report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
+    report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
+    if (report.quality.q_min < round_quality || report.quality.theta_min < round_angle)
+      report.thin = thin_parts(patches, mesh.points.size(), concurrency);
+    const Topology_statistics& t = report.topology;
+    const bool is_closed = t.oriented && t.border_edges == 0; // and so without non-manifold edges
+    const Edge_length_statistics lengths =
+        edge_lengths(mesh.points, mesh.triangles, concurrency, is_closed);
+    report.edge_length = {unit * lengths.mean, unit * lengths.median, unit * lengths.min,
+                          unit * lengths.max};
+  });
   const Box3<double> box = internal::bounding_box(surface.points, surface.triangles, concurrency);
   report.diagonal = unit * length(box.hi - box.lo);
   part.next(1);
   report.distance = surface_distance(patches.points, patches.triangles, tree, mesh.points,
                                      mesh.triangles, concurrency, report.max_distance > 0, find);
+  judgment.finish();
   auto& [x, y, z] = report.distance.farthest;
   const Vec3d farthest = surface.normalization.to_outside({x, y, z});
   std::tie(x, y, z) = std::tie(farthest.x, farthest.y, farthest.z);
