@@ -62,7 +62,7 @@ struct Improvement_parameters {
   struct Dislocations {
     static constexpr int max_glide = 6;         ///< edges
     static constexpr int irregular_degree = 10; ///< of vertices that take no part
-    static constexpr int rings = 4;             ///< around the flips, of vertices that move
+    static constexpr int rings = 3;             ///< around the flips, of vertices that move
     static constexpr int rounds_per_flip = 1, rounds = 3; ///< of their moves
     static constexpr double min_step = 0.01; ///< of these, in the shortest edge of the star
     /// All that the rounds to come gain, at most, in the gain of the last one.
