@@ -84,10 +84,10 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
   m_sites = sites.size();
   Engine_samples to;
   const bool has_patches = !m_surface.facet_patches.empty();
-  for (auto v : {&to.points, &to.normals}) v->resize(m_sites);
-  to.density.resize(m_sites);
-  to.facets.resize(m_sites);
-  if (has_patches) to.patches.resize(m_sites);
+  internal::call_at_once(
+      m_concurrency, [&] { to.points.resize(m_sites); }, [&] { to.normals.resize(m_sites); },
+      [&] { to.density.resize(m_sites); }, [&] { to.facets.resize(m_sites); },
+      [&] { to.patches.resize(has_patches ? m_sites : 0); });
   internal::for_each_index(m_concurrency, int(m_sites), [&](int i) {
     const int f = sites.facets[i];
     to.points[i] = sites.points[i];
@@ -112,12 +112,10 @@ CGAL_POWER_RTF_INLINE Samples Surface_engine_base::gather(std::size_t count) con
   const auto resize = [&](auto& items, bool is_there) {
     if (is_there) internal::resize_in_parallel(m_concurrency, items, count);
   };
-  resize(to.points, true);
-  resize(to.normals, true);
-  resize(to.density, true);
-  resize(to.weights, true);
-  resize(to.facets, true);
-  resize(to.patches, !from.patches.empty());
+  internal::call_at_once(
+      m_concurrency, [&] { resize(to.points, true); }, [&] { resize(to.normals, true); },
+      [&] { resize(to.density, true); }, [&] { resize(to.weights, true); },
+      [&] { resize(to.facets, true); }, [&] { resize(to.patches, !from.patches.empty()); });
   internal::for_each_index(m_concurrency, int(count), [&](int i) {
     to.points[i] = from.points[i];
     to.normals[i] = from.normals[i];

@@ -40,14 +40,13 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
   const auto resize = [&](std::size_t edges) { mesh.resize(vertices, edges, triangles.size()); };
   // One thread has to come by the memory of the mesh: nearly all of it while the others do this.
   // Without `reserve()`: GCC's vectors take seven times as long to grow into memory that is there.
-  for_each_chunk(concurrency, 2, 1, [&](int task, int) {
-    if (task == 0) {
-      corners = vertex_corners(triangles, vertices, concurrency);
-      adjacency = find_opposites(triangles, corners, opposite.data(), concurrency);
-    } else {
-      resize(halfedges / 2 + halfedges / 16);
-    }
-  });
+  call_at_once(
+      concurrency,
+      [&] {
+        corners = vertex_corners(triangles, vertices, concurrency);
+        adjacency = find_opposites(triangles, corners, opposite.data(), concurrency);
+      },
+      [&] { resize(halfedges / 2 + halfedges / 16); });
   if (adjacency.non_manifold_edges > 0 || adjacency.same_direction ||
       count_non_manifold_vertices(corners, opposite.data(), concurrency) > 0) {
     mesh.resize(0, 0, 0);

@@ -64,9 +64,13 @@ inline void compute_geometry(Surface& surface, internal::Concurrency concurrency
 {
   const int facets = static_cast<int>(surface.triangles.size());
   const int vertices = static_cast<int>(surface.points.size());
-  internal::resize_in_parallel(concurrency, surface.facet_normals, facets);
-  internal::resize_in_parallel(concurrency, surface.facet_areas, facets);
-  internal::resize_in_parallel(concurrency, surface.vertex_normals, vertices);
+  const auto resize = [&](auto& items, int n) {
+    internal::resize_in_parallel(concurrency, items, n);
+  };
+  internal::call_at_once(
+      concurrency, [&] { resize(surface.facet_normals, facets); },
+      [&] { resize(surface.facet_areas, facets); },
+      [&] { resize(surface.vertex_normals, vertices); });
   constexpr double pi = 3.14159265358979323846;
 
   internal::Unset_vector<std::array<double, 3>> angles(facets); // 0: the facet is degenerate

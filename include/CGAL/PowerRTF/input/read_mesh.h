@@ -16,6 +16,8 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -43,6 +45,32 @@ auto vertex_places(const FaceGraph& mesh)
   return places;
 }
 
+/// Adds the points of a mesh to an empty soup, one by one.
+template <class FaceGraph, class PointMap>
+void add_points(const FaceGraph& mesh, const PointMap& point_map, Polygon_soup& soup, Concurrency)
+{
+  soup.points.reserve(num_vertices(mesh));
+  for (const auto v : vertices(mesh)) soup.points.push_back(to_vec3d(get(point_map, v)));
+}
+/// The same of a mesh's own points, that threads may read at the same time.
+template <class Point>
+void add_points(const CGAL::Surface_mesh<Point>& mesh,
+                const typename CGAL::Surface_mesh<Point>::template Property_map<
+                    typename CGAL::Surface_mesh<Point>::Vertex_index, Point>& points,
+                Polygon_soup& soup, Concurrency concurrency)
+{
+  using Vertex = typename CGAL::Surface_mesh<Point>::Vertex_index;
+  // Numbers that are computed when they are needed are no more than one thread's.
+  constexpr bool are_plain = std::is_arithmetic_v<std::decay_t<decltype(points[Vertex()].x())>>;
+  if (mesh.has_garbage() || !are_plain) {
+    for (const Vertex v : mesh.vertices()) soup.points.push_back(to_vec3d(points[v]));
+    return;
+  }
+  resize_in_parallel(concurrency, soup.points, mesh.number_of_vertices());
+  for_each_index(concurrency, int(soup.points.size()),
+                 [&](int v) { soup.points[v] = to_vec3d(points[Vertex(v)]); });
+}
+
 /// Adds the facets of a mesh to the soup of its points, one by one.
 template <class FaceGraph>
 void add_facets(const FaceGraph& mesh, Polygon_soup& soup, Concurrency)
@@ -55,22 +83,29 @@ void add_facets(const FaceGraph& mesh, Polygon_soup& soup, Concurrency)
     soup.end_polygon();
   }
 }
-/// The same of a mesh that threads may read at the same time.
+/// The same of a mesh that threads may read at the same time. Its faces and vertices count on,
+/// unless some have been removed.
 template <class Point>
 void add_facets(const CGAL::Surface_mesh<Point>& mesh, Polygon_soup& soup, Concurrency concurrency)
 {
-  using Face = typename CGAL::Surface_mesh<Point>::Face_index;
-  const auto places = vertex_places(mesh);
-  const std::vector<Face> faces(mesh.faces().begin(), mesh.faces().end());
-  const int n = static_cast<int>(faces.size());
+  using Mesh = CGAL::Surface_mesh<Point>;
+  using Face = typename Mesh::Face_index;
+  std::vector<Face> faces;
+  std::optional<decltype(vertex_places(mesh))> places;
+  if (mesh.has_garbage()) {
+    places.emplace(vertex_places(mesh));
+    faces.assign(mesh.faces().begin(), mesh.faces().end());
+  }
+  const auto face = [&](int k) { return places ? faces[k] : Face(k); };
+  const int n = static_cast<int>(mesh.number_of_faces());
   resize_in_parallel(concurrency, soup.first, n + 1, 0);
-  for_each_index(concurrency, n, [&](int k) { soup.first[k] = int(mesh.degree(faces[k])); });
+  for_each_index(concurrency, n, [&](int k) { soup.first[k] = int(mesh.degree(face(k))); });
   resize_in_parallel(concurrency, soup.corners,
                      exclusive_scan(concurrency, n + 1, soup.first.data()));
   for_each_index(concurrency, n, [&](int k) {
     int corner = soup.first[k];
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(faces[k]), mesh))
-      soup.corners[corner++] = get(places, v);
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(face(k)), mesh))
+      soup.corners[corner++] = places ? get(*places, v) : int(v);
   });
 }
 
@@ -84,8 +119,7 @@ Polygon_soup soup_of_mesh(const FaceGraph& mesh, const NamedParameters& np,
   const auto point_map = choose_parameter(get_parameter(np, internal_np::vertex_point),
                                           get_const_property_map(CGAL::vertex_point, mesh));
   Polygon_soup soup;
-  soup.points.reserve(num_vertices(mesh));
-  for (const auto v : vertices(mesh)) soup.points.push_back(to_vec3d(get(point_map, v)));
+  add_points(mesh, point_map, soup, concurrency);
   add_facets(mesh, soup, concurrency);
   return soup;
 }

@@ -98,6 +98,16 @@ void for_each_index(int n, F&& f)
   for_each_index(ConcurrencyTag(), n, f);
 }
 
+/// Calls all of `f()`, at the same time where there are threads.
+template <class... F>
+void call_at_once(Concurrency concurrency, F&&... f)
+{
+  for_each_chunk(concurrency, static_cast<int>(sizeof...(F)), 1, [&](int task, int) {
+    int k = 0;
+    ((k++ == task ? f() : void()), ...);
+  });
+}
+
 /// Makes n new items of a vector. All threads touch new memory first: the kernel clears its pages,
 /// which takes longer than to fill them, and would have one thread do it.
 template <class T>

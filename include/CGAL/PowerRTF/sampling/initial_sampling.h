@@ -40,10 +40,9 @@ void add_samples(const Surface& surface, const Places& places, Samples& samples,
   const auto resize = [&](auto& items) {
     before > 0 ? items.resize(size) : resize_in_parallel(concurrency, items, size);
   };
-  resize(samples.points);
-  resize(samples.facets);
-  resize(samples.normals);
-  resize(samples.density);
+  call_at_once(
+      concurrency, [&] { resize(samples.points); }, [&] { resize(samples.facets); },
+      [&] { resize(samples.normals); }, [&] { resize(samples.density); });
   for_each_index(concurrency, static_cast<int>(places.size()), [&](int k) {
     const auto& [f, b] = places[k];
     const Triangle& t = surface.triangles[f];
