@@ -4,6 +4,7 @@
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
+#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/label_trees.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/order_by_key.h>
@@ -23,6 +24,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <thread>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
@@ -220,6 +222,66 @@ TEST_CASE("a set tells what comes for the first time")
     const int i = random() % 3 > 0 ? int(random() % 4096) : int(random() >> 1);
     CHECK(set.insert(i) == expected.insert(i).second);
   }
+}
+
+TEST_CASE("all of some calls are made, each once")
+{
+  for (const bool parallel : {false, true}) {
+    const Concurrency concurrency = parallel ? Concurrency(CGAL::Parallel_if_available_tag())
+                                             : Concurrency(CGAL::Sequential_tag());
+    std::vector<int> a, b, calls(3, 0);
+    call_at_once(
+        concurrency,
+        [&] {
+          ++calls[0];
+          resize_in_parallel(concurrency, a, 1 << 20, 7);
+        },
+        [&] { ++calls[1]; },
+        [&] {
+          ++calls[2];
+          b = select(concurrency, 100000, [](int i) { return i % 2 == 1; });
+        });
+    CHECK(calls == std::vector<int>(3, 1));
+    CHECK(a == std::vector<int>(1 << 20, 7));
+    CHECK(b.size() == 50000);
+  }
+}
+
+TEST_CASE("work is done while a device is waited for, or else at the end, once")
+{
+  int done = 0;
+  {
+    Meanwhile work([&] { ++done; });
+    CHECK(done == 0);
+    work.finish();
+    work.finish();
+    CHECK(done == 1);
+    Meanwhile::run();
+    CHECK(done == 1);
+  }
+  {
+    Meanwhile outer([&] { done += 10; });
+    {
+      Meanwhile inner([&] {
+        Meanwhile::run(); // what it waits for itself
+        done += 100;
+      });
+      Meanwhile::run();
+      CHECK(done == 101);
+      Meanwhile::run();
+      CHECK(done == 101);
+    }
+    std::thread other([] { Meanwhile::run(); }); // has none
+    other.join();
+    CHECK(done == 101);
+    Meanwhile::run();
+    CHECK(done == 111);
+  }
+  {
+    const Meanwhile dropped([&] { done = -1; });
+  }
+  Meanwhile::run();
+  CHECK(done == 111);
 }
 
 TEST_CASE("memory that another has left is filled again")
