@@ -35,7 +35,8 @@ public:
         m_taken(filled(mesh.concurrency(), mesh.size(), 0u))
   {}
 
-  /// Where surroundings touch, the nearest pairs first. \returns the number of meetings.
+  /// Where surroundings touch, the nearest pairs first, until those that are tried at a time all
+  /// stay apart: others are hardly nearer. \returns the number of meetings.
   std::size_t run()
   {
     for_each_index(m.concurrency(), int(m.size()), [this](int v) {
@@ -57,6 +58,7 @@ public:
       for_each_chunk(m.concurrency(), int(chosen.size()), 1,
                      [&](int k, int) { annihilate(chosen[k]); });
       ++m_taking;
+      const std::size_t before = meetings;
       for (Candidate& c : chosen) {
         if (c.has_met) {
           ++meetings;
@@ -66,6 +68,7 @@ public:
           left.push_back({c.five, c.length + 1});
         }
       }
+      if (meetings == before) return meetings;
     }
   }
 
