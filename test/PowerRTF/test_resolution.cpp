@@ -105,6 +105,19 @@ TEST_CASE("the median edge has the length asked for")
       }
 }
 
+TEST_CASE(
+    "the median edge has the length asked for where the mesh has another area than the surface")
+{
+  for (const shapes::Soup& soup : {shapes::thin_disc(0.1), shapes::torus(60, 30, 1, 0.15)})
+    for (const double edge : {0.15, 0.2, 0.25}) {
+      CAPTURE(edge);
+      const Result result = remesh(soup, Resolution::edge_length(edge));
+      CHECK(std::abs(result.report.edge_length.median / edge - 1) < 0.02);
+      CHECK(result.report.median_edge_length == Approx(edge));
+      CHECK(result.report.samples_asked == result.soup.points.size());
+    }
+}
+
 TEST_CASE("an edge length is in the input's unit, or relative to its diagonal")
 {
   const shapes::Soup soup = shapes::torus(40, 20, 1, 0.4);
