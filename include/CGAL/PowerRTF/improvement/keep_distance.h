@@ -5,7 +5,7 @@
 // are farther away: a single one would else ask for more samples everywhere. Vertices from flat
 // parts are put into such places; edges there are flipped; and the vertices around them move, also
 // to where the surface is too far, as long as triangles do not become bad. The mesh is looked at in
-// many points of its edges and faces, the surface at its vertices and along its bent edges.
+// many points of its edges and faces, the surface at its vertices and along its edges.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 #define CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 
