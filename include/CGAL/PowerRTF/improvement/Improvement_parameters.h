@@ -207,6 +207,7 @@ struct Improvement_parameters {
     /// Runs of the relocation, what they look at, in the farthest, and the badness that they leave.
     static constexpr int relocations = 8;
     static constexpr double far_share = 0.5, relocation_badness = 0.13;
+    static constexpr double less = 0.99; ///< of the largest distance, that another one must leave
   };
 
   using Fitting = Fitting_parameters;
