@@ -19,6 +19,7 @@
 #include <CGAL/PowerRTF/geometry/output_grid.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/run_to_edge_length.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF/transfer/find_corner_sources.h>
@@ -185,23 +186,28 @@ private:
   std::vector<Check>& m_checks;
 };
 
+struct Checked_mesh {
+  Extracted_mesh mesh;
+  std::vector<Check> checks;
+};
+
 /// Distributes the samples and triangulates them, and checks the cells where that is asked for.
 /// \throws Cancelled
 template <class Remesher>
-Extracted_mesh make_mesh(Remesher& remesher, Run& run)
+Checked_mesh make_mesh(Remesher& remesher, const Program_options& options)
 {
-  const Program_options& options = run.options;
-  Checking_progress<Remesher> progress(options, remesher, run.checks);
-  if (!about_input(options, [&] { return remesher.optimize(progress); })) throw Cancelled();
-  Extracted_mesh mesh;
-  if (options.write_mesh) mesh = about_input(options, [&] { return remesher.extract(progress); });
+  Checked_mesh result;
+  Checking_progress<Remesher> progress(options, remesher, result.checks);
+  if (!remesher.optimize(progress)) throw Cancelled();
+  if (options.write_mesh || remesher.report().median_edge_length > 0)
+    result.mesh = remesher.extract(progress);
   stop_if_interrupted();
   if (options.check) {
     const internal::Cancellation cancellation(progress);
     const Stage stage("check");
-    run.checks.push_back(check(remesher, remesher.report().outer_iterations));
+    result.checks.push_back(check(remesher, remesher.report().outer_iterations));
   }
-  return mesh;
+  return result;
 }
 
 /// Whether it matters to the output where its vertices come from.
@@ -301,11 +307,14 @@ void make_results(Run& run, Input& input, Surface surface, Outputs& outputs)
   using Remesher = CGAL::PowerRTF_remesher<Traits>;
   const Program_options& options = run.options;
   run.options.traits = Traits::name();
-  Remesher remesher = about_input(
-      options, [&] { return Remesher(std::move(surface), options.remeshing, run.report); });
-  Extracted_mesh mesh = make_mesh(remesher, run);
-  run.report = remesher.report();
-  const Normalization& normalization = remesher.surface().normalization;
+  auto [remesher, checked] = about_input(options, [&] {
+    return run_to_edge_length<Remesher>(std::move(surface), options.remeshing, run.report,
+                                        [&](Remesher& r) { return make_mesh(r, options); });
+  });
+  Extracted_mesh& mesh = checked.mesh;
+  run.checks = std::move(checked.checks);
+  run.report = remesher->report();
+  const Normalization& normalization = remesher->surface().normalization;
   std::optional<Joined_mesh> joined;
   Sources sources = find_sources(input, normalization, mesh, run);
   if (input.region && options.write_mesh) {
@@ -319,7 +328,7 @@ void make_results(Run& run, Input& input, Surface surface, Outputs& outputs)
   }
   if (options.write_mesh) run.missed = run.report.missed_guarantees();
   const Stage stage("write", run.report.seconds.write);
-  write_results(remesher, mesh, joined ? &*joined : nullptr, sources, input.mesh, run, outputs);
+  write_results(*remesher, mesh, joined ? &*joined : nullptr, sources, input.mesh, run, outputs);
 }
 
 /// Sets the number of samples to what a sphere would need for the distance asked for.

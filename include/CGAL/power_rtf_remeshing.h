@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/named_parameters.h>
 #include <CGAL/PowerRTF/option_table.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/run_to_edge_length.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/export_with_sources.h>
 #include <CGAL/PowerRTF/transfer/replace_faces.h>
@@ -81,12 +82,14 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
     const Stopwatch total(report.seconds.total);
     if (is_distance_asked_for(options))
       options.number_of_samples = samples_within_distance<Traits>(options, prepare, visitor);
+    using Remesher = PowerRTF_remesher<Traits>;
     Surface surface = prepare(options, report);
-    PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
-    Extracted_mesh mesh;
-    if (remesher.optimize(visitor)) mesh = remesher.extract(visitor);
-    report = remesher.report();
-    if (!report.cancelled) use(remesher, mesh, report);
+    const auto [remesher, mesh] =
+        run_to_edge_length<Remesher>(std::move(surface), options, report, [&visitor](Remesher& r) {
+          return r.optimize(visitor) ? r.extract(visitor) : Extracted_mesh();
+        });
+    report = remesher->report();
+    if (!report.cancelled) use(*remesher, mesh, report);
   };
   if (!run_unless_cancelled(visitor, run)) report.cancelled = true;
   return report;

@@ -20,6 +20,7 @@
 
 #include <CGAL/PowerRTF/Remeshed_region.h>
 #include <CGAL/PowerRTF/prepare_surface.h>
+#include <CGAL/PowerRTF/run_to_edge_length.h>
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF/transfer/find_corner_sources.h>
@@ -144,15 +145,20 @@ template <class Traits>
 Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visitor& visitor)
 {
   run.options.traits = Traits::name();
-  CGAL::PowerRTF_remesher<Traits> remesher(std::move(surface), run.options.remeshing, run.report);
-  Result result;
-  if (remesher.optimize(visitor)) {
-    result.mesh = remesher.extract(visitor);
-    result.sites = sites_of(remesher);
-  }
-  run.report = remesher.report();
-  const Normalization& normalization = remesher.surface().normalization;
-  if (input.wants_patches) result.patches = remesher.patches(result.mesh);
+  using Remesher = CGAL::PowerRTF_remesher<Traits>;
+  const auto make = [&visitor](Remesher& r) {
+    Result made;
+    if (r.optimize(visitor)) {
+      made.mesh = r.extract(visitor);
+      made.sites = sites_of(r);
+    }
+    return made;
+  };
+  auto [remesher, result] =
+      run_to_edge_length<Remesher>(std::move(surface), run.options.remeshing, run.report, make);
+  run.report = remesher->report();
+  const Normalization& normalization = remesher->surface().normalization;
+  if (input.wants_patches) result.patches = remesher->patches(result.mesh);
   if (input.wants_sources() && !run.report.cancelled)
     result.sources = find_sources(input.source_soup(), normalization, run.report.faces_as_input(),
                                   result.mesh.points, result.mesh.triangles, tools::Concurrency());
@@ -164,7 +170,7 @@ Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visito
     join(input, normalization, result, run.report);
   else
     for (Vec3d& p : result.mesh.points) p = normalization.to_outside(p);
-  return result;
+  return std::move(result);
 }
 
 #ifdef CGAL_LINKED_WITH_TBB

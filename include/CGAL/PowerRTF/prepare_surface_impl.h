@@ -153,7 +153,10 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   if (has_lengths || is_refined || follows_width)
     report.input_topology =
         internal::manifold_topology(surface, concurrency); // before facets are split
-  if (has_lengths)
+  if (!has_lengths)
+    report.median_edge_length =
+        median_length(surface, options, concurrency) / surface.normalization.scale;
+  else
     report.samples_asked =
         set_wanted_lengths(surface, options, fields, report.samples_asked, concurrency);
   if (follows_width)

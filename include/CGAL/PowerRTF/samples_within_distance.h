@@ -19,17 +19,19 @@ namespace CGAL::PowerRTF {
 
 namespace internal {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// The smallest n up to `most` with `ratio(n) <= 1`, to a tenth, where `ratio` falls about as 1 /
-/// n, if it falls; `most` if there is none. The search begins with `first`.
+/// n, if it falls; infinite if there is none. The search begins with `first`.
 template <class Ratio>
 double smallest_of_falling(double first, double most, const Ratio& ratio)
 {
   constexpr double near_enough = 1.1, step = 1.04, least = 4, farthest = 4;
-  double failed = least - 1, met = std::numeric_limits<double>::infinity();
+  double failed = least - 1, met = infinity;
   for (double n = std::round(std::clamp(first, least, most));;) {
     const double r = ratio(static_cast<std::size_t>(n));
     (r <= 1 ? met : failed) = n;
-    if (failed == most) return most;
+    if (failed == most) return infinity;
     if (met <= near_enough * failed || met == failed + 1) return met;
     // A little more than it should be, and between what has been tried.
     const double next = std::round(n * step * std::clamp(r, 1 / farthest, farthest));
@@ -40,31 +42,26 @@ double smallest_of_falling(double first, double most, const Ratio& ratio)
 }
 
 /// The same where `ratio` scatters about what it should be, by some tenths: below, a few numbers do
-/// by luck. Of the next fifteen, each 2 % smaller, the smallest that does is taken, then of those
-/// below that, and so on, until none does or one is hopeless. From the smallest on up: one that
-/// does saves all above it.
+/// by luck. Of those from 24 to 2 % below, in steps of 2 %, the smallest that does is taken. Then
+/// of those from 24 to 14 % below that, as about the nearer ones have been tried, and so on until
+/// none does. `most` if none at all does.
 template <class Ratio>
 std::size_t smallest_number(double first, double most, const Ratio& ratio)
 {
-  constexpr double step = 1.02, hopeless = 1.4, least = 4;
-  constexpr int reach = 15;
-  const double met = smallest_of_falling(first, std::floor(most), ratio);
-  const auto number = [met](int k) {
-    return static_cast<std::size_t>(std::floor(met / std::pow(step, k)));
-  };
-  int best = 0, tried = 0, last = static_cast<int>(std::log(met / least) / std::log(step));
-  while (tried < std::min(best + reach, last)) {
-    const int end = std::min(best + reach, last);
-    for (int k = end; k > tried; --k) {
-      const double r = ratio(number(k));
-      if (r > hopeless) last = k - 1;
-      if (r > 1) continue;
-      best = k;
-      break;
-    }
-    tried = end;
+  constexpr double step = 0.02, least = 4;
+  constexpr int farthest = 12, far = 7;
+  most = std::floor(most);
+  double best = smallest_of_falling(first, most, ratio);
+  if (best == infinity) return static_cast<std::size_t>(most);
+  int nearest = 1;
+  for (int k = farthest; k >= nearest; --k) {
+    const double n = std::round((1 - step * k) * best);
+    if (n < least || n == best || ratio(static_cast<std::size_t>(n)) > 1) continue;
+    best = n;
+    nearest = far;
+    k = farthest + 1;
   }
-  return number(best);
+  return static_cast<std::size_t>(best);
 }
 
 } // namespace internal
@@ -99,7 +96,7 @@ std::size_t samples_within_distance(Remeshing_options options, const Prepare& pr
       const Remeshing_report& done = remesher.report();
       return done.absolute(done.distance.bound) / done.max_distance;
     } catch (const Invalid_input_error&) { // the samples are too few
-      return std::numeric_limits<double>::infinity();
+      return internal::infinity;
     }
   });
 }

@@ -189,8 +189,8 @@ struct Improvement_parameters {
   /// keep_distance.h
   struct Distance_keeping {
     /// In the distance that is asked for: what the points that are looked at must keep, as between
-    /// them there is more, and how dense they are across edges of the surface.
-    static constexpr double goal = 0.93, step = 0.3;
+    /// them there is more, and how dense they are along edges of the surface.
+    static constexpr double goal = 0.93, step = 0.15;
     /// In the goal: faces whose middles, and those of their edges, are nearer are so everywhere.
     static constexpr double near_share = 0.3;
     static constexpr int passes = 4;
@@ -208,6 +208,7 @@ struct Improvement_parameters {
     /// Runs of the relocation, what they look at, in the farthest, and the badness that they leave.
     static constexpr int relocations = 8;
     static constexpr double far_share = 0.5, relocation_badness = 0.13;
+    static constexpr double less = 0.99; ///< of the largest distance, that another one must leave
   };
 
   using Fitting = Fitting_parameters;

@@ -22,7 +22,7 @@ public:
   using Face = Working_mesh::Face;
 
   /// `enough`: a distance up to which nothing has to be known; what is larger is known but for some
-  /// per cent of it, or as parts of a sixteenth of a face's edges tell. 0: edges are looked at in
+  /// per cent of it, or as parts of a 32nd of a face's edges tell. 0: edges are looked at in
   /// three places, faces in their middle.
   Sampled_distance(const Star_mesh& mesh, double enough) : m(mesh), m_enough(enough) {}
 
@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  static constexpr int max_depth = 4; // of the parts of faces
+  static constexpr int max_depth = 5; // of the parts of faces
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   // `hint`: a facet near it.
@@ -112,7 +112,7 @@ private:
   bool any_in_parts(const Vec3d& p, const Vec3d& q, const Vec3d& r, int hint, int depth,
                     const No_less& is_it) const
   {
-    constexpr double tolerance = 0.08;
+    constexpr double tolerance = 0.04;
     const Vec3d middle = (p + q + r) * (1 / 3.);
     const Surface_projector::Place nearest = m.projector().nearest(middle, hint);
     const double d = length(nearest.point - middle);

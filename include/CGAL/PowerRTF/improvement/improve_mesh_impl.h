@@ -191,7 +191,7 @@ private:
       m_tracker.update();
       Vertex_relocator relocator(stars, optimizer, m_tracker);
       Distance_keeper::relocate(relocator, m_settings.max_distance);
-      Distance_keeper(stars, m_prepared->flat, m_settings.max_distance).run();
+      Distance_keeper(stars, m_prepared->flat, m_settings.max_distance).run(relocator);
       m_tracker.update();
     }
     if (m_surface.has_labels) {

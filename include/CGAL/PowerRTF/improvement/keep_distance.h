@@ -5,7 +5,7 @@
 // are farther away: a single one would else ask for more samples everywhere. Vertices from flat
 // parts are put into such places; edges there are flipped; and the vertices around them move, also
 // to where the surface is too far, as long as triangles do not become bad. The mesh is looked at in
-// many points of its edges and faces, the surface at its vertices and along its bent edges.
+// many points of its edges and faces, the surface at its vertices and along its edges.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 #define CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 
@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -56,17 +57,21 @@ public:
     }
   }
 
-  /// Lowers what is farther away.
-  void run()
+  /// Lowers what is farther away. Where a place stays too far, a vertex is put there, and all is
+  /// lowered again.
+  void run(Vertex_relocator& relocator)
   {
-    for (int pass = 0; pass < Parameters::passes; ++pass) {
-      bool has_changed = false;
-      for (const Place& place : find_far()) {
-        Cancellation::poll();
-        has_changed |= lower(place);
-      }
-      if (!has_changed) break;
+    lower();
+    double now = farthest();
+    for (int k = 0; k < Parameters::relocations && now > 0 && now < infinity; ++k) {
+      Star_mesh::Checkpoint before(m);
+      if (!relocator.run_once(Parameters::relocation_badness)) break;
       m_tracker.update();
+      lower();
+      const double then = std::exchange(now, farthest());
+      if (now < Parameters::less * then) continue;
+      before.restore();
+      break;
     }
   }
 
@@ -76,13 +81,45 @@ private:
   using Face = Working_mesh::Face;
   using Parameters = Improvement_parameters::Distance_keeping;
 
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   // Where mesh and surface are far apart.
   struct Place {
     double distance;
     int index; // of a face, or of a tracked point after the faces
   };
 
-  // The farthest first; none where they are too many or too far to be helped.
+  void lower()
+  {
+    for (int pass = 0; pass < Parameters::passes; ++pass) {
+      const std::vector<Place> far = find_far();
+      if (is_hopeless(far)) break;
+      bool has_changed = false;
+      for (const Place& place : far) {
+        Cancellation::poll();
+        has_changed |= lower(place);
+      }
+      if (!has_changed) break;
+      m_tracker.update();
+    }
+  }
+
+  // What is farther away than the goal: 0 if nothing is, infinite if it cannot be helped.
+  double farthest() const
+  {
+    const std::vector<Place> far = find_far();
+    return far.empty() ? 0 : is_hopeless(far) ? infinity : far.front().distance;
+  }
+
+  // Whether the places are too many or too far to be helped.
+  bool is_hopeless(const std::vector<Place>& far) const
+  {
+    const std::size_t most = Parameters::max_places + m.size() / Parameters::vertices_per_place;
+    return !far.empty() &&
+           (far.size() > most || far.front().distance > Parameters::hopeless * m_goal);
+  }
+
+  // The farthest first.
   std::vector<Place> find_far() const
   {
     const int faces = int(m.working().mesh.num_faces());
@@ -101,10 +138,7 @@ private:
       return std::exchange(has_place[p.index < faces ? p.index : face_of(p.index - faces)], true);
     };
     far.erase(std::remove_if(far.begin(), far.end(), comes_later), far.end());
-    const std::size_t most = Parameters::max_places + m.size() / Parameters::vertices_per_place;
-    const bool is_hopeless =
-        !far.empty() && (far.size() > most || far.front().distance > Parameters::hopeless * m_goal);
-    return is_hopeless ? std::vector<Place>() : far;
+    return far;
   }
 
   // The nearest one.

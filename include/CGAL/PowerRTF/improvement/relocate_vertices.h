@@ -46,38 +46,21 @@ public:
     std::vector<Tip> tips = find_tips(share);
     if (tips.empty()) return false;
     const double farthest = tips.front().distance;
-    std::vector<Vec3d> places;
-    for (const Tip& tip : tips) places.push_back(tip.point);
-    const std::vector<Vertex> spare = find_spare(places);
     Star_mesh::Checkpoint before(m);
-    std::size_t next = 0;
-    bool changed = false;
-    for (const Tip& tip : tips) {
-      Cancellation::poll();
-      Star_mesh::Checkpoint now(m);
-      if (tip.is_edge) {
-        if (flip(tip) && !intersects_near(tip.point)) {
-          changed = true;
-          continue;
-        }
-        now.restore();
-      }
-      bool removed = false;
-      while (next < spare.size() && !(removed = remove(spare[next++]))) now.restore();
-      if (removed && insert(tip) && !intersects_near(tip.point)) {
-        changed = true;
-        continue;
-      }
-      now.restore();
-      if (!changed) return false; // the farthest stays
-    }
-    if (!changed) return false;
-    m_tracker.update();
+    if (!change(tips)) return false;
     tips = find_tips(share);
     if (tips.empty() || tips.front().distance < farthest) return true;
     before.restore();
     m_tracker.update();
     return false;
+  }
+
+  /// The same at the farthest place of a mesh that has changed, even if others are farther then.
+  bool run_once(double tolerable)
+  {
+    m_tolerable = tolerable;
+    m_tracker.update();
+    return change(find_tips(1));
   }
 
   /// Puts vertices where triangles are still bad, if that makes them good. \returns whether
@@ -120,6 +103,37 @@ private:
   };
 
   using Parameters = Improvement_parameters::Relocation;
+
+  // Unless the farthest stays. \returns whether anything has changed
+  bool change(const std::vector<Tip>& tips)
+  {
+    std::vector<Vec3d> places;
+    for (const Tip& tip : tips) places.push_back(tip.point);
+    const std::vector<Vertex> spare = find_spare(places);
+    std::size_t next = 0;
+    bool changed = false;
+    for (const Tip& tip : tips) {
+      Cancellation::poll();
+      Star_mesh::Checkpoint now(m);
+      if (tip.is_edge) {
+        if (flip(tip) && !intersects_near(tip.point)) {
+          changed = true;
+          continue;
+        }
+        now.restore();
+      }
+      bool removed = false;
+      while (next < spare.size() && !(removed = remove(spare[next++]))) now.restore();
+      if (removed && insert(tip) && !intersects_near(tip.point)) {
+        changed = true;
+        continue;
+      }
+      now.restore();
+      if (!changed) return false; // the farthest stays
+    }
+    if (changed) m_tracker.update();
+    return changed;
+  }
 
   bool is_apart(const Vec3d& p, const std::vector<Vec3d>& others) const
   {

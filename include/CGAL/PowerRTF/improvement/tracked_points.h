@@ -91,8 +91,7 @@ inline Unset_vector<Tracked_point> tracked_points(const Surface_points& all)
   return points;
 }
 
-/// The vertices, and points of the edges: from one to the next, what lies in the plane of one facet
-/// of the edge comes by up to `step` nearer to that of the other.
+/// The vertices, and points of the edges, `step` apart or nearer, but no more than 63 of an edge.
 inline Surface_points points_of_edges(const Surface& surface, const Facet_tree& tree, double step)
 {
   constexpr double most = 64;
@@ -109,12 +108,7 @@ inline Surface_points points_of_edges(const Surface& surface, const Facet_tree& 
                   &q = surface.points[halfedge_target(surface.triangles, h)];
       if (!std::exchange(is_there[a], true)) add(p, f);
       if (o > h) continue; // the other facet's turn
-      double sine = 1;
-      if (o >= 0) {
-        const Vec3d &n = surface.facet_normals[f], &other = surface.facet_normals[o / 3];
-        if (dot(n, other) > 0) sine = length(cross(n, other));
-      }
-      const int parts = int(std::min(most, std::ceil(sine * length(q - p) / step)));
+      const int parts = int(std::min(most, std::ceil(length(q - p) / step)));
       for (int i = 1; i < parts; ++i) add(p + double(i) / parts * (q - p), f);
     }
   return all;
