@@ -194,9 +194,10 @@ struct Improvement_parameters {
     /// In the goal: faces whose middles, and those of their edges, are nearer are so everywhere.
     static constexpr double near_share = 0.3;
     static constexpr int passes = 4;
+    static constexpr double fewer = 0.7; ///< of the places, that a pass must leave for another one
     /// Places at most: so many, and one more for each so many vertices of the mesh.
-    static constexpr int max_places = 50;
-    static constexpr int vertices_per_place = 10;
+    static constexpr int max_places = 40;
+    static constexpr int vertices_per_place = 20;
     static constexpr double hopeless = 3; ///< distance, in the goal
     /// Badness that a change may bring upon a triangle: Q .6, or 32 degrees, or 91 degrees.
     static constexpr double max_badness = 0.13;
@@ -206,7 +207,7 @@ struct Improvement_parameters {
     static constexpr double unroundness_weight = 0.5;
     static constexpr double worthwhile_share = 0.9; ///< of the distance, that a flip must leave
     /// Runs of the relocation, what they look at, in the farthest, and the badness that they leave.
-    static constexpr int relocations = 8;
+    static constexpr int relocations = 8, places_per_relocation = 2;
     static constexpr double far_share = 0.5, relocation_badness = 0.13;
     static constexpr double less = 0.99; ///< of the largest distance, that another one must leave
   };

@@ -57,19 +57,21 @@ public:
     }
   }
 
-  /// Lowers what is farther away. Where a place stays too far, a vertex is put there, and all is
-  /// lowered again.
+  /// Lowers what is farther away. Where few places stay too far, vertices are put there, one by
+  /// one, and all is lowered again.
   void run(Vertex_relocator& relocator)
   {
     lower();
-    double now = farthest();
-    for (int k = 0; k < Parameters::relocations && now > 0 && now < infinity; ++k) {
+    std::vector<Place> far = find_far();
+    for (int left = Parameters::relocations;
+         !far.empty() && int(far.size()) <= Parameters::places_per_relocation * left; --left) {
       Star_mesh::Checkpoint before(m);
       if (!relocator.run_once(Parameters::relocation_badness)) break;
       m_tracker.update();
       lower();
-      const double then = std::exchange(now, farthest());
-      if (now < Parameters::less * then) continue;
+      const double then = far.front().distance;
+      far = find_far();
+      if (far.empty() || far.front().distance < Parameters::less * then) continue;
       before.restore();
       break;
     }
@@ -81,19 +83,20 @@ private:
   using Face = Working_mesh::Face;
   using Parameters = Improvement_parameters::Distance_keeping;
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   // Where mesh and surface are far apart.
   struct Place {
     double distance;
     int index; // of a face, or of a tracked point after the faces
   };
 
+  // As long as the places clearly become fewer.
   void lower()
   {
+    double most = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < Parameters::passes; ++pass) {
       const std::vector<Place> far = find_far();
-      if (is_hopeless(far)) break;
+      if (is_hopeless(far) || double(far.size()) > most) break;
+      most = Parameters::fewer * double(far.size());
       bool has_changed = false;
       for (const Place& place : far) {
         Cancellation::poll();
@@ -102,13 +105,6 @@ private:
       if (!has_changed) break;
       m_tracker.update();
     }
-  }
-
-  // What is farther away than the goal: 0 if nothing is, infinite if it cannot be helped.
-  double farthest() const
-  {
-    const std::vector<Place> far = find_far();
-    return far.empty() ? 0 : is_hopeless(far) ? infinity : far.front().distance;
   }
 
   // Whether the places are too many or too far to be helped.
