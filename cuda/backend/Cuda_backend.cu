@@ -42,7 +42,7 @@ void Cuda_backend::give_back(void* block, std::size_t bytes) noexcept
   if (cudaStreamQuery(stream()) == cudaSuccess)
     m_memory.release();
   else
-    cudaGetLastError(); // that it is not ready is none
+    cudaGetLastError(); // that work is under way is no error
 }
 
 void* Cuda_backend::take_pinned(std::size_t bytes)

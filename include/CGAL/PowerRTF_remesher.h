@@ -156,7 +156,7 @@ private:
   void distribute(Visitor& visitor)
   {
     m_report.cancelled = false;
-    PowerRTF::internal::Meanwhile preparation([this] { prepare_improvement(); });
+    const PowerRTF::internal::Meanwhile preparation([this] { prepare_improvement(); });
     sample();
     const Stage stage("optimization", m_report.seconds.optimization);
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
@@ -171,7 +171,6 @@ private:
                                        : m_options.position_method); // 15 to 19
     }
     if (!m_report.cancelled && !all_fixed()) equalize_capacities();
-    preparation.finish();
     m_report.constructions = m_engine.constructions();
     m_report.cells = m_engine.cell_counts();
     m_report.capacity = m_engine.capacity();
@@ -374,7 +373,7 @@ private:
   std::optional<PowerRTF::Surface> m_whole; // of which that is the half; none: it is the whole
   PowerRTF::Surface_patches m_patches;
   Engine m_engine;
-  std::shared_ptr<PowerRTF::Improvement_preparation> m_prepared; // for the next mesh
+  std::shared_ptr<PowerRTF::Improvement_preparation> m_prepared; // for the next mesh, or none
 };
 
 } // namespace CGAL

@@ -82,7 +82,7 @@ Cell_summary Engine<R, B, C>::summary()
   if (!m_is_summary_known) {
     start_summary();
     m_backend.stop_clock();
-    internal::Meanwhile::run();
+    if constexpr (!B::is_host) internal::Meanwhile::run();
     m_backend.synchronize();
     m_is_summary_known = true;
     if (m_mean_mass == 0 && m_cells > 0) m_mean_mass = m_shared_summary.data()->mass / m_cells;

@@ -206,8 +206,9 @@ struct Improvement_parameters {
     /// goal, has 1.
     static constexpr double unroundness_weight = 0.5;
     static constexpr double worthwhile_share = 0.9; ///< of the distance, that a flip must leave
-    /// Runs of the relocation, what they look at, in the farthest, and the badness that they leave.
+    /// Runs of the relocation, and the places at most that are too far for each of those to come.
     static constexpr int relocations = 8, places_per_relocation = 2;
+    /// What a run looks at, in the farthest, and the badness that it leaves.
     static constexpr double far_share = 0.5, relocation_badness = 0.13;
     static constexpr double less = 0.99; ///< of the largest distance, that another one must leave
   };

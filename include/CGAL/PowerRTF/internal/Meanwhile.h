@@ -9,7 +9,7 @@
 namespace CGAL::PowerRTF::internal {
 
 /// Work for the time in which the thread that made it waits for a device. Where none is waited for,
-/// `finish()` does it.
+/// `finish()` does it, or nobody.
 class Meanwhile {
 public:
   explicit Meanwhile(std::function<void()> work)

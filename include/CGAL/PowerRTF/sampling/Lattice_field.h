@@ -335,7 +335,7 @@ private:
     m_backend.for_each(view.free,
                        Mark_chosen{{view, seen.data()}, m_shares.data(), is_chosen.data()});
     nodes.allocate(m_backend, view.free);
-    internal::Meanwhile::run();
+    if constexpr (!Backend::is_host) internal::Meanwhile::run();
     const int size = m_backend.select(view.free, is_chosen.data(), nodes.data());
     m_chosen.nodes.allocate(m_backend, size);
     m_chosen.points.allocate(m_backend, size);
