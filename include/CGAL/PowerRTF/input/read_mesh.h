@@ -63,7 +63,7 @@ void add_points(const CGAL::Surface_mesh<Point>& mesh,
   // Numbers that are computed when they are needed are no more than one thread's.
   constexpr bool are_plain = std::is_arithmetic_v<std::decay_t<decltype(points[Vertex()].x())>>;
   if (mesh.has_garbage() || !are_plain) {
-    for (const Vertex v : mesh.vertices()) soup.points.push_back(to_vec3d(points[v]));
+    add_points<CGAL::Surface_mesh<Point>, decltype(points)>(mesh, points, soup, concurrency);
     return;
   }
   resize_in_parallel(concurrency, soup.points, mesh.number_of_vertices());

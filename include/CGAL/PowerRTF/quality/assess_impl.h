@@ -73,7 +73,8 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
         self_intersections(surface.points, surface.triangles, concurrency);
   part.next(0.5);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
-  internal::Meanwhile judgment([&] {                   // while distances are found
+  // While distances are found.
+  internal::Meanwhile judgment([&] {
     report.topology = topology(mesh.triangles, concurrency);
     report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
     report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
