@@ -53,7 +53,7 @@ public:
       m_places[m_order[place]] = place;
       if (!patches.empty()) m_patches[place] = patches[m_order[place]];
       const auto [a, b, c] = corners(m_order[place]);
-      m_facets[place] = {a, b, c, normalized(cross(b - a, c - a))};
+      m_facets[place] = facet_corners(a, b, c);
     });
     const internal::Box_of_facet box_of{m_facets.data()};
     internal::Unset_vector<Box3<double>> boxes(m_tree.nodes());

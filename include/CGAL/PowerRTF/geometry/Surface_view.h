@@ -17,6 +17,13 @@ struct alignas(16) Facet_corners {
   Vec3<Real> a, b, c, normal;
 };
 
+template <class Real>
+CGAL_POWER_RTF_HD Facet_corners<Real> facet_corners(const Vec3<Real>& a, const Vec3<Real>& b,
+                                                    const Vec3<Real>& c)
+{
+  return {a, b, c, normalized(cross(b - a, c - a))};
+}
+
 namespace internal {
 
 /// Where a tree has a facet with these corners.

@@ -15,6 +15,19 @@ namespace CGAL::PowerRTF {
 
 namespace internal {
 
+/// Makes a facet of a surface's tree.
+struct Gather_facet {
+  const Vec3d* points;
+  const int *corners, *order;
+  Facet_corners<double>* facets;
+
+  CGAL_POWER_RTF_HD void operator()(int place) const
+  {
+    const int* const v = corners + 3 * std::size_t(order[place]);
+    facets[place] = facet_corners(points[v[0]], points[v[1]], points[v[2]]);
+  }
+};
+
 /// The arrays of a surface where a backend works.
 template <class Backend>
 struct Descent_arrays {
@@ -58,7 +71,9 @@ struct Descent_arrays {
     there.points = uploaded(backend, points, s.points);
     there.vertex_normals = uploaded(backend, vertex_normals, s.vertex_normals);
     there.facet_normals = uploaded(backend, facet_normals, s.facet_normals);
-    there.tree.facets = uploaded(backend, facets, s.tree.facets);
+    there.tree.facets = facets.data(); // half of all: they are made there
+    backend.for_each(s.tree.facet_tree.items,
+                     Gather_facet{there.points, there.corners, there.order, facets.data()});
     there.tree.facet_nodes = uploaded(backend, nodes, s.tree.facet_nodes);
     return there;
   }
