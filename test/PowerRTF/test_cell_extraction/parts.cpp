@@ -65,7 +65,8 @@ TEST_CASE("the topology of components is compared one by one")
     };
     return internal::are_homeomorphic(
         *internal::known_topology(s, Parallel_if_available_tag()),
-        internal::fan_topology(int(mesh.points.size()), star, Sequential_tag()), facets);
+        internal::fan_topology(int(mesh.points.size()), star, Sequential_tag()), facets,
+        Parallel_if_available_tag());
   };
   using namespace shapes;
   const Soup ball = icosphere(1), ring = torus(12, 8, 1, .4), tube = open_cylinder(8, 4, .5, 2);

@@ -350,7 +350,7 @@ private:
       return s;
     };
     return are_homeomorphic(*m_topology, fan_topology(m_size, ordered_star, ConcurrencyTag()),
-                            m_samples.facets);
+                            m_samples.facets, ConcurrencyTag());
   }
 
   std::vector<int> samples_at_intersections() const

@@ -9,6 +9,8 @@
 #include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
+#include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <cstddef>
 #include <utility>
@@ -44,20 +46,26 @@ Topology fan_topology(int vertices, const Star_at& star, Concurrency concurrency
 /// Whether each component of `surface` has one of `stars` on it with the same Euler characteristic
 /// and as many border loops, and none besides. `facets`: where the vertices lie.
 inline bool are_homeomorphic(const Topology& surface, const Topology& stars,
-                             const std::vector<int>& facets)
+                             const std::vector<int>& facets, Concurrency concurrency)
 {
   if (surface.size() != stars.size()) return false;
-  std::vector<int> partner(stars.size(), -1), partner_of_surface(stars.size(), -1);
-  for (std::size_t v = 0; v < stars.component.size(); ++v) {
-    const int own = stars.component[v], its = surface.component[facets[v]];
-    if (partner[own] < 0 && partner_of_surface[its] < 0) {
-      partner[own] = its;
-      partner_of_surface[its] = own;
-    }
-    if (partner[own] != its || partner_of_surface[its] != own) return false;
+  std::vector<int> partner(stars.size(), -1); // that a vertex has found
+  const int astray = reduce(
+      concurrency, static_cast<int>(stars.component.size()), 0,
+      [&](int& sum, int v) {
+        int* const own = &partner[stars.component[v]];
+        const int its = surface.component[facets[v]];
+        int found = atomic_load(own);
+        if (found < 0) found = atomic_exchange_if(own, -1, its);
+        sum += found >= 0 && found != its;
+      },
+      [](int& sum, int part) { sum += part; });
+  if (astray > 0) return false;
+  std::vector<char> is_taken(surface.size(), 0);
+  for (int c = 0; c < stars.size(); ++c) {
+    if (partner[c] < 0 || std::exchange(is_taken[partner[c]], 1)) return false;
+    if (!(stars.components[c] == surface.components[partner[c]])) return false;
   }
-  for (int c = 0; c < stars.size(); ++c)
-    if (partner[c] < 0 || !(stars.components[c] == surface.components[partner[c]])) return false;
   return true;
 }
 
