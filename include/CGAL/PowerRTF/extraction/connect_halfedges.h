@@ -46,7 +46,7 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
         corners = vertex_corners(triangles, vertices, concurrency);
         adjacency = find_opposites(triangles, corners, opposite.data(), concurrency);
       },
-      [&] { resize(halfedges / 2 + halfedges / 16); });
+      [&] { resize(halfedges / 2 + halfedges / 128); });
   if (adjacency.non_manifold_edges > 0 || adjacency.same_direction ||
       count_non_manifold_vertices(corners, opposite.data(), concurrency) > 0) {
     mesh.resize(0, 0, 0);
