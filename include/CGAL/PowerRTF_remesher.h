@@ -56,7 +56,8 @@ public:
         m_report(report), m_watch(std::in_place, m_report.seconds.surface),
         m_whole(PowerRTF::split_off_image(m_surface, m_options, m_report,
                                           typename Traits::Concurrency_tag())),
-        m_patches(m_surface, m_options, typename Traits::Concurrency_tag()),
+        m_patches(m_surface, m_options, typename Traits::Concurrency_tag(),
+                  Engine::direction_diffuser(m_options)),
         m_engine(m_patches.surface(), m_options)
   {
     if (!m_whole) m_report.samples_asked = m_options.number_of_samples;
@@ -230,7 +231,8 @@ private:
     const typename Traits::Concurrency_tag concurrency;
     if (!m_whole) {
       PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
-                       concurrency, m_engine.distance_finder(), m_engine.close_face_finder());
+                       concurrency, m_engine.distance_finder(), m_engine.close_face_finder(),
+                       m_engine.topology_finder());
     } else {
       const std::size_t of_half = mesh.points.size();
       mesh = PowerRTF::mirrored_mesh(std::move(mesh), m_surface, concurrency);

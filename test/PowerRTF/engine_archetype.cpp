@@ -14,6 +14,7 @@ public:
   Engine_archetype(const Surface&, const Remeshing_options&);
   Engine_archetype(const Engine_archetype&) = delete;
   Engine_archetype& operator=(const Engine_archetype&) = delete;
+  static Diffuse_directions direction_diffuser(const Remeshing_options&);
   Make_lattice_field lattice_field_maker();
   Find_facets facet_finder();
   void set_samples(const Samples& samples, const Feature_samples& features);
@@ -33,6 +34,7 @@ public:
   void release_memory();
   Find_distances distance_finder();
   Find_close_faces close_face_finder();
+  Find_topology topology_finder();
   Make_star_sweeps star_sweeps_maker();
   Neighbor_cycles neighbors();
   double epsilon() const;

@@ -28,6 +28,11 @@ public:
   PowerRTFEngine(const CGAL::PowerRTF::Surface& surface,
                  const CGAL::PowerRTF::Remeshing_options& options);
 
+  /// What diffuses directions, the vertex normals, where such an engine works; or empty. It is
+  /// asked for before there is an engine.
+  static CGAL::PowerRTF::Diffuse_directions
+  direction_diffuser(const CGAL::PowerRTF::Remeshing_options& options);
+
   /// What makes the fields of a lattice, on which samples begin, where the engine works; or empty.
   CGAL::PowerRTF::Make_lattice_field lattice_field_maker();
 
@@ -98,6 +103,8 @@ public:
   CGAL::PowerRTF::Find_distances distance_finder();
   /// The same of faces that may intersect.
   CGAL::PowerRTF::Find_close_faces close_face_finder();
+  /// The same of the topology of a mesh.
+  CGAL::PowerRTF::Find_topology topology_finder();
   /// The same of sweeps over the vertices of a mesh.
   CGAL::PowerRTF::Make_star_sweeps star_sweeps_maker();
 

@@ -25,6 +25,10 @@ struct Make_cuda_engine {
   {
     check_cuda_device(sizes, options, precision);
   }
+  static Diffuse_directions direction_diffuser(const Remeshing_options& options)
+  {
+    return cuda_direction_diffuser(options.device);
+  }
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
                                            const Remeshing_options& options)
   {

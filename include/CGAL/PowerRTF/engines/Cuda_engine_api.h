@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_ENGINES_CUDA_ENGINE_API_H
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
+#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
 
 #include <cstddef>
 #include <future>
@@ -63,6 +64,9 @@ void check_cuda_device(const Run_sizes& sizes, const Remeshing_options& options,
 std::unique_ptr<Engine_base> make_cuda_engine(const Packed_surface& surface,
                                               const Remeshing_options& options,
                                               Cuda_precision precision);
+
+/// What diffuses directions on a GPU; it throws `Cuda_error`, too.
+Diffuse_directions cuda_direction_diffuser(int device);
 
 } // namespace CGAL::PowerRTF
 

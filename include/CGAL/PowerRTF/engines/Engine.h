@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/engines/Surface_arrays.h>
 #include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/engines/nearest_facets.h>
+#include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
 #include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
@@ -110,6 +111,15 @@ public:
           [this](int vertices, const Vec3d* points, int n, const int* corners, Face_pairs& pairs) {
             return internal::close_faces(m_backend, vertices, points, n, corners, pairs);
           };
+  }
+  Find_topology topology_finder() override
+  {
+    if constexpr (Backend::is_host)
+      return {};
+    else
+      return [this](int vertices, int n, const int* corners) {
+        return internal::oriented_topology(m_backend, vertices, n, corners);
+      };
   }
   Find_facets facet_finder() override
   {

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
+#include <CGAL/PowerRTF/geometry/Find_topology.h>
 #include <CGAL/PowerRTF/geometry/Packed_surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
@@ -78,6 +79,8 @@ public:
   virtual Find_distances distance_finder() = 0;
   /// The same for faces that may intersect.
   virtual Find_close_faces close_face_finder() = 0;
+  /// The same for the topology of meshes.
+  virtual Find_topology topology_finder() = 0;
   /// The same for facets of its surface.
   virtual Find_facets facet_finder() = 0;
   /// The same for what moves the vertices of meshes.

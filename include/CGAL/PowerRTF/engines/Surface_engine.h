@@ -7,9 +7,11 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
+#include <CGAL/PowerRTF/geometry/Find_topology.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -64,6 +66,11 @@ public:
   {
     return m_engine ? m_engine->close_face_finder() : Find_close_faces();
   }
+  /// The same for the topology of meshes.
+  Find_topology topology_finder()
+  {
+    return m_engine ? m_engine->topology_finder() : Find_topology();
+  }
   /// The same for what moves the vertices of meshes.
   Make_star_sweeps star_sweeps_maker()
   {
@@ -103,6 +110,7 @@ private:
 ///
 /// \tparam Maker `Maker::check(run_sizes, options)` throws what keeps the engine from working;
 /// `Maker::make(packed_surface, options)` returns a `std::unique_ptr<Engine_base>`;
+/// `Maker::direction_diffuser(options)` is what the engine's is;
 /// `Maker::Concurrency_tag` is that of the host's work.
 template <class Maker>
 class Surface_engine : public Surface_engine_base {
@@ -112,6 +120,12 @@ public:
       : Surface_engine_base(surface, options, &Maker::make, typename Maker::Concurrency_tag())
   {
     Maker::check(run_sizes(surface, options), options);
+  }
+
+  /// What diffuses directions where such an engine works, before there is one; empty: on the host.
+  static Diffuse_directions direction_diffuser(const Remeshing_options& options)
+  {
+    return Maker::direction_diffuser(options);
   }
 };
 

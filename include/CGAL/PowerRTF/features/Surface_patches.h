@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -23,8 +24,10 @@ public:
   /// normals by the smoothed ones (the means over the patches at each vertex).
   /// \throws Invalid_input_error when there are too few samples for the topology, or for the
   ///   creases and borders, or too many for the output's coordinates
+  /// \param diffuse what smooths the normals instead of the host, where it does
   Surface_patches(Surface& surface, const Remeshing_options& options,
-                  internal::Concurrency concurrency = Sequential_tag());
+                  internal::Concurrency concurrency = Sequential_tag(),
+                  const Diffuse_directions& diffuse = {});
 
   Surface_patches(const Surface_patches&) = delete;
   Surface_patches& operator=(const Surface_patches&) = delete;

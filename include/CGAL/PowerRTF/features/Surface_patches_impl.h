@@ -23,7 +23,8 @@ namespace CGAL::PowerRTF {
 
 CGAL_POWER_RTF_INLINE
 Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& options,
-                                 internal::Concurrency concurrency)
+                                 internal::Concurrency concurrency,
+                                 const Diffuse_directions& diffuse)
     : m_whole(surface)
 {
   const std::size_t n = options.number_of_samples;
@@ -40,7 +41,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
   // Means over the nearest vertices would depend on how finely a facet is split.
   const bool splits = options.attributes == Attributes::facet;
   if (is_one_patch && !(splits && has_long_bent_facets(surface, n, concurrency))) {
-    smooth_normals(surface, n, options.normal_smoothing, concurrency);
+    smooth_normals(surface, n, options.normal_smoothing, concurrency, diffuse);
     return;
   }
   std::vector<int> originals; // of the vertices of the patches
@@ -56,7 +57,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
   }
   if (splits) m_parents = split_bent_facets(*m_own, n, concurrency);
   place_features();
-  smooth_normals(*m_own, n, options.normal_smoothing, concurrency);
+  smooth_normals(*m_own, n, options.normal_smoothing, concurrency, diffuse);
   surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
   for (std::size_t v = 0; v < originals.size(); ++v)
     surface.vertex_normals[originals[v]] += m_own->vertex_normals[v];

@@ -5,15 +5,14 @@
 #ifndef CGAL_POWER_RTF_FIELDS_DIFFUSION_H
 #define CGAL_POWER_RTF_FIELDS_DIFFUSION_H
 
+#include <CGAL/PowerRTF/fields/Diffusion_stage.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -43,38 +42,20 @@ std::vector<double> diffusion_times(const Surface_edges& edges, const Variance& 
   return times;
 }
 
-/// Diffuses `values`, numbers or vectors, for `times`. Each of the `steps` has s Legendre stages
-/// and goes as far as (s^2 + s) / 4 plain ones of a half (RKL1: Meyer, Balsara, Aslam, "A
-/// stabilized Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed
-/// equations", J. Comput. Phys. 257, 2014). The mean over a ring is all that a single long one
-/// makes: several make nearly a Gaussian of it. After each, `finish(v, x)` stands for the value x.
+/// Diffuses `values` along `edges`; see Diffusion_stage.h.
 template <class Value, class Finish>
 void diffuse(const Surface_edges& edges, const std::vector<double>& times, int steps,
              std::vector<Value>& values, internal::Concurrency concurrency, const Finish& finish)
 {
   if (values.empty()) return;
-  const double last = *std::max_element(times.begin(), times.end()) / steps;
-  const double stages = std::ceil(std::sqrt(0.25 + 4 * last) - 0.5);
-  const double share = 2 / (stages * (stages + 1) * steps); // of the times, by one stage
   const int size = static_cast<int>(values.size());
   internal::Unset_vector<Value> others(values.size());
-  Value *now = values.data(), *before = others.data(); // the latter become the next ones
-  for (int step = 0; step < steps; ++step)
-    for (double j = 1; j <= stages; ++j) {
-      const double mu = (2 * j - 1) / j, nu = (1 - j) / j; // their sum is 1
-      internal::for_each_index(concurrency, size, [&](int v) {
-        Value sum{}; // of the differences: a constant stays as it is
-        for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
-          sum += now[edges.neighbor[e]] - now[v];
-        const int degree = (std::max)(1, edges.first[v + 1] - edges.first[v]);
-        const Value old = j > 1 ? before[v] : now[v]; // where nu is 0, there may be none before
-        const Value next = now[v] + nu * (old - now[v]) + mu * share * times[v] / degree * sum;
-        before[v] = j == stages ? finish(v, next) : next;
-      });
-      std::swap(before, now);
-    }
-  if (now == values.data()) return;
-  internal::for_each_index(concurrency, size, [&](int v) { values[v] = now[v]; });
+  const Value* const result = diffuse(
+      edges.first.data(), edges.neighbor.data(), times.data(),
+      *std::max_element(times.begin(), times.end()), steps, values.data(), others.data(), finish,
+      [&](const auto& stage) { internal::for_each_index(concurrency, size, stage); });
+  if (result != values.data())
+    internal::for_each_index(concurrency, size, [&](int v) { values[v] = result[v]; });
 }
 template <class Value>
 void diffuse(const Surface_edges& edges, const std::vector<double>& times, int steps,

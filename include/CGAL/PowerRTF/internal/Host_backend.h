@@ -176,6 +176,17 @@ private:
   }
 };
 
+namespace internal {
+
+/// Calls `f(backend)` with the one that `concurrency` asks for.
+template <class F>
+auto with_host_backend(Concurrency concurrency, F&& f)
+{
+  return concurrency.is_parallel() ? f(Host_backend<Parallel_if_available_tag>())
+                                   : f(Host_backend<Sequential_tag>());
+}
+
+} // namespace internal
 } // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_INTERNAL_HOST_BACKEND_H

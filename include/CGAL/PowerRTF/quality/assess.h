@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
+#include <CGAL/PowerRTF/geometry/Find_topology.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -25,10 +26,11 @@ class Facet_tree;
 /// \param tree of the facets of `patches`
 /// \param find what finds distances from `patches` and back instead, where it does
 /// \param find_close the same for self-intersections
+/// \param find_topology the same for the topology of `mesh`
 void assess(const Surface& surface, const Surface& patches, const Facet_tree& tree,
             const Extracted_mesh& mesh, Remeshing_report& report,
             internal::Concurrency concurrency = Sequential_tag(), const Find_distances& find = {},
-            const Find_close_faces& find_close = {});
+            const Find_close_faces& find_close = {}, const Find_topology& find_topology = {});
 
 /// The same with a tree of its own.
 void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report,

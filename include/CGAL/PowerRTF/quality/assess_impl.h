@@ -57,7 +57,8 @@ inline std::size_t lost_feature_edges(const Extracted_mesh& mesh,
 CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches,
                                   const Facet_tree& tree, const Extracted_mesh& mesh,
                                   Remeshing_report& report, internal::Concurrency concurrency,
-                                  const Find_distances& find, const Find_close_faces& find_close)
+                                  const Find_distances& find, const Find_close_faces& find_close,
+                                  const Find_topology& find_topology)
 {
   constexpr double round_quality = 0.6, round_angle = 30; // degrees
   internal::Progress_part part(0.1);
@@ -72,10 +73,10 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
     report.input_self_intersections =
         self_intersections(surface.points, surface.triangles, concurrency);
   part.next(0.5);
+  report.topology = topology(mesh.triangles, concurrency, find_topology);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   // While distances are found.
   internal::Meanwhile judgment([&] {
-    report.topology = topology(mesh.triangles, concurrency);
     report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
     report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
     if (report.quality.q_min < round_quality || report.quality.theta_min < round_angle)

@@ -7,20 +7,22 @@
 #define CGAL_POWER_RTF_QUALITY_TOPOLOGY_H
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/vertex_corners.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/label_trees.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
-#include <CGAL/PowerRTF/quality/oriented_topology.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -179,15 +181,29 @@ inline Topology_statistics soup_topology(const std::vector<Triangle>& triangles,
   return result;
 }
 
+/// As `Find_topology`, on the host.
+inline std::optional<Topology_statistics> oriented_topology(const std::vector<Triangle>& triangles,
+                                                            int vertices, Concurrency concurrency)
+{
+  return with_host_backend(concurrency, [&](auto backend) {
+    return oriented_topology(backend, vertices, static_cast<int>(triangles.size()),
+                             triangles.empty() ? nullptr : triangles.data()->data());
+  });
+}
+
 } // namespace internal
 
 /// Topology of the soup `triangles` (#F vertex indices >= 0). `vertices` counts the used ones. A
 /// vertex is non-manifold when its facets do not form one fan or one disk. A facet with a repeated
-/// vertex is counted in `faces` and otherwise ignored.
+/// vertex is counted in `faces` and otherwise ignored. `find`: what counts instead, where it does.
 inline Topology_statistics topology(const std::vector<Triangle>& triangles,
-                                    internal::Concurrency concurrency = Sequential_tag())
+                                    internal::Concurrency concurrency = Sequential_tag(),
+                                    const Find_topology& find = {})
 {
   const int size = vertex_range(triangles, concurrency);
+  if (find && !triangles.empty())
+    if (const auto found = find(size, static_cast<int>(triangles.size()), triangles.data()->data()))
+      return *found;
   if (const auto found = internal::oriented_topology(triangles, size, concurrency)) return *found;
   const auto is_collapsed = [&](int f) { return internal::is_collapsed(triangles[f]); };
   if (internal::select(concurrency, static_cast<int>(triangles.size()), is_collapsed).empty())

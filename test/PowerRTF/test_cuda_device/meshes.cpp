@@ -1,0 +1,98 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is done with whole meshes on a GPU beside the samples, against the host.
+#include "../dirty_shapes.h"
+#include "../engine_comparison.h"
+
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+
+#include <CGAL/PowerRTF/engines/Cuda_engine.h>
+#include <CGAL/PowerRTF/fields/smooth_normals.h>
+#include <CGAL/PowerRTF/quality/topology.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+using namespace engine_comparison;
+
+namespace {
+
+/// The triangles around one vertex.
+shapes::Soup wheel(int triangles)
+{
+  shapes::Soup s;
+  s.points.resize(triangles + 1);
+  for (int k = 1; k <= triangles; ++k) s.triangles.push_back({0, k, k % triangles + 1});
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("the topology of meshes is what the host counts")
+{
+  using namespace shapes;
+  const Case c = cases()[0];
+  const Start start(c);
+  Cuda_engine<float> engine(start.patches->surface(), c.options);
+  engine.set_samples(start.samples, start.patches->features());
+  const Find_topology find = engine.topology_finder();
+  const auto count = [&find](const Soup& s) {
+    return find(int(s.points.size()), int(s.triangles.size()), s.triangles.data()->data());
+  };
+  for (const Soup& s :
+       {icosphere(3), permuted(open_cylinder(9, 4, 1, 2), 1), two_spheres(2),
+        joined(permuted(torus(600, 400, 1, .4), 2), plane_patch(300, 400)), wheel(16),
+        Soup{{{}, {}, {}}, {{0, 1, 2}}}, Soup{{{}, {}, {}, {}}, {{0, 1, 3}, {3, 1, 0}}}}) {
+    CAPTURE(s.triangles.size());
+    const Topology_statistics expected = topology(s.triangles, CGAL::Parallel_if_available_tag());
+    const auto t = count(s);
+    REQUIRE(t);
+    CHECK(t->vertices == expected.vertices);
+    CHECK(t->edges == expected.edges);
+    CHECK(t->faces == expected.faces);
+    CHECK(t->components == expected.components);
+    CHECK(t->border_edges == expected.border_edges);
+    CHECK(t->border_loops == expected.border_loops);
+    CHECK(t->euler_characteristic == expected.euler_characteristic);
+  }
+  const std::vector<Vec3d> five(5);
+  for (const Soup& s :
+       {Soup{five, {{0, 1, 2}, {0, 3, 4}}}, Soup{five, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}},
+        Soup{five, {{0, 1, 2}, {0, 1, 3}}}, Soup{five, {{0, 1, 1}}}, moebius_strip(20), wheel(17)})
+    CHECK_FALSE(count(s));
+  CHECK(count(Soup{five, {}})->vertices == 0);
+}
+
+TEST_CASE("normals are smoothed as on the host")
+{
+  const Diffuse_directions diffuse = Cuda_engine<float>::direction_diffuser({});
+  for (const shapes::Soup& soup : {shapes::octahedron(), shapes::icosphere(4),
+                                   shapes::plane_patch(30, 7), shapes::torus(500, 300, 1, .3)})
+    for (const double width : {0.5, 3.}) {
+      Surface rough = shapes::make_surface(soup);
+      CAPTURE(rough.points.size());
+      std::mt19937 random(5);
+      std::uniform_real_distribution<double> off(-1, 1);
+      for (Vec3d& n : rough.vertex_normals)
+        n = normalized(n + Vec3d{off(random), off(random), off(random)});
+      rough.vertex_normals[0] = {0, 0, 1};
+      const std::size_t n = std::max<std::size_t>(8, rough.points.size() / 20);
+      Surface there = rough, again = rough, here = rough;
+      smooth_normals(there, n, width, CGAL::Parallel_if_available_tag(), diffuse);
+      smooth_normals(again, n, width, CGAL::Parallel_if_available_tag(), diffuse);
+      smooth_normals(here, n, width, CGAL::Parallel_if_available_tag());
+      double most = 0, moved = 0;
+      for (std::size_t v = 0; v < rough.points.size(); ++v) {
+        most = std::max(most, length(there.vertex_normals[v] - here.vertex_normals[v]));
+        moved = std::max(moved, length(rough.vertex_normals[v] - here.vertex_normals[v]));
+      }
+      CHECK(there.vertex_normals == again.vertex_normals);
+      CHECK(most < 1e-12);
+      CHECK(moved > 0.1);
+    }
+}
+
+#endif // CGAL_POWER_RTF_WITH_CUDA
