@@ -355,7 +355,8 @@ private:
     }
     if (!by_cells) return PowerRTF::extract_by_insertion(surface, samples, features, seams);
     return PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
-        surface, samples, features, std::move(neighbors), nullptr, m_engine.close_face_finder());
+        surface, samples, features, std::move(neighbors), nullptr, m_engine.close_face_finder(),
+        m_engine.sound_star_finder());
   }
 
   template <class Visitor>

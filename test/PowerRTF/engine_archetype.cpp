@@ -34,6 +34,7 @@ public:
   void release_memory();
   Find_distances distance_finder();
   Find_close_faces close_face_finder();
+  Find_sound_stars sound_star_finder();
   Find_topology topology_finder();
   Make_star_sweeps star_sweeps_maker();
   Neighbor_cycles neighbors();

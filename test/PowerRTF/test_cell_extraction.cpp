@@ -7,6 +7,7 @@
 #include "hard_shapes.h"
 
 #include <CGAL/PowerRTF/PowerRTF_traits_3.h>
+#include <CGAL/PowerRTF/engines/sound_stars.h>
 #include <CGAL/PowerRTF/extraction/Cell_stars.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
 #include <CGAL/PowerRTF/extraction/extract_by_insertion.h>
@@ -14,6 +15,7 @@
 #include <CGAL/PowerRTF/extraction/fan_topology.h>
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 #include <CGAL/PowerRTF/quality/triangle_quality.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -71,7 +73,8 @@ struct Sampled {
   Sampled(const Sampled&) = delete;
 
   template <class ConcurrencyTag = Sequential_tag>
-  Extracted_mesh extract(Cell_extraction_statistics* statistics = nullptr) const
+  Extracted_mesh extract(Cell_extraction_statistics* statistics = nullptr,
+                         const Find_sound_stars& find_sound = {}) const
   {
     return extract_from_cells<ConcurrencyTag>(
         surface, samples, patches.features(),
@@ -80,7 +83,7 @@ struct Sampled {
                           const auto& cycle = neighbors[i];
                           return Neighbor_cycles::Cycle(cycle.data(), cycle.data() + cycle.size());
                         }),
-        statistics);
+        statistics, {}, find_sound);
   }
   Extracted_mesh insert() const
   {
@@ -204,12 +207,28 @@ TEST_CASE("a patch without cells is no hole")
   }
 }
 
-TEST_CASE("the same for any number of threads")
+/// On the host; counts what it finds.
+Find_sound_stars find_sound_stars(std::size_t& sound)
+{
+  return [&sound](const Connected_facets& surface, int facets, int vertices,
+                  const Cell_triangles& triangles, unsigned char* is_sound) {
+    Host_backend<Sequential_tag> host;
+    REQUIRE(internal::find_sound_stars(host, surface, facets, vertices, triangles, is_sound));
+    sound = std::count(is_sound, is_sound + triangles.cells, 1);
+    return true;
+  };
+}
+
+TEST_CASE("the same for any number of threads, and with sound triangles found elsewhere")
 {
   for (const Shape& shape : plain_shapes()) {
     CAPTURE(shape.name);
     const Sampled s(shape.surface, 800, 5);
-    CHECK(are_equal(s.extract<Sequential_tag>(), s.extract<Parallel_if_available_tag>()));
+    const Extracted_mesh mesh = s.extract<Sequential_tag>();
+    CHECK(are_equal(mesh, s.extract<Parallel_if_available_tag>()));
+    std::size_t sound = 0;
+    CHECK(are_equal(mesh, s.extract(nullptr, find_sound_stars(sound))));
+    CHECK(sound > s.neighbors.size() / 2);
   }
 }
 
@@ -257,6 +276,9 @@ TEST_CASE("whatever the cells say, the guarantees hold")
         CHECK(mesh.points.size() == s.samples.size());
         if (share < .01) CHECK_FALSE(statistics.is_from_insertion);
         if (share == 1) CHECK(are_equal(mesh, s.insert()));
+        std::size_t sound = 0;
+        CHECK(are_equal(mesh, s.extract(nullptr, find_sound_stars(sound))));
+        if (share < 1) CHECK(sound > (1 - 8 * share) * double(neighbors.size() / 2));
       }
     }
 }

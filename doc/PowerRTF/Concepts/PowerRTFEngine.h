@@ -103,6 +103,8 @@ public:
   CGAL::PowerRTF::Find_distances distance_finder();
   /// The same of faces that may intersect.
   CGAL::PowerRTF::Find_close_faces close_face_finder();
+  /// The same of cells whose triangles are sound.
+  CGAL::PowerRTF::Find_sound_stars sound_star_finder();
   /// The same of the topology of a mesh.
   CGAL::PowerRTF::Find_topology topology_finder();
   /// The same of sweeps over the vertices of a mesh.

@@ -6,8 +6,8 @@
 
 #include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
-#include <CGAL/PowerRTF/extraction/Surface_walk.h>
 #include <CGAL/PowerRTF/extraction/fan_topology.h>
+#include <CGAL/PowerRTF/geometry/Surface_walk.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
 #include <doctest/doctest.h>

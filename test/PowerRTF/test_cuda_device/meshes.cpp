@@ -8,7 +8,9 @@
 #ifdef CGAL_POWER_RTF_WITH_CUDA
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
+#include <CGAL/PowerRTF/engines/sound_stars.h>
 #include <CGAL/PowerRTF/fields/smooth_normals.h>
+#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 
 #include <algorithm>
@@ -64,6 +66,40 @@ TEST_CASE("the topology of meshes is what the host counts")
         Soup{five, {{0, 1, 2}, {0, 1, 3}}}, Soup{five, {{0, 1, 1}}}, moebius_strip(20), wheel(17)})
     CHECK_FALSE(count(s));
   CHECK(count(Soup{five, {}})->vertices == 0);
+}
+
+TEST_CASE("cells whose triangles are sound are those that the host finds")
+{
+  const Case large{"large", shapes::torus(300, 150, 1, 0.3),
+                   options_of(false, Density::uniform, 40000)};
+  std::vector<Case> all = cases();
+  all.push_back(large);
+  for (const Case& c : all) {
+    CAPTURE(c.name);
+    const Start start(c);
+    const Surface& surface = start.patches->surface();
+    Cuda_engine<float> engine(surface, c.options);
+    engine.set_samples(start.samples, start.patches->features());
+    for (int k = 0; k < 4; ++k) {
+      engine.build_cells();
+      engine.move_samples(Position_method::lloyd);
+    }
+    engine.build_cells();
+    const Samples sites = engine.sites();
+    const Neighbor_cycles neighbors = engine.neighbors();
+    const Cell_triangles triangles{int(neighbors.size()),  int(sites.size()),
+                                   neighbors.first.data(), neighbors.neighbors.data(),
+                                   sites.points.data(),    sites.normals.data(),
+                                   sites.facets.data()};
+    const int facets = int(surface.triangles.size()), vertices = int(surface.points.size());
+    Host_backend<CGAL::Parallel_if_available_tag> host;
+    std::vector<unsigned char> found(triangles.cells), expected(triangles.cells);
+    REQUIRE(
+        internal::find_sound_stars(host, surface, facets, vertices, triangles, expected.data()));
+    REQUIRE(engine.sound_star_finder()(surface, facets, vertices, triangles, found.data()));
+    CHECK(found == expected);
+    CHECK(std::count(found.begin(), found.end(), 1) > triangles.cells / 2);
+  }
 }
 
 TEST_CASE("normals are smoothed as on the host")

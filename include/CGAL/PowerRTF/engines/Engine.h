@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/engines/nearest_facets.h>
 #include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
+#include <CGAL/PowerRTF/engines/sound_stars.h>
 #include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
@@ -111,6 +112,17 @@ public:
           [this](int vertices, const Vec3d* points, int n, const int* corners, Face_pairs& pairs) {
             return internal::close_faces(m_backend, vertices, points, n, corners, pairs);
           };
+  }
+  Find_sound_stars sound_star_finder() override
+  {
+    if constexpr (Backend::is_host)
+      return {};
+    else
+      return [this](const Connected_facets& surface, int facets, int vertices,
+                    const Cell_triangles& triangles, unsigned char* is_sound) {
+        return internal::find_sound_stars(m_backend, surface, facets, vertices, triangles,
+                                          is_sound);
+      };
   }
   Find_topology topology_finder() override
   {

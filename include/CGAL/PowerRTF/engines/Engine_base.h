@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
+#include <CGAL/PowerRTF/cells/Find_sound_stars.h>
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
@@ -79,6 +80,8 @@ public:
   virtual Find_distances distance_finder() = 0;
   /// The same for faces that may intersect.
   virtual Find_close_faces close_face_finder() = 0;
+  /// The same for the triangles of cells.
+  virtual Find_sound_stars sound_star_finder() = 0;
   /// The same for the topology of meshes.
   virtual Find_topology topology_finder() = 0;
   /// The same for facets of its surface.

@@ -66,6 +66,11 @@ public:
   {
     return m_engine ? m_engine->close_face_finder() : Find_close_faces();
   }
+  /// The same for the triangles of cells.
+  Find_sound_stars sound_star_finder()
+  {
+    return m_engine ? m_engine->sound_star_finder() : Find_sound_stars();
+  }
   /// The same for the topology of meshes.
   Find_topology topology_finder()
   {

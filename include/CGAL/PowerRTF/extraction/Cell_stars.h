@@ -8,9 +8,11 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 #define CGAL_POWER_RTF_EXTRACTION_CELL_STARS_H
 
+#include <CGAL/PowerRTF/cells/Find_sound_stars.h>
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/extraction/Fan.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
@@ -27,22 +29,37 @@ using Triangle_at = std::array<int, 3>;
 template <class ConcurrencyTag>
 class Cell_stars {
 public:
-  /// `neighbors`: of each cell, as `PowerRTFEngine::neighbors()` has them.
-  Cell_stars(Neighbor_cycles&& neighbors, const Feature_samples& features)
-      : m_cells(static_cast<int>(neighbors.size())), m_neighbors(std::move(neighbors)),
-        m_is_agreed(m_cells, 1)
+  /// `neighbors`: of each cell, as `PowerRTFEngine::neighbors()` has them. Keeps references to the
+  /// others but `find`, which finds sound triangles where it does.
+  Cell_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
+             Neighbor_cycles&& neighbors, const Find_sound_stars& find = {})
+      : m_cells(static_cast<int>(neighbors.size())),
+        m_neighbors(std::move(neighbors)), m_triangles{m_cells,
+                                                       static_cast<int>(samples.size()),
+                                                       m_neighbors.first.data(),
+                                                       m_neighbors.neighbors.data(),
+                                                       samples.points.data(),
+                                                       samples.normals.data(),
+                                                       samples.facets.data()},
+        m_is_agreed(m_cells, 1), m_is_sound(filled<unsigned char>(ConcurrencyTag(), m_cells, 0))
   {
     if (features.size() > 0)
       for_each_index<ConcurrencyTag>(static_cast<int>(m_neighbors.neighbors.size()), [&](int k) {
         int& j = m_neighbors.neighbors[k];
         if (j >= m_cells) j = m_cells + features.samples_of_sites[j - m_cells];
       });
+    if (find && m_cells > 0)
+      find(surface, static_cast<int>(surface.triangles.size()),
+           static_cast<int>(surface.points.size()), m_triangles, m_is_sound.data());
     for_each_index<ConcurrencyTag>(m_cells, [&](int i) {
-      for (std::size_t k = 0; k < m_neighbors[i].size(); ++k)
-        if (!is_agreed(i, corner(i, k))) m_is_agreed[i] = 0;
+      for (int k = 0; k < m_triangles.size(i) && !is_sound(i); ++k)
+        if (!m_triangles.is_agreed(i, k)) m_is_agreed[i] = 0;
     });
     if (features.size() > 0) find_feature_stars();
   }
+
+  Cell_stars(const Cell_stars&) = delete; // its triangles refer to its neighbors
+  Cell_stars& operator=(const Cell_stars&) = delete;
 
   /// The number of samples with cells, which come first.
   int cells() const { return m_cells; }
@@ -50,8 +67,12 @@ public:
   /// Whether all triangles of a cell are agreed.
   bool is_agreed(int i) const { return m_is_agreed[i]; }
 
+  /// Whether they are known to be all that is asked of them.
+  bool is_sound(int i) const { return m_is_sound[i] != 0; }
+
   /// The neighbors of a cell.
   Neighbor_cycles::Cycle neighbors(int i) const { return m_neighbors[i]; }
+  const Cell_triangles& triangles() const { return m_triangles; }
 
   /// Calls `f(corner)` for the agreed triangles at `v`.
   template <class F>
@@ -61,10 +82,9 @@ public:
       for_each_of(m_at_features, v, f);
       return;
     }
-    for (std::size_t k = 0; k < m_neighbors[v].size(); ++k) {
-      const Fan_corner c = corner(v, k);
-      if (m_is_agreed[v] || is_agreed(v, c)) f(c);
-    }
+    for (int k = 0; k < m_triangles.size(v); ++k)
+      if (m_is_agreed[v] || m_triangles.is_agreed(v, k))
+        f(Fan_corner{m_triangles.from(v, k), m_triangles.to(v, k)});
   }
 
   /// The same of `triangles`, sorted.
@@ -77,26 +97,6 @@ public:
   }
 
 private:
-  Fan_corner corner(int i, std::size_t k) const
-  {
-    const Neighbor_cycles::Cycle around = m_neighbors[i];
-    return {around[k], around.after(k)};
-  }
-
-  // Whether `a` is followed by `b` around the cell; one without a cell agrees.
-  bool has(int i, int a, int b) const
-  {
-    if (i >= m_cells) return true;
-    for (std::size_t k = 0; k < m_neighbors[i].size(); ++k)
-      if (m_neighbors[i][k] == a && corner(i, k)[1] == b) return true;
-    return false;
-  }
-
-  bool is_agreed(int i, const Fan_corner& c) const
-  {
-    return c[0] >= 0 && c[1] >= 0 && c[0] != c[1] && has(c[0], c[1], i) && has(c[1], i, c[0]);
-  }
-
   void find_feature_stars()
   {
     constexpr int chunk = 1024;
@@ -115,7 +115,9 @@ private:
 
   int m_cells;
   Neighbor_cycles m_neighbors; // samples
+  Cell_triangles m_triangles;
   std::vector<char> m_is_agreed;
+  Unset_vector<unsigned char> m_is_sound;
   std::vector<Triangle_at> m_at_features; // the agreed triangles there, sorted
 };
 

@@ -11,11 +11,11 @@
 #include <CGAL/PowerRTF/extraction/Cell_stars.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/extraction/Surface_piece.h>
-#include <CGAL/PowerRTF/extraction/Surface_walk.h>
 #include <CGAL/PowerRTF/extraction/border_samples.h>
 #include <CGAL/PowerRTF/extraction/fan_topology.h>
 #include <CGAL/PowerRTF/extraction/insert_samples.h>
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
+#include <CGAL/PowerRTF/geometry/Surface_walk.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
@@ -36,10 +36,12 @@ class Mended_stars {
 public:
   /// Keeps references to all but `neighbors`; see `extract_from_cells()`.
   Mended_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
-               Neighbor_cycles&& neighbors, const Find_close_faces& find)
+               Neighbor_cycles&& neighbors, const Find_close_faces& find,
+               const Find_sound_stars& find_sound)
       : m_surface(surface), m_samples(samples), m_features(features), m_find(find),
-        m_stars(std::move(neighbors), features), m_size(static_cast<int>(samples.size())),
-        m_openings(samples.size(), 0), m_has_made(samples.size(), 0), m_on_curves(features.size()),
+        m_stars(surface, samples, features, std::move(neighbors), find_sound),
+        m_size(static_cast<int>(samples.size())), m_openings(samples.size(), 0),
+        m_has_made(samples.size(), 0), m_on_curves(features.size()),
         m_is_on_border(are_on_border(surface, features))
   {
     for (const Edge& e : features.edges)
@@ -52,7 +54,7 @@ public:
   {
     Progress_part part(0.4);
     const std::vector<int> faulty =
-        select(ConcurrencyTag(), m_size, [this](int v) { return !is_whole(v) || !lies_well(v); });
+        select(ConcurrencyTag(), m_size, [this](int v) { return !is_sound(v); });
     part.next(0.6);
     if (!close(faulty)) return false;
     part.next(0.7);
@@ -87,7 +89,6 @@ private:
   static constexpr double first_reach = 1.5, growth = 1.6; // of a piece, in units of the spacing
   static constexpr double max_cover = 4; // of the surface, by pieces before they are joined
   static constexpr double pi = 3.14159265358979323846;
-  static constexpr double worst_agreement = 0.1, fold = -0.7; // cosines; see `Edge_flipper`
 
   bool is_open(int v) const { return m_openings[v] > 0; }
 
@@ -129,7 +130,7 @@ private:
     const bool has_cell = v < m_stars.cells();
     if (has_cell && m_stars.is_agreed(v) && !is_open(v) && !m_has_made[v]) {
       const Neighbor_cycles::Cycle around = m_stars.neighbors(v);
-      return around.size() >= 3 && are_distinct(around) &&
+      return m_stars.triangles().are_distinct(v) &&
              std::none_of(around.begin(), around.end(), [this](int w) { return is_open(w); });
     }
     Fan s = star(v);
@@ -154,55 +155,33 @@ private:
     });
   }
 
-  static bool are_distinct(const Neighbor_cycles::Cycle& items)
+  // Whether the triangles at a sample are as the cells have them, and all that is asked of them.
+  bool is_sound(int v) const
   {
-    for (auto it = items.begin(); it != items.end(); ++it)
-      if (std::find(it + 1, items.end(), *it) != items.end()) return false;
-    return true;
+    const bool has_cell = v < m_stars.cells();
+    return (has_cell && m_stars.is_sound(v)) || (is_whole(v) && (!has_cell || lies_well(v)));
   }
 
-  // Whether the triangles of a cell agree with the normals at their corners, none is folded onto
-  // the next one, and their edges join neighbors along the surface.
   bool lies_well(int v) const
   {
-    if (v >= m_stars.cells()) return true;
-    Vec3d first{0, 0, 0}, last{0, 0, 0};
-    bool good = true;
-    m_stars.for_each_at(v, [&](const Fan_corner& c) {
-      const Vec3d& p = m_samples.points[v];
-      const Vec3d n = normalized(cross(m_samples.points[c[0]] - p, m_samples.points[c[1]] - p));
-      for (const int w : {v, c[0], c[1]})
-        if (w < m_stars.cells()) good = good && dot(n, m_samples.normals[w]) > worst_agreement;
-      good = good && squared_length(n) > 0 && dot(n, last) > fold;
-      if (squared_length(last) == 0) first = n;
-      last = n;
-      if (v < c[0]) good = good && are_neighbors(v, c[0]);
-    });
-    return good && dot(first, last) > fold;
+    return m_stars.triangles().lies_well(
+        v,
+        [&](const auto& f) { m_stars.for_each_at(v, [&](const Fan_corner& c) { f(c[0], c[1]); }); },
+        [&](int w) { return are_neighbors(v, w); });
   }
 
   // Whether a short way along the surface joins a sample and another one, perhaps on a feature.
   bool are_neighbors(int v, int w) const
   {
+    if (w < m_stars.cells()) return m_stars.triangles().are_neighbors(m_surface, v, w);
     const Vec3d &p = m_samples.points[v], &q = m_samples.points[w];
-    const Vec3d up = m_samples.normals[v] + m_samples.normals[w];
-    const double scale = length(q - p);
-    const int f = m_samples.facets[v], g = m_samples.facets[w];
-    if (w >= m_stars.cells()) {
-      const Edge_place& place = m_features.places[w - m_stars.cells()];
-      return Surface_walk(m_surface, p, q, up).leads_to(f, [&](int facet) {
-        const Triangle& t = m_surface.triangles[facet];
-        return std::find(t.begin(), t.end(), place.from) != t.end() &&
-               std::find(t.begin(), t.end(), place.to) != t.end();
-      });
-    }
-    const auto joins = [&](const Vec3d& from, int start, const Vec3d& to, int end) {
-      const Surface_walk walk(m_surface, from, to, up);
-      return walk.leads_to(start, [end](int facet) { return facet == end; }) || // mostly
-             walk.leads_to(
-                 start, [&](int facet) { return holds_point(m_surface, facet, to, end, scale); });
-    };
-    return joins(p, f, q, g) || joins(q, g, p, f);
+    const Edge_place& place = m_features.places[w - m_stars.cells()];
+    return Surface_walk(m_surface, p, q, m_samples.normals[v] + m_samples.normals[w])
+        .leads_to(m_samples.facets[v], [&](int facet) {
+          const Triangle& t = m_surface.triangles[facet];
+          return std::find(t.begin(), t.end(), place.from) != t.end() &&
+                 std::find(t.begin(), t.end(), place.to) != t.end();
+        });
   }
 
   // Makes the triangles at the samples anew, and at more of them until all fit.

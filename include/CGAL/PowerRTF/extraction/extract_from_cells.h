@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACT_FROM_CELLS_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACT_FROM_CELLS_H
 
+#include <CGAL/PowerRTF/cells/Find_sound_stars.h>
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
@@ -32,13 +33,14 @@ struct Cell_extraction_statistics {
 /// self-intersections; otherwise all is done by `extract_by_insertion()`.
 ///
 /// `neighbors`: of the cells of the samples that lie on no feature, as
-/// `PowerRTFEngine::neighbors()` has them. `find`: what finds intersections instead, where it does.
+/// `PowerRTFEngine::neighbors()` has them. `find`: what finds intersections instead, where it does;
+/// `find_sound`: the same for cells whose triangles are sound.
 /// The result is the same for any number of threads.
 template <class ConcurrencyTag>
-Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples,
-                                  const Feature_samples& features, Neighbor_cycles&& neighbors,
-                                  Cell_extraction_statistics* statistics = nullptr,
-                                  const Find_close_faces& find = {});
+Extracted_mesh
+extract_from_cells(const Surface& surface, const Samples& samples, const Feature_samples& features,
+                   Neighbor_cycles&& neighbors, Cell_extraction_statistics* statistics = nullptr,
+                   const Find_close_faces& find = {}, const Find_sound_stars& find_sound = {});
 
 } // namespace CGAL::PowerRTF
 
