@@ -125,6 +125,9 @@ public:
     return m_whole ? PowerRTF::mesh_parts(mesh, Tag()).first
                    : PowerRTF::mesh_patches(mesh, m_patches.surface(), Tag());
   }
+  /// What finds the topology of meshes where the engine works; empty: on the host. It lives as long
+  /// as this.
+  PowerRTF::Find_topology topology_finder() { return m_engine.topology_finder(); }
   /// The precision of the cells' numbers: the machine epsilon of double, or of float.
   double epsilon() const { return m_engine.epsilon(); }
 
@@ -314,8 +317,8 @@ private:
       PowerRTF::improve_mesh(
           m_patches.surface(), m_engine.facet_tree(), mesh, typename Traits::Concurrency_tag(),
           {m_options.dislocations, m_report.max_distance * surface.normalization.scale,
-           std::move(carriers), m_engine.close_face_finder(), m_engine.star_sweeps_maker(),
-           std::move(m_prepared)});
+           std::move(carriers), m_engine.close_face_finder(), m_engine.topology_finder(),
+           m_engine.star_sweeps_maker(), std::move(m_prepared)});
     }
     return mesh;
   }

@@ -351,11 +351,12 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
   };
   return PowerRTF::internal::run<typename Types::Traits>(
       options, prepare, visitor,
-      [&](const auto& remesher, const PowerRTF::Extracted_mesh& mesh,
+      [&](auto& remesher, const PowerRTF::Extracted_mesh& mesh,
           PowerRTF::Remeshing_report& report) {
         PowerRTF::internal::export_with_sources(
             input, np_in, mesh, remesher.surface().normalization,
-            [&] { return remesher.patches(mesh); }, output, np_out, report, ConcurrencyTag());
+            [&] { return remesher.patches(mesh); }, output, np_out, report, ConcurrencyTag(),
+            remesher.topology_finder());
       });
 }
 

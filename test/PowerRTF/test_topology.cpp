@@ -5,6 +5,7 @@
 #include "dirty_shapes.h"
 #include "shapes.h"
 
+#include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 
 #include <CGAL/tags.h>
@@ -115,9 +116,14 @@ TEST_CASE("topology: that of an oriented manifold is what is counted of any tria
         Soup{{{}, {}, {}}, {{0, 1, 2}}}, Soup{{{}, {}, {}}, {{0, 1, 2}, {2, 1, 0}}}}) {
     const Topology_statistics expected =
         internal::soup_topology(s.triangles, vertices(s), CGAL::Sequential_tag());
-    const auto t =
-        internal::oriented_topology(s.triangles, vertices(s), CGAL::Parallel_if_available_tag());
+    Triangle_links links;
+    const auto t = internal::oriented_topology(s.triangles, vertices(s),
+                                               CGAL::Parallel_if_available_tag(), &links);
     REQUIRE(t);
+    const Triangle_links known =
+        internal::triangle_links(s.triangles, vertices(s), CGAL::Sequential_tag());
+    CHECK(links.opposite == known.opposite);
+    CHECK(links.last_corner == known.last_corner);
     CHECK(t->vertices == expected.vertices);
     CHECK(t->edges == expected.edges);
     CHECK(t->faces == expected.faces);

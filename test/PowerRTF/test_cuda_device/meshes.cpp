@@ -9,6 +9,7 @@
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/engines/sound_stars.h>
+#include <CGAL/PowerRTF/extraction/connect_halfedges.h>
 #include <CGAL/PowerRTF/fields/smooth_normals.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/topology.h>
@@ -41,8 +42,10 @@ TEST_CASE("the topology of meshes is what the host counts")
   Cuda_engine<float> engine(start.patches->surface(), c.options);
   engine.set_samples(start.samples, start.patches->features());
   const Find_topology find = engine.topology_finder();
-  const auto count = [&find](const Soup& s) {
-    return find(int(s.points.size()), int(s.triangles.size()), s.triangles.data()->data());
+  Triangle_links links;
+  const auto count = [&](const Soup& s) {
+    links = {};
+    return find(int(s.points.size()), int(s.triangles.size()), s.triangles.data()->data(), &links);
   };
   for (const Soup& s :
        {icosphere(3), permuted(open_cylinder(9, 4, 1, 2), 1), two_spheres(2),
@@ -59,12 +62,16 @@ TEST_CASE("the topology of meshes is what the host counts")
     CHECK(t->border_edges == expected.border_edges);
     CHECK(t->border_loops == expected.border_loops);
     CHECK(t->euler_characteristic == expected.euler_characteristic);
+    const Triangle_links known = internal::triangle_links(s.triangles, int(s.points.size()),
+                                                          CGAL::Parallel_if_available_tag());
+    CHECK(links.opposite == known.opposite);
+    CHECK(links.last_corner == known.last_corner);
   }
   const std::vector<Vec3d> five(5);
   for (const Soup& s :
        {Soup{five, {{0, 1, 2}, {0, 3, 4}}}, Soup{five, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}},
         Soup{five, {{0, 1, 2}, {0, 1, 3}}}, Soup{five, {{0, 1, 1}}}, moebius_strip(20), wheel(17)})
-    CHECK_FALSE(count(s));
+    CHECK_FALSE((count(s) || links.are_known()));
   CHECK(count(Soup{five, {}})->vertices == 0);
 }
 

@@ -129,8 +129,8 @@ public:
     if constexpr (Backend::is_host)
       return {};
     else
-      return [this](int vertices, int n, const int* corners) {
-        return internal::oriented_topology(m_backend, vertices, n, corners);
+      return [this](int vertices, int n, const int* corners, Triangle_links* links) {
+        return internal::oriented_topology(m_backend, vertices, n, corners, links);
       };
   }
   Find_facets facet_finder() override

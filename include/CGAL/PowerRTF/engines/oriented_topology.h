@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -55,12 +56,14 @@ struct Set_to_own_number {
 struct Join_fan {
   const int* vertices;
   Corner_lists lists;
-  int* component;      ///< label trees
-  int* next_on_border; ///< -1: it is not on a border
+  int* component;              ///< label trees
+  int* next_on_border;         ///< -1: it is not on a border
+  int *opposite, *last_corner; ///< as of `Triangle_links`; or null
 
   CGAL_POWER_RTF_HD void operator()(int v, Totals<1, 0>& defects) const
   {
     next_on_border[v] = -1;
+    if (last_corner) last_corner[v] = -1;
     const int n = lists.size(v);
     if (n == 0) return;
     if (lists.is_full(v)) return defects.add(0, 1);
@@ -69,6 +72,20 @@ struct Join_fan {
     for (int k = 0; k < n; ++k) // each edge once
       if (fan.next(k) < v || k == fan.border()) join_trees(component, v, fan.next(k));
     if (fan.border() >= 0) next_on_border[v] = fan.next(fan.border());
+    if (opposite) write_links(fan, v, n);
+  }
+
+private:
+  CGAL_POWER_RTF_HD void write_links(const Vertex_fan& fan, int v, int n) const
+  {
+    const int* const corners = lists[v];
+    if (fan.border() >= 0) opposite[corners[fan.border()]] = -1;
+    int last = -1;
+    for (int k = 0; k < n; ++k) {
+      if (fan.after(k) >= 0) opposite[corners[fan.after(k)]] = previous_halfedge(corners[k]);
+      last = corners[k] > last ? corners[k] : last;
+    }
+    last_corner[v] = last;
   }
 };
 
@@ -121,18 +138,21 @@ struct Topology_arrays {
   using Buffer = typename Backend::template Buffer<T>;
 
   Buffer<int> vertices, degree, corners; // where the backend has no lists of the host's
+  Buffer<int> opposite, last_corner;     // the same of links
   Buffer<int> component, next_on_border; // `component` is that of borders, too, in the end
   Buffer<double> sums;
 
   /// See listed_arrays.h. `n`: triangles.
   template <class F>
-  static void for_each_array(F&& f, std::size_t vertices, std::size_t n)
+  static void for_each_array(F&& f, std::size_t vertices, std::size_t n, bool has_links)
   {
     using A = Topology_arrays;
     if (!Backend::is_host) {
       f(&A::vertices, 3 * n);
       f(&A::degree, vertices);
       f(&A::corners, Corner_lists::most * vertices);
+      if (has_links) f(&A::opposite, 3 * n);
+      if (has_links) f(&A::last_corner, vertices);
     }
     for (auto array : {&A::component, &A::next_on_border}) f(array, vertices);
     f(&A::sums, std::size_t(4));
@@ -143,12 +163,21 @@ struct Topology_arrays {
 /// triangles.
 template <class Backend>
 std::optional<Topology_statistics> oriented_topology(Backend& backend, int vertices, int n,
-                                                     const int* corners)
+                                                     const int* corners,
+                                                     Triangle_links* links = nullptr)
 {
   using Arrays = Topology_arrays<Backend>;
-  if (!backend.has_room(bytes_of_listed<Arrays>(vertices, n))) return std::nullopt;
+  if (!backend.has_room(bytes_of_listed<Arrays>(vertices, n, links != nullptr)))
+    return std::nullopt;
   Arrays a;
-  allocate_listed(backend, a, std::size_t(vertices), std::size_t(n));
+  allocate_listed(backend, a, std::size_t(vertices), std::size_t(n), links != nullptr);
+  int *opposite = a.opposite.data(), *last_corner = a.last_corner.data();
+  Triangle_links found;
+  if (links) {
+    found.opposite.resize(3 * std::size_t(n));
+    found.last_corner.resize(vertices);
+    if (Backend::is_host) opposite = found.opposite.data(), last_corner = found.last_corner.data();
+  }
   Corner_lists lists{nullptr, a.degree.data(), a.corners.data()};
   Buckets<int> buckets;
   if constexpr (Backend::is_host) {
@@ -163,13 +192,21 @@ std::optional<Topology_statistics> oriented_topology(Backend& backend, int verti
   int *const component = a.component.data(), *const next = a.next_on_border.data();
   double* const sums = a.sums.data();
   backend.for_each(vertices, Set_to_own_number{component});
-  backend.template reduce<1, 0>(vertices, Join_fan{corners, lists, component, next},
+  backend.template reduce<1, 0>(vertices,
+                                Join_fan{corners, lists, component, next, opposite, last_corner},
                                 Keep_sums<1>{sums});
   backend.template reduce<3, 0>(vertices, Count_parts{lists, component, next},
                                 Keep_sums<3>{sums + 1});
   double counts[4];
   backend.download(counts, sums, 4);
   if (counts[0] > 0) return std::nullopt;
+  if (links) {
+    if (!Backend::is_host) {
+      backend.download(found.opposite.data(), opposite, found.opposite.size());
+      backend.download(found.last_corner.data(), last_corner, found.last_corner.size());
+    }
+    *links = std::move(found);
+  }
   Topology_statistics result;
   result.faces = n;
   result.vertices = static_cast<std::size_t>(counts[1]);

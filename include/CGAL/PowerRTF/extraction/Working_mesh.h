@@ -58,11 +58,11 @@ struct Working_mesh {
     for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
   }
 
-  /// The same of triangles alone.
+  /// The same of triangles alone. `find`: what finds their links instead, where it does.
   Working_mesh(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
-               Concurrency concurrency)
+               Concurrency concurrency, const Find_topology& find = {})
   {
-    if (!connect_halfedges(mesh, triangles, int(points.size()), concurrency))
+    if (!connect_halfedges(mesh, triangles, int(points.size()), concurrency, find))
       throw Invalid_input_error("the surface is not an oriented 2-manifold");
     for_each_index(concurrency, int(points.size()), [&](int v) {
       const Vec3d& p = points[v];

@@ -5,6 +5,8 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_CONNECT_HALFEDGES_H
 #define CGAL_POWER_RTF_EXTRACTION_CONNECT_HALFEDGES_H
 
+#include <CGAL/PowerRTF/geometry/Find_topology.h>
+#include <CGAL/PowerRTF/geometry/Triangle_links.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -20,44 +22,64 @@ class Surface_mesh;
 
 namespace PowerRTF::internal {
 
+/// The links of `triangles`, on vertices below `vertices`; unknown if they are no oriented
+/// 2-manifold.
+inline Triangle_links triangle_links(const std::vector<Triangle>& triangles, int vertices,
+                                     Concurrency concurrency)
+{
+  Triangle_links links;
+  links.opposite = filled(concurrency, 3 * triangles.size(), -1);
+  const Buckets<int> corners = vertex_corners(triangles, vertices, concurrency);
+  const Facet_adjacency adjacency =
+      find_opposites(triangles, corners, links.opposite.data(), concurrency);
+  if (adjacency.non_manifold_edges > 0 || adjacency.same_direction ||
+      count_non_manifold_vertices(corners, links.opposite.data(), concurrency) > 0)
+    return {};
+  links.last_corner.resize(vertices);
+  for_each_index(concurrency, vertices, [&](int v) {
+    const bool has_any = corners.first[v] < corners.first[v + 1];
+    links.last_corner[v] = has_any ? corners.entries[corners.first[v + 1] - 1] : -1;
+  });
+  return links;
+}
+
 /// Makes `triangles`, on vertices below `vertices`, the faces of an empty mesh; its points are not
 /// set. The halfedges of edge e are 2 e, of the first of its triangles, and 2 e + 1; the edges
 /// count in the order of these.
+/// \param find what finds how they hang together instead, where it does
 /// \returns `false`, with nothing done, if the triangles are no oriented 2-manifold.
 template <class Point>
 bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triangle>& triangles,
-                       int vertices, Concurrency concurrency)
+                       int vertices, Concurrency concurrency, const Find_topology& find = {})
 {
   using Mesh = CGAL::Surface_mesh<Point>;
   using Vertex = typename Mesh::Vertex_index;
   using Halfedge = typename Mesh::Halfedge_index;
   using Face = typename Mesh::Face_index;
-  constexpr int none = Facet_adjacency::none;
   const int halfedges = static_cast<int>(3 * triangles.size());
-  Facet_adjacency adjacency; // of which these are apart
-  Buckets<int> corners;
-  Unset_vector<int> opposite = filled(concurrency, halfedges, none);
+  Triangle_links links;
   const auto resize = [&](std::size_t edges) { mesh.resize(vertices, edges, triangles.size()); };
   // One thread has to come by the memory of the mesh: nearly all of it while the others do this.
   // Without `reserve()`: GCC's vectors take seven times as long to grow into memory that is there.
   call_at_once(
       concurrency,
       [&] {
-        corners = vertex_corners(triangles, vertices, concurrency);
-        adjacency = find_opposites(triangles, corners, opposite.data(), concurrency);
+        if (!find || halfedges == 0 ||
+            !find(vertices, halfedges / 3, triangles.data()->data(), &links))
+          links = triangle_links(triangles, vertices, concurrency);
       },
       [&] { resize(halfedges / 2 + halfedges / 128); });
-  if (adjacency.non_manifold_edges > 0 || adjacency.same_direction ||
-      count_non_manifold_vertices(corners, opposite.data(), concurrency) > 0) {
+  if (!links.are_known() && halfedges > 0) {
     mesh.resize(0, 0, 0);
     return false;
   }
+  const Unset_vector<int>& opposite = links.opposite;
 
-  const auto is_first = [&](int h) { return opposite[h] == none || h < opposite[h]; };
+  const auto is_first = [&](int h) { return opposite[h] < 0 || h < opposite[h]; };
   Unset_vector<int> numbers(halfedges); // in the mesh
   select(concurrency, halfedges, is_first, resize, [&](int e, int h) {
     numbers[h] = 2 * e;
-    if (opposite[h] != none) numbers[opposite[h]] = 2 * e + 1;
+    if (opposite[h] >= 0) numbers[opposite[h]] = 2 * e + 1;
   });
 
   const auto halfedge = [&](int h) { return Halfedge(numbers[h]); };
@@ -72,13 +94,12 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
     mesh.set_halfedge(Face(f), around[0]);
   });
   for_each_index(concurrency, vertices, [&](int v) { // the last halfedge to it
-    if (corners.first[v] < corners.first[v + 1])
-      mesh.set_halfedge(Vertex(v),
-                        halfedge(previous_halfedge(corners.entries[corners.first[v + 1] - 1])));
+    if (halfedges > 0 && links.last_corner[v] >= 0)
+      mesh.set_halfedge(Vertex(v), halfedge(previous_halfedge(links.last_corner[v])));
   });
-  if (adjacency.border_edges == 0) return true;
   const std::vector<int> at_border =
-      select(concurrency, halfedges, [&](int h) { return opposite[h] == none; });
+      select(concurrency, halfedges, [&](int h) { return opposite[h] < 0; });
+  if (at_border.empty()) return true;
   std::vector<Halfedge> leaving(vertices); // on the border
   for (const int h : at_border) {
     mesh.set_target(mesh.opposite(halfedge(h)), Vertex(halfedge_source(triangles, h)));

@@ -98,14 +98,15 @@ bool add_polygons(const std::vector<Vec3d>& points,
 /// one by one: not here.
 template <class OutputMesh, class PointMap>
 bool add_triangles(const Extracted_mesh&, const Normalization&, OutputMesh&, const PointMap&,
-                   Exported_mesh<OutputMesh>&, Concurrency)
+                   Exported_mesh<OutputMesh>&, Concurrency, const Find_topology&)
 {
   return false;
 }
 template <class MeshPoint, class PointMap>
 bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalization,
                    CGAL::Surface_mesh<MeshPoint>& output, const PointMap& point_map,
-                   Exported_mesh<CGAL::Surface_mesh<MeshPoint>>& exported, Concurrency concurrency)
+                   Exported_mesh<CGAL::Surface_mesh<MeshPoint>>& exported, Concurrency concurrency,
+                   const Find_topology& find)
 {
   using Mesh = CGAL::Surface_mesh<MeshPoint>;
   using Vertex = typename Mesh::Vertex_index;
@@ -129,7 +130,7 @@ bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalizatio
     });
   }
   const std::vector<Triangle>& triangles = vertices < points ? renamed : mesh.triangles;
-  if (!connect_halfedges(output, triangles, vertices, concurrency)) return false;
+  if (!connect_halfedges(output, triangles, vertices, concurrency, find)) return false;
   resize_in_parallel(concurrency, exported.vertices, vertices);
   const bool is_own = std::is_same<PointMap, typename Mesh::template Property_map<Vertex, Point>>();
   for_each_index(is_own ? concurrency : Sequential_tag(), vertices, [&](int v) {
@@ -171,15 +172,16 @@ void name_originals(const Extracted_mesh& mesh, const std::vector<Vec3d>& points
 /// \param np may contain `vertex_point_map` (default: the output's own), whose points are
 ///   constructible from three coordinates
 /// \param concurrency of what is done beside the calls of the maps; the result is the same for all
+/// \param find what finds how triangles hang together instead, where it does
 /// \returns which vertices and faces these are
 ///
 /// A halfedge structure holds 2-manifolds only. Where the triangles form none (those of
 /// `extract_by_insertion()` do), vertices are duplicated and triangles turned until they do.
 template <class OutputMesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
-Exported_mesh<OutputMesh> export_mesh(const Extracted_mesh& mesh,
-                                      const Normalization& normalization, OutputMesh& output,
-                                      const NamedParameters& np = NamedParameters(),
-                                      internal::Concurrency concurrency = Sequential_tag())
+Exported_mesh<OutputMesh>
+export_mesh(const Extracted_mesh& mesh, const Normalization& normalization, OutputMesh& output,
+            const NamedParameters& np = NamedParameters(),
+            internal::Concurrency concurrency = Sequential_tag(), const Find_topology& find = {})
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
@@ -187,7 +189,7 @@ Exported_mesh<OutputMesh> export_mesh(const Extracted_mesh& mesh,
                                     get_property_map(CGAL::vertex_point, output));
   Exported_mesh<OutputMesh> exported;
   internal::remove_all_elements(output);
-  if (internal::add_triangles(mesh, normalization, output, point_map, exported, concurrency))
+  if (internal::add_triangles(mesh, normalization, output, point_map, exported, concurrency, find))
     return exported;
   std::vector<Vec3d> points;
   points.reserve(mesh.points.size());

@@ -30,24 +30,26 @@ public:
   CGAL_POWER_RTF_HD bool is_single() const { return m_is_single; }
   /// The vertex to which the edge number k leads.
   CGAL_POWER_RTF_HD int next(int k) const { return m_next[k]; }
+  /// The facet that follows number k, whose edge is the other side of the one that comes from
+  /// number k, or -1.
+  CGAL_POWER_RTF_HD int after(int k) const { return m_after[k]; }
   /// The edge that is on the border, or -1.
   CGAL_POWER_RTF_HD int border() const { return m_border; }
 
 private:
   CGAL_POWER_RTF_HD bool is_chain(const int* before)
   {
-    int after[most_facets]; // of each facet the next one
     bool has_before[most_facets];
     int links = 0;
     for (int k = 0; k < m_size; ++k) {
-      after[k] = -1;
+      m_after[k] = -1;
       has_before[k] = false;
     }
     for (int k = 0; k < m_size; ++k)
       for (int l = 0; l < m_size; ++l) {
         if (m_next[l] != before[k]) continue;
-        if (after[k] >= 0 || has_before[l]) return false; // an edge is there twice
-        after[k] = l;
+        if (m_after[k] >= 0 || has_before[l]) return false; // an edge is there twice
+        m_after[k] = l;
         has_before[l] = true;
         ++links;
       }
@@ -56,13 +58,14 @@ private:
       for (m_border = 0; has_before[m_border];) ++m_border;
     const int first = m_border < 0 ? 0 : m_border;
     int count = 1;
-    for (int k = after[first]; k >= 0 && k != first; k = after[k]) ++count;
+    for (int k = m_after[first]; k >= 0 && k != first; k = m_after[k]) ++count;
     return count == m_size;
   }
 
   int m_size, m_border = -1;
   bool m_is_single = false;
   int m_next[most_facets];
+  int m_after[most_facets]; // of each facet the next one
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -91,7 +91,8 @@ public:
                 : nullptr,
             make_host_star_sweeps(m_projector.descent(), surface.normalization.grid, concurrency)),
         m_locked(mesh.points.size(), false),
-        m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency),
+        m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency,
+                settings.find_topology),
         m_tracker(*m_stars, std::move(prepared().points)),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
@@ -103,7 +104,9 @@ public:
   {
     Progress_part part(0.93); // the first attempt, which mostly does
     for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
-      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency);
+      if (attempt > 0)
+        m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency,
+                        m_settings.find_topology);
       Star_mesh& stars = *m_stars;
       stars.lock(m_locked);
       improve(stars, attempt == 1 ? 1 : 0);

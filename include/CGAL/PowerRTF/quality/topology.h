@@ -183,11 +183,12 @@ inline Topology_statistics soup_topology(const std::vector<Triangle>& triangles,
 
 /// As `Find_topology`, on the host.
 inline std::optional<Topology_statistics> oriented_topology(const std::vector<Triangle>& triangles,
-                                                            int vertices, Concurrency concurrency)
+                                                            int vertices, Concurrency concurrency,
+                                                            Triangle_links* links = nullptr)
 {
   return with_host_backend(concurrency, [&](auto backend) {
     return oriented_topology(backend, vertices, static_cast<int>(triangles.size()),
-                             triangles.empty() ? nullptr : triangles.data()->data());
+                             triangles.empty() ? nullptr : triangles.data()->data(), links);
   });
 }
 
@@ -202,7 +203,8 @@ inline Topology_statistics topology(const std::vector<Triangle>& triangles,
 {
   const int size = vertex_range(triangles, concurrency);
   if (find && !triangles.empty())
-    if (const auto found = find(size, static_cast<int>(triangles.size()), triangles.data()->data()))
+    if (const auto found =
+            find(size, static_cast<int>(triangles.size()), triangles.data()->data(), nullptr))
       return *found;
   if (const auto found = internal::oriented_topology(triangles, size, concurrency)) return *found;
   const auto is_collapsed = [&](int f) { return internal::is_collapsed(triangles[f]); };

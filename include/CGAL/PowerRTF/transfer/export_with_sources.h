@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -113,14 +114,15 @@ void put_labels(const Exported_mesh<OutputMesh>& exported, const NamedParameters
 
 /// Exports `mesh`, the result of remeshing `input`, as `export_mesh()`, and sets the maps of
 /// sources and labels that `np_out` has. \param patches `patches()` returns the patch of each
-/// triangle \param report of the run; gets the seconds
+/// triangle \param report of the run; gets the seconds \param find what finds how triangles hang
+/// together instead, where it does
 template <class InputMesh, class NamedParametersIn, class Patches, class OutputMesh,
           class NamedParametersOut>
 void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
                          const Extracted_mesh& mesh, const Normalization& normalization,
                          const Patches& patches, OutputMesh& output,
                          const NamedParametersOut& np_out, Remeshing_report& report,
-                         Concurrency concurrency)
+                         Concurrency concurrency, const Find_topology& find)
 {
   constexpr bool puts_labels = has_parameter<NamedParametersOut, internal_np::face_patch_t>(),
                  has_labels = has_parameter<NamedParametersIn, internal_np::face_patch_t>();
@@ -140,13 +142,22 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
   }
   const Stage stage("write", report.seconds.write);
   const Uninterrupted run; // else the output could be neither what it was nor the result
+  const auto find_safely = [&find](auto&&... arguments) -> std::optional<Topology_statistics> {
+    try {
+      if (find) return find(arguments...);
+    } catch (const std::exception&) { // a device that fails now: the host goes on
+    }
+    return std::nullopt;
+  };
   if constexpr (puts_labels && has_labels) {
     const auto labels = label_values(input, np_in);
-    const auto exported = export_mesh(mesh, normalization, output, np_out, concurrency);
+    const auto exported =
+        export_mesh(mesh, normalization, output, np_out, concurrency, find_safely);
     put_sources(sources, *elements, exported, mesh.triangles, output, np_out);
     put_labels(exported, np_out, [&](std::size_t f) { return labels[sources.faces[f].face]; });
   } else {
-    const auto exported = export_mesh(mesh, normalization, output, np_out, concurrency);
+    const auto exported =
+        export_mesh(mesh, normalization, output, np_out, concurrency, find_safely);
     if constexpr (puts_sources)
       put_sources(sources, *elements, exported, mesh.triangles, output, np_out);
     if constexpr (puts_labels)
