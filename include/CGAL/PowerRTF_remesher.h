@@ -160,7 +160,11 @@ private:
   void distribute(Visitor& visitor)
   {
     m_report.cancelled = false;
-    const PowerRTF::internal::Meanwhile preparation([this] { prepare_improvement(); });
+    using PowerRTF::Improvement_part;
+    const PowerRTF::internal::Meanwhile then(
+        [this] { prepare_improvement(Improvement_part::points_and_memory); });
+    const PowerRTF::internal::Meanwhile first(
+        [this] { prepare_improvement(Improvement_part::flat_patches); });
     sample();
     const Stage stage("optimization", m_report.seconds.optimization);
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
@@ -198,12 +202,12 @@ private:
     m_report.iterations.clear();
   }
 
-  void prepare_improvement()
+  void prepare_improvement(PowerRTF::Improvement_part part)
   {
     if (m_options.improvement == PowerRTF::Improvement::yes)
-      m_prepared = PowerRTF::prepare_improvement(m_patches.surface(), m_engine.facet_tree(),
-                                                 m_options.number_of_samples,
-                                                 typename Traits::Concurrency_tag());
+      PowerRTF::prepare_improvement(m_prepared, part, m_patches.surface(), m_engine.facet_tree(),
+                                    m_options.number_of_samples,
+                                    typename Traits::Concurrency_tag());
   }
 
   /// The engine's samples on the whole surface, then those on creases and borders.

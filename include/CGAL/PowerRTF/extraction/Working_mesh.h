@@ -58,9 +58,11 @@ struct Working_mesh {
     for (const auto& [a, b] : surface.features) join_on_feature(Vertex(a), Vertex(b));
   }
 
-  /// The same of triangles alone. `find`: what finds their links instead, where it does.
+  /// The same of triangles alone. `find`: what finds their links instead, where it does. `memory`:
+  /// a mesh whose memory is used, or an empty one.
   Working_mesh(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
-               Concurrency concurrency, const Find_topology& find = {})
+               Concurrency concurrency, const Find_topology& find = {}, Mesh&& memory = Mesh())
+      : mesh(std::move(memory))
   {
     if (!connect_halfedges(mesh, triangles, int(points.size()), concurrency, find))
       throw Invalid_input_error("the surface is not an oriented 2-manifold");

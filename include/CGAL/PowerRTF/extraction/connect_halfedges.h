@@ -43,11 +43,11 @@ inline Triangle_links triangle_links(const std::vector<Triangle>& triangles, int
   return links;
 }
 
-/// Makes `triangles`, on vertices below `vertices`, the faces of an empty mesh; its points are not
-/// set. The halfedges of edge e are 2 e, of the first of its triangles, and 2 e + 1; the edges
-/// count in the order of these.
-/// \param find what finds how they hang together instead, where it does
-/// \returns `false`, with nothing done, if the triangles are no oriented 2-manifold.
+/// Makes `triangles`, on vertices below `vertices`, the faces of a mesh that is empty, or has only
+/// been resized; its points are not set. The halfedges of edge e are 2 e, of the first of its
+/// triangles, and 2 e + 1; the edges count in the order of these. \param find what finds how they
+/// hang together instead, where it does \returns `false`, with nothing done, if the triangles are
+/// no oriented 2-manifold.
 template <class Point>
 bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triangle>& triangles,
                        int vertices, Concurrency concurrency, const Find_topology& find = {})
@@ -58,7 +58,19 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
   using Face = typename Mesh::Face_index;
   const int halfedges = static_cast<int>(3 * triangles.size());
   Triangle_links links;
-  const auto resize = [&](std::size_t edges) { mesh.resize(vertices, edges, triangles.size()); };
+  Unset_vector<int> numbers(halfedges); // in the mesh
+  std::size_t edges = 0;
+  const auto resize = [&](std::size_t e) { mesh.resize(vertices, e, triangles.size()); };
+  const auto number_edges = [&] {
+    const int* const opposite = links.opposite.data();
+    select(
+        concurrency, halfedges, [=](int h) { return opposite[h] < 0 || h < opposite[h]; },
+        [&](std::size_t count) { edges = count; },
+        [&](int e, int h) {
+          numbers[h] = 2 * e;
+          if (opposite[h] >= 0) numbers[opposite[h]] = 2 * e + 1;
+        });
+  };
   // One thread has to come by the memory of the mesh: nearly all of it while the others do this.
   // Without `reserve()`: GCC's vectors take seven times as long to grow into memory that is there.
   call_at_once(
@@ -67,20 +79,15 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
         if (!find || halfedges == 0 ||
             !find(vertices, halfedges / 3, triangles.data()->data(), &links))
           links = triangle_links(triangles, vertices, concurrency);
+        if (links.are_known()) number_edges();
       },
       [&] { resize(halfedges / 2 + halfedges / 128); });
   if (!links.are_known() && halfedges > 0) {
     mesh.resize(0, 0, 0);
     return false;
   }
+  resize(edges);
   const Unset_vector<int>& opposite = links.opposite;
-
-  const auto is_first = [&](int h) { return opposite[h] < 0 || h < opposite[h]; };
-  Unset_vector<int> numbers(halfedges); // in the mesh
-  select(concurrency, halfedges, is_first, resize, [&](int e, int h) {
-    numbers[h] = 2 * e;
-    if (opposite[h] >= 0) numbers[opposite[h]] = 2 * e + 1;
-  });
 
   const auto halfedge = [&](int h) { return Halfedge(numbers[h]); };
   for_each_index(concurrency, static_cast<int>(triangles.size()), [&](int f) {

@@ -57,13 +57,14 @@ public:
 
   /// `carriers`: for the first points of `mesh`, or none, the facets that they probably lie on.
   /// `concurrency`: of the loops over all of it. `find`: what finds links instead, where it does.
+  /// `memory`: a mesh whose memory is used, or an empty one.
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
             const std::vector<int>& carriers = {}, Concurrency concurrency = Sequential_tag(),
-            const Find_topology& find = {})
+            const Find_topology& find = {}, Working_mesh::Mesh&& memory = Working_mesh::Mesh())
       : m_concurrency(concurrency), m_projector(&projector),
-        m(mesh.points, mesh.triangles, concurrency, find), m_facets(mesh.points.size()),
-        m_heights(filled(concurrency, mesh.points.size(), 0.)),
+        m(mesh.points, mesh.triangles, concurrency, find, std::move(memory)),
+        m_facets(mesh.points.size()), m_heights(filled(concurrency, mesh.points.size(), 0.)),
         m_locked(filled(concurrency, mesh.points.size(), no)), m_movable(mesh.points.size()),
         m_pinned(filled(concurrency, mesh.points.size(), no)),
         m_on_feature(filled(concurrency, mesh.points.size(), no)), m_kept(mesh.points.size()),

@@ -72,8 +72,9 @@
 namespace CGAL::PowerRTF {
 
 struct Improvement_preparation {
-  Flat_patches flat;
-  internal::Unset_vector<internal::Tracked_point> points; ///< until they are tracked
+  std::optional<Flat_patches> flat;
+  std::optional<internal::Unset_vector<internal::Tracked_point>> points; ///< until they are tracked
+  internal::Working_mesh::Mesh memory; ///< of the mesh, to be filled; or none
 };
 
 namespace internal {
@@ -92,8 +93,9 @@ public:
             make_host_star_sweeps(m_projector.descent(), surface.normalization.grid, concurrency)),
         m_locked(mesh.points.size(), false),
         m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency,
-                settings.find_topology),
-        m_tracker(*m_stars, std::move(prepared().points)),
+                settings.find_topology,
+                m_prepared ? std::move(m_prepared->memory) : Working_mesh::Mesh()),
+        m_tracker(*m_stars, std::move(*prepared(Improvement_part::points).points)),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
@@ -131,13 +133,18 @@ private:
 
   using Schedule = Improvement_parameters::Schedule;
 
-  Improvement_preparation& prepared()
+  /// With that part.
+  Improvement_preparation& prepared(Improvement_part part)
   {
-    if (!m_prepared)
-      m_prepared =
-          prepare_improvement(m_surface, m_projector.tree(), m_mesh.points.size(), m_concurrency);
+    const bool is_there =
+        m_prepared && (part == Improvement_part::points ? m_prepared->points.has_value()
+                                                        : m_prepared->flat.has_value());
+    if (!is_there)
+      prepare_improvement(m_prepared, part, m_surface, m_projector.tree(), m_mesh.points.size(),
+                          m_concurrency);
     return *m_prepared;
   }
+  const Flat_patches& flat() { return *prepared(Improvement_part::flat_patches).flat; }
 
   // One attempt; see the head of this file.
   void improve(Star_mesh& stars, int passes_less)
@@ -173,7 +180,7 @@ private:
     optimize();
     m_tracker.update();
     part.next(0.75);
-    Surface_fitter(stars, m_tracker, m_prepared->flat, m_sweeps, Schedule::healable_badness).run();
+    Surface_fitter(stars, m_tracker, flat(), m_sweeps, Schedule::healable_badness).run();
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
     if (has_features && optimizer.is_needed()) slide();
@@ -187,14 +194,14 @@ private:
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
     if (is_creased) {
       m_tracker.update();
-      Distance_lowerer(stars, m_tracker, m_prepared->flat).run(Schedule::far_share);
+      Distance_lowerer(stars, m_tracker, flat()).run(Schedule::far_share);
       m_tracker.update();
     }
     if (m_settings.max_distance > 0) {
       m_tracker.update();
       Vertex_relocator relocator(stars, optimizer, m_tracker);
       Distance_keeper::relocate(relocator, m_settings.max_distance);
-      Distance_keeper(stars, m_prepared->flat, m_settings.max_distance).run(relocator);
+      Distance_keeper(stars, flat(), m_settings.max_distance).run(relocator);
       m_tracker.update();
     }
     if (m_surface.has_labels) {
@@ -340,13 +347,21 @@ private:
 
 } // namespace internal
 
-CGAL_POWER_RTF_INLINE std::shared_ptr<Improvement_preparation>
-prepare_improvement(const Surface& surface, const Facet_tree& tree, std::size_t vertices,
-                    internal::Concurrency concurrency)
+CGAL_POWER_RTF_INLINE void prepare_improvement(std::shared_ptr<Improvement_preparation>& prepared,
+                                               Improvement_part part, const Surface& surface,
+                                               const Facet_tree& tree, std::size_t vertices,
+                                               internal::Concurrency concurrency)
 {
-  return std::make_shared<Improvement_preparation>(
-      Improvement_preparation{Flat_patches(surface, Flat_patches::level_sine, concurrency),
-                              internal::tracked_points(surface, tree, vertices, concurrency)});
+  if (!prepared) prepared = std::make_shared<Improvement_preparation>();
+  if (part == Improvement_part::flat_patches) {
+    prepared->flat.emplace(surface, Flat_patches::level_sine, concurrency);
+    return;
+  }
+  const std::size_t n = part == Improvement_part::points_and_memory ? vertices : 0;
+  internal::call_at_once(
+      concurrency,
+      [&] { prepared->points = internal::tracked_points(surface, tree, vertices, concurrency); },
+      [&] { prepared->memory.resize(n, 3 * n + n / 16, 2 * n + n / 32); });
 }
 
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,

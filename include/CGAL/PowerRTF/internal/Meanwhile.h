@@ -8,8 +8,8 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// Work for the time in which the thread that made it waits for a device. Where none is waited for,
-/// `finish()` does it, or nobody.
+/// Work for the time in which the thread that made it waits for a device; of several, that made
+/// last comes first. Where none is waited for, `finish()` does it, or nobody.
 class Meanwhile {
 public:
   explicit Meanwhile(std::function<void()> work)
@@ -28,7 +28,9 @@ public:
   /// To be called where a device has been given what takes long, before it is waited for.
   static void run()
   {
-    if (Meanwhile* const some = innermost()) some->finish();
+    Meanwhile* some = innermost();
+    while (some && !some->m_work) some = some->m_outer;
+    if (some) some->finish();
   }
 
 private:
