@@ -20,8 +20,8 @@
 #include <CGAL/PowerRTF/features/move_off_kept_edges.h>
 #include <CGAL/PowerRTF/features/split_off_image.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
+#include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/Stage.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
 #include <CGAL/PowerRTF/option_table.h>
@@ -160,11 +160,6 @@ private:
   void distribute(Visitor& visitor)
   {
     m_report.cancelled = false;
-    using PowerRTF::Improvement_part;
-    const PowerRTF::internal::Meanwhile then(
-        [this] { prepare_improvement(Improvement_part::points_and_memory); });
-    const PowerRTF::internal::Meanwhile first(
-        [this] { prepare_improvement(Improvement_part::flat_patches); });
     sample();
     const Stage stage("optimization", m_report.seconds.optimization);
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
@@ -193,6 +188,8 @@ private:
     const PowerRTF::Feature_samples& features = m_patches.features();
     Progress_part part(0.1);
     const PowerRTF::Facet_tree& tree = m_engine.facet_tree();
+    m_preparation.emplace(typename Traits::Concurrency_tag(),
+                          [this, &tree] { prepare_improvement(tree); });
     part.next(0.85);
     const PowerRTF::Samples samples = PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
         m_patches.surface(), m_options, features, &tree, &m_report.off_lattice_samples,
@@ -202,12 +199,12 @@ private:
     m_report.iterations.clear();
   }
 
-  void prepare_improvement(PowerRTF::Improvement_part part)
+  void prepare_improvement(const PowerRTF::Facet_tree& tree)
   {
     if (m_options.improvement == PowerRTF::Improvement::yes)
-      PowerRTF::prepare_improvement(m_prepared, part, m_patches.surface(), m_engine.facet_tree(),
-                                    m_options.number_of_samples,
-                                    typename Traits::Concurrency_tag());
+      m_prepared =
+          PowerRTF::prepare_improvement(m_patches.surface(), tree, m_options.number_of_samples,
+                                        typename Traits::Concurrency_tag());
   }
 
   /// The engine's samples on the whole surface, then those on creases and borders.
@@ -318,6 +315,7 @@ private:
     }
     if (m_options.improvement == PowerRTF::Improvement::yes) {
       const Stage stage("improvement", m_report.seconds.improvement);
+      m_preparation.reset();
       PowerRTF::improve_mesh(
           m_patches.surface(), m_engine.facet_tree(), mesh, typename Traits::Concurrency_tag(),
           {m_options.dislocations, m_report.max_distance * surface.normalization.scale,
@@ -383,7 +381,8 @@ private:
   std::optional<PowerRTF::Surface> m_whole; // of which that is the half; none: it is the whole
   PowerRTF::Surface_patches m_patches;
   Engine m_engine;
-  std::shared_ptr<PowerRTF::Improvement_preparation> m_prepared; // for the next mesh, or none
+  std::shared_ptr<PowerRTF::Improvement_preparation> m_prepared;    // for the next mesh, or none
+  std::optional<PowerRTF::internal::Background_work> m_preparation; // refers to all of that
 };
 
 } // namespace CGAL

@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CGAL/PowerRTF/geometry/for_each_node.h>
+#include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/Index_set.h>
-#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/label_trees.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/order_by_key.h>
@@ -16,6 +16,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -247,41 +249,39 @@ TEST_CASE("all of some calls are made, each once")
   }
 }
 
-TEST_CASE("work is done while a device is waited for, or else at the end, once")
+TEST_CASE("work in the background is done once, and what it throws is thrown")
 {
-  int done = 0;
-  {
-    Meanwhile work([&] { ++done; });
-    CHECK(done == 0);
-    work.finish();
-    work.finish();
-    CHECK(done == 1);
-    Meanwhile::run();
-    CHECK(done == 1);
-  }
-  {
-    Meanwhile outer([&] { done += 10; });
+  for (const Concurrency& concurrency : both) {
+    std::atomic<int> done{0};
     {
-      Meanwhile inner([&] {
-        Meanwhile::run(); // what it waits for itself
-        done += 100;
-      });
-      Meanwhile::run();
-      CHECK(done == 101);
-      Meanwhile::run();
-      CHECK(done == 101);
+      const auto even = [&](int n) { // by all threads
+        return int(select(concurrency, n, [](int i) { return i % 2 == 0; }).size());
+      };
+      Background_work work(concurrency, [&] { done += even(100000) == 50000; });
+      CHECK(even(200000) == 100000); // beside it
+      work.finish();
+      work.finish();
+      CHECK(done == 1);
     }
-    std::thread other([] { Meanwhile::run(); }); // has none
-    other.join();
-    CHECK(done == 101);
-    Meanwhile::run();
-    CHECK(done == 111);
+    {
+      Background_work fails(concurrency, [] { throw std::runtime_error("no"); });
+      CHECK_THROWS_AS(fails.finish(), std::runtime_error);
+    }
+    {
+      const Background_work fails(concurrency, [] { throw std::runtime_error("no"); });
+    }
+    CHECK(done == 1);
+    {
+      const Background_work unfinished(concurrency, [&] { ++done; });
+    }
+    CHECK(done == (concurrency.is_parallel() ? 2 : 1));
   }
-  {
-    const Meanwhile dropped([&] { done = -1; });
-  }
-  Meanwhile::run();
-  CHECK(done == 111);
+#ifdef CGAL_LINKED_WITH_TBB
+  if (tbb::this_task_arena::max_concurrency() == 1) return;
+  std::atomic<bool> is_done{false};
+  const Background_work beside(CGAL::Parallel_tag(), [&] { is_done = true; });
+  while (!is_done) std::this_thread::yield(); // this thread does nothing for it
+#endif
 }
 
 TEST_CASE("memory that another has left is filled again")

@@ -6,7 +6,6 @@
 #define CGAL_POWER_RTF_ENGINES_ENGINE_STEPS_H
 
 #include <CGAL/PowerRTF/engines/Engine.h>
-#include <CGAL/PowerRTF/internal/Meanwhile.h>
 
 namespace CGAL::PowerRTF {
 
@@ -82,7 +81,6 @@ Cell_summary Engine<R, B, C>::summary()
   if (!m_is_summary_known) {
     start_summary();
     m_backend.stop_clock();
-    if constexpr (!B::is_host) internal::Meanwhile::run();
     m_backend.synchronize();
     m_is_summary_known = true;
     if (m_mean_mass == 0 && m_cells > 0) m_mean_mass = m_shared_summary.data()->mass / m_cells;

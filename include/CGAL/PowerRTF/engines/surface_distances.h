@@ -11,7 +11,6 @@
 #include <CGAL/PowerRTF/geometry/Area_samples.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
-#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/internal/scan.h>
@@ -195,7 +194,6 @@ bool surface_distances(Backend& backend, const Surface_view<Real>& there,
             n_mesh = place_points(backend, b, mesh.vertices, mesh_points, samples, from_mesh);
   find_sampled_distances(backend, from_surface, n_surface, samples, b, &found.data()->from_surface);
   find_sampled_distances(backend, from_mesh, n_mesh, samples, a, &found.data()->from_mesh);
-  Meanwhile::run();
   backend.download(&result, found.data(), 1);
   return true;
 }

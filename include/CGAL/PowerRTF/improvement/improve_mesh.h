@@ -26,14 +26,11 @@ class Facet_tree;
 /// What `improve_mesh()` begins with, of the surface alone.
 struct Improvement_preparation;
 
-/// The parts of it. Memory for the mesh is none that it has to have.
-enum class Improvement_part { flat_patches, points, points_and_memory };
-
-/// Makes one of its parts, in `prepared`, which may be none yet. `improve_mesh()` makes those that
-/// are missing. \param vertices of the mesh to come, or nearly so many
-void prepare_improvement(std::shared_ptr<Improvement_preparation>& prepared, Improvement_part part,
-                         const Surface& surface, const Facet_tree& tree, std::size_t vertices,
-                         internal::Concurrency concurrency = Sequential_tag());
+/// Makes it before it is needed, and comes by the memory of the mesh.
+/// \param vertices of the mesh to come, or nearly so many
+std::shared_ptr<Improvement_preparation>
+prepare_improvement(const Surface& surface, const Facet_tree& tree, std::size_t vertices,
+                    internal::Concurrency concurrency = Sequential_tag());
 
 /// What is asked of `improve_mesh()`, and what may save it time.
 struct Improvement_settings {
@@ -44,7 +41,7 @@ struct Improvement_settings {
   Find_close_faces find{};        ///< finds intersections instead, where it does
   Find_topology find_topology{};  ///< finds which triangles are neighbors instead, where it does
   Make_star_sweeps make_sweeps{}; ///< makes what moves vertices instead, where it does
-  /// For this surface and tree, for one mesh; none: all is made.
+  /// For this surface and tree, for one mesh; none: it is made.
   std::shared_ptr<Improvement_preparation> prepared{};
 };
 

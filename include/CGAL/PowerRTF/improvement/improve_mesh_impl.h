@@ -72,9 +72,15 @@
 namespace CGAL::PowerRTF {
 
 struct Improvement_preparation {
-  std::optional<Flat_patches> flat;
-  std::optional<internal::Unset_vector<internal::Tracked_point>> points; ///< until they are tracked
-  internal::Working_mesh::Mesh memory; ///< of the mesh, to be filled; or none
+  Flat_patches flat;
+  internal::Unset_vector<internal::Tracked_point> points; ///< until they are tracked
+  internal::Working_mesh::Mesh memory;                    ///< of the mesh, to be filled; or none
+
+  Improvement_preparation(const Surface& surface, const Facet_tree& tree, std::size_t vertices,
+                          internal::Concurrency concurrency)
+      : flat(surface, Flat_patches::level_sine, concurrency),
+        points(internal::tracked_points(surface, tree, vertices, concurrency))
+  {}
 };
 
 namespace internal {
@@ -95,7 +101,7 @@ public:
         m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency,
                 settings.find_topology,
                 m_prepared ? std::move(m_prepared->memory) : Working_mesh::Mesh()),
-        m_tracker(*m_stars, std::move(*prepared(Improvement_part::points).points)),
+        m_tracker(*m_stars, std::move(prepared().points)),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
@@ -133,18 +139,13 @@ private:
 
   using Schedule = Improvement_parameters::Schedule;
 
-  /// With that part.
-  Improvement_preparation& prepared(Improvement_part part)
+  Improvement_preparation& prepared()
   {
-    const bool is_there =
-        m_prepared && (part == Improvement_part::points ? m_prepared->points.has_value()
-                                                        : m_prepared->flat.has_value());
-    if (!is_there)
-      prepare_improvement(m_prepared, part, m_surface, m_projector.tree(), m_mesh.points.size(),
-                          m_concurrency);
+    if (!m_prepared)
+      m_prepared = std::make_shared<Improvement_preparation>(m_surface, m_projector.tree(),
+                                                             m_mesh.points.size(), m_concurrency);
     return *m_prepared;
   }
-  const Flat_patches& flat() { return *prepared(Improvement_part::flat_patches).flat; }
 
   // One attempt; see the head of this file.
   void improve(Star_mesh& stars, int passes_less)
@@ -180,7 +181,7 @@ private:
     optimize();
     m_tracker.update();
     part.next(0.75);
-    Surface_fitter(stars, m_tracker, flat(), m_sweeps, Schedule::healable_badness).run();
+    Surface_fitter(stars, m_tracker, m_prepared->flat, m_sweeps, Schedule::healable_badness).run();
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
     if (has_features && optimizer.is_needed()) slide();
@@ -194,14 +195,14 @@ private:
     Tip_coverer(stars, m_tracker, Triangle_badness::tolerable).run(Schedule::far_share);
     if (is_creased) {
       m_tracker.update();
-      Distance_lowerer(stars, m_tracker, flat()).run(Schedule::far_share);
+      Distance_lowerer(stars, m_tracker, m_prepared->flat).run(Schedule::far_share);
       m_tracker.update();
     }
     if (m_settings.max_distance > 0) {
       m_tracker.update();
       Vertex_relocator relocator(stars, optimizer, m_tracker);
       Distance_keeper::relocate(relocator, m_settings.max_distance);
-      Distance_keeper(stars, flat(), m_settings.max_distance).run(relocator);
+      Distance_keeper(stars, m_prepared->flat, m_settings.max_distance).run(relocator);
       m_tracker.update();
     }
     if (m_surface.has_labels) {
@@ -347,21 +348,20 @@ private:
 
 } // namespace internal
 
-CGAL_POWER_RTF_INLINE void prepare_improvement(std::shared_ptr<Improvement_preparation>& prepared,
-                                               Improvement_part part, const Surface& surface,
-                                               const Facet_tree& tree, std::size_t vertices,
-                                               internal::Concurrency concurrency)
+CGAL_POWER_RTF_INLINE std::shared_ptr<Improvement_preparation>
+prepare_improvement(const Surface& surface, const Facet_tree& tree, std::size_t vertices,
+                    internal::Concurrency concurrency)
 {
-  if (!prepared) prepared = std::make_shared<Improvement_preparation>();
-  if (part == Improvement_part::flat_patches) {
-    prepared->flat.emplace(surface, Flat_patches::level_sine, concurrency);
-    return;
-  }
-  const std::size_t n = part == Improvement_part::points_and_memory ? vertices : 0;
+  std::shared_ptr<Improvement_preparation> prepared;
+  internal::Working_mesh::Mesh memory;
   internal::call_at_once(
       concurrency,
-      [&] { prepared->points = internal::tracked_points(surface, tree, vertices, concurrency); },
-      [&] { prepared->memory.resize(n, 3 * n + n / 16, 2 * n + n / 32); });
+      [&] {
+        prepared = std::make_shared<Improvement_preparation>(surface, tree, vertices, concurrency);
+      },
+      [&] { memory.resize(vertices, 3 * vertices + vertices / 16, 2 * vertices + vertices / 32); });
+  prepared->memory = std::move(memory);
+  return prepared;
 }
 
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,

@@ -9,8 +9,8 @@
 #include <CGAL/PowerRTF/fields/thin_parts.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
@@ -75,8 +75,8 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   part.next(0.5);
   report.topology = topology(mesh.triangles, concurrency, find_topology);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
-  // While distances are found.
-  internal::Meanwhile judgment([&] {
+  // While distances are found:
+  internal::Background_work judgment(concurrency, [&] {
     report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
     report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
     if (report.quality.q_min < round_quality || report.quality.theta_min < round_angle)

@@ -7,7 +7,6 @@
 
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/Meanwhile.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/sampling/Candidate_elimination.h>
 #include <CGAL/PowerRTF/sampling/Candidate_search.h>
@@ -335,7 +334,6 @@ private:
     m_backend.for_each(view.free,
                        Mark_chosen{{view, seen.data()}, m_shares.data(), is_chosen.data()});
     nodes.allocate(m_backend, view.free);
-    if constexpr (!Backend::is_host) internal::Meanwhile::run();
     const int size = m_backend.select(view.free, is_chosen.data(), nodes.data());
     m_chosen.nodes.allocate(m_backend, size);
     m_chosen.points.allocate(m_backend, size);

@@ -1,0 +1,69 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_INTERNAL_BACKGROUND_WORK_H
+#define CGAL_POWER_RTF_INTERNAL_BACKGROUND_WORK_H
+
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+#endif
+
+#include <exception>
+#include <functional>
+#include <utility>
+
+namespace CGAL::PowerRTF::internal {
+
+/// Work that other threads do beside the one that makes this, as while it waits for a device. Where
+/// there are none, `finish()` does it, or nobody.
+class Background_work {
+public:
+  Background_work(Concurrency concurrency, std::function<void()> work) : m_work(std::move(work))
+  {
+#ifdef CGAL_LINKED_WITH_TBB
+    m_is_begun = concurrency.is_parallel();
+    // In an arena of its own: the loops of this thread do not wait for it.
+    if (m_is_begun) m_arena.execute([this] { m_group.run(m_work); });
+#else
+    (void)concurrency;
+#endif
+  }
+  /// Waits. What the work has thrown is lost.
+  ~Background_work()
+  {
+    try {
+      if (m_is_begun) finish();
+    } catch (const std::exception&) {
+    }
+  }
+  Background_work(const Background_work&) = delete;
+  Background_work& operator=(const Background_work&) = delete;
+
+  /// Returns when the work is done. Throws what it has thrown.
+  void finish()
+  {
+    if (!m_work) return;
+    const std::function<void()> work = std::exchange(m_work, nullptr);
+#ifdef CGAL_LINKED_WITH_TBB
+    if (m_is_begun) {
+      m_arena.execute([this] { m_group.wait(); });
+      return;
+    }
+#endif
+    work();
+  }
+
+private:
+  std::function<void()> m_work;
+  bool m_is_begun = false;
+#ifdef CGAL_LINKED_WITH_TBB
+  tbb::task_arena m_arena;
+  tbb::task_group m_group;
+#endif
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_INTERNAL_BACKGROUND_WORK_H
