@@ -45,9 +45,10 @@ inline Triangle_links triangle_links(const std::vector<Triangle>& triangles, int
 
 /// Makes `triangles`, on vertices below `vertices`, the faces of a mesh that is empty, or has only
 /// been resized; its points are not set. The halfedges of edge e are 2 e, of the first of its
-/// triangles, and 2 e + 1; the edges count in the order of these. \param find what finds how they
-/// hang together instead, where it does \returns `false`, with nothing done, if the triangles are
-/// no oriented 2-manifold.
+/// triangles, and 2 e + 1; the edges count in the order of these.
+///
+/// \param find what finds how the triangles hang together instead, where it does
+/// \returns `false`, with nothing done, if the triangles are no oriented 2-manifold.
 template <class Point>
 bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triangle>& triangles,
                        int vertices, Concurrency concurrency, const Find_topology& find = {})
@@ -104,9 +105,9 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
     if (halfedges > 0 && links.last_corner[v] >= 0)
       mesh.set_halfedge(Vertex(v), halfedge(previous_halfedge(links.last_corner[v])));
   });
+  if (2 * edges == std::size_t(halfedges)) return true; // no border
   const std::vector<int> at_border =
       select(concurrency, halfedges, [&](int h) { return opposite[h] < 0; });
-  if (at_border.empty()) return true;
   std::vector<Halfedge> leaving(vertices); // on the border
   for (const int h : at_border) {
     mesh.set_target(mesh.opposite(halfedge(h)), Vertex(halfedge_source(triangles, h)));

@@ -113,9 +113,11 @@ void put_labels(const Exported_mesh<OutputMesh>& exported, const NamedParameters
 }
 
 /// Exports `mesh`, the result of remeshing `input`, as `export_mesh()`, and sets the maps of
-/// sources and labels that `np_out` has. \param patches `patches()` returns the patch of each
-/// triangle \param report of the run; gets the seconds \param find what finds how triangles hang
-/// together instead, where it does
+/// sources and labels that `np_out` has.
+///
+/// \param patches `patches()` returns the patch of each triangle
+/// \param report of the run; gets the seconds
+/// \param find what finds how triangles hang together instead, where it does
 template <class InputMesh, class NamedParametersIn, class Patches, class OutputMesh,
           class NamedParametersOut>
 void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
