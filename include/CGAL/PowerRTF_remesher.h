@@ -162,6 +162,8 @@ private:
     m_report.cancelled = false;
     sample();
     const Stage stage("optimization", m_report.seconds.optimization);
+    m_preparation.emplace(typename Traits::Concurrency_tag(), // a GPU leaves the host idle here
+                          [this] { prepare_improvement(); });
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
       const Progress_part part(iterations_share() * (iteration + 1) / (iterations() + 1));
       m_engine.build_cells(); // 8, 9
@@ -188,8 +190,6 @@ private:
     const PowerRTF::Feature_samples& features = m_patches.features();
     Progress_part part(0.1);
     const PowerRTF::Facet_tree& tree = m_engine.facet_tree();
-    m_preparation.emplace(typename Traits::Concurrency_tag(),
-                          [this, &tree] { prepare_improvement(tree); });
     part.next(0.85);
     const PowerRTF::Samples samples = PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
         m_patches.surface(), m_options, features, &tree, &m_report.off_lattice_samples,
@@ -199,12 +199,12 @@ private:
     m_report.iterations.clear();
   }
 
-  void prepare_improvement(const PowerRTF::Facet_tree& tree)
+  void prepare_improvement()
   {
     if (m_options.improvement == PowerRTF::Improvement::yes)
-      m_prepared =
-          PowerRTF::prepare_improvement(m_patches.surface(), tree, m_options.number_of_samples,
-                                        typename Traits::Concurrency_tag());
+      m_prepared = PowerRTF::prepare_improvement(m_patches.surface(), m_engine.facet_tree(),
+                                                 m_options.number_of_samples,
+                                                 typename Traits::Concurrency_tag());
   }
 
   /// The engine's samples on the whole surface, then those on creases and borders.
