@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/PowerRTF/Remeshing_visitor.h>
 #include <CGAL/PowerRTF/geometry/for_each_node.h>
 #include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
@@ -15,8 +16,14 @@
 
 #include <doctest/doctest.h>
 
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#endif
+
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -283,6 +290,24 @@ TEST_CASE("work in the background is done once, and what it throws is thrown")
   while (!is_done) std::this_thread::yield(); // this thread does nothing for it
 #endif
 }
+
+#ifdef CGAL_LINKED_WITH_TBB
+TEST_CASE("who waits for work in the background asks no visitor")
+{
+  struct Impatient : Remeshing_default_visitor {
+    bool go_further() { return false; }
+  } visitor;
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  std::atomic<int> done{0};
+  CHECK(run_unless_cancelled(visitor, [&] {
+    const Background_work work(CGAL::Parallel_tag(), [&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(60)); // visitors are asked every 50 ms
+      for_each_index(CGAL::Parallel_tag(), 100000, [&](int) { done.fetch_add(1); });
+    });
+  }));
+  CHECK(done == 100000);
+}
+#endif
 
 TEST_CASE("memory that another has left is filled again")
 {

@@ -3,6 +3,7 @@
 #ifndef CGAL_POWER_RTF_INTERNAL_BACKGROUND_WORK_H
 #define CGAL_POWER_RTF_INTERNAL_BACKGROUND_WORK_H
 
+#include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -10,7 +11,6 @@
 #include <tbb/task_group.h>
 #endif
 
-#include <exception>
 #include <functional>
 #include <utility>
 
@@ -35,19 +35,21 @@ public:
   {
     try {
       if (m_is_begun) finish();
-    } catch (const std::exception&) {
+    } catch (...) {
     }
   }
   Background_work(const Background_work&) = delete;
   Background_work& operator=(const Background_work&) = delete;
 
-  /// Returns when the work is done. Throws what it has thrown.
+  /// Returns when the work is done. Throws what it has thrown. This thread may do a part of it, but
+  /// asks no visitor then.
   void finish()
   {
     if (!m_work) return;
     const std::function<void()> work = std::exchange(m_work, nullptr);
 #ifdef CGAL_LINKED_WITH_TBB
     if (m_is_begun) {
+      const Uninterrupted run;
       m_arena.execute([this] { m_group.wait(); });
       return;
     }
