@@ -162,8 +162,7 @@ private:
     m_report.cancelled = false;
     sample();
     const Stage stage("optimization", m_report.seconds.optimization);
-    m_preparation.emplace(typename Traits::Concurrency_tag(), // a GPU leaves the host idle here
-                          [this] { prepare_improvement(); });
+    prepare_improvement();
     for (int iteration = 0; !all_fixed(); ++iteration) { // 5
       const Progress_part part(iterations_share() * (iteration + 1) / (iterations() + 1));
       m_engine.build_cells(); // 8, 9
@@ -199,12 +198,15 @@ private:
     m_report.iterations.clear();
   }
 
+  /// In the background, where the engine leaves the host idle: it works elsewhere.
   void prepare_improvement()
   {
-    if (m_options.improvement == PowerRTF::Improvement::yes)
+    if (m_options.improvement == PowerRTF::Improvement::no || !m_engine.star_sweeps_maker()) return;
+    const typename Traits::Concurrency_tag concurrency;
+    m_preparation.emplace(concurrency, [this, concurrency] {
       m_prepared = PowerRTF::prepare_improvement(m_patches.surface(), m_engine.facet_tree(),
-                                                 m_options.number_of_samples,
-                                                 typename Traits::Concurrency_tag());
+                                                 m_options.number_of_samples, concurrency);
+    });
   }
 
   /// The engine's samples on the whole surface, then those on creases and borders.

@@ -25,9 +25,6 @@ struct Neighbor_cycles {
     const int* begin() const { return m_begin; }
     const int* end() const { return m_end; }
     std::size_t size() const { return m_end - m_begin; }
-    int operator[](std::size_t k) const { return m_begin[k]; }
-    /// What follows place k around the cell.
-    int after(std::size_t k) const { return m_begin[k + 1 < size() ? k + 1 : 0]; }
 
   private:
     const int *m_begin, *m_end;

@@ -29,8 +29,8 @@ using Triangle_at = std::array<int, 3>;
 template <class ConcurrencyTag>
 class Cell_stars {
 public:
-  /// `neighbors`: of each cell, as `PowerRTFEngine::neighbors()` has them. Keeps references to the
-  /// others but `find`, which finds sound triangles where it does.
+  /// `neighbors`: of each cell, as `PowerRTFEngine::neighbors()` has them. `find`: what finds sound
+  /// triangles, where it does. Keeps references to the arrays of `samples`.
   Cell_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
              Neighbor_cycles&& neighbors, const Find_sound_stars& find = {})
       : m_cells(static_cast<int>(neighbors.size())),

@@ -117,8 +117,8 @@ CGAL_POWER_RTF_HD inline bool holds_point(const Connected_facets& surface, int f
 {
   constexpr double rounding = 1e-6; // of samples on a GPU
   if (f == own) return true;
-  const int *const t = surface.corners + 3 * std::size_t(f), *const u = surface.corners +
-                                                                        3 * std::size_t(own);
+  const int* const t = surface.corners + 3 * std::size_t(f);
+  const int* const u = surface.corners + 3 * std::size_t(own);
   bool is_near = false;
   for (int k = 0; k < 9; ++k) is_near = is_near || t[k / 3] == u[k % 3];
   if (!is_near) return false;
