@@ -142,6 +142,7 @@ private:
     m.working().add_neighbors(around);
     if (has_hub(around)) return false;
     const Mesh_rounder::Patch was = m_rounder.patch(around);
+    const double least_agreement = std::min(Parameters::min_agreement, m_rounder.agreement(around));
     Star_mesh::Checkpoint before(m);
     change(corners, around);
     const double enough = was.sum - least_gain;
@@ -153,7 +154,7 @@ private:
       if (pass < int(hopeless.size()) && now.sum > enough + hopeless[pass]) break;
     }
     if (now.sum < clearly_less * enough && now.most <= std::max(most, was.most) &&
-        now.agreement >= std::min(Parameters::min_agreement, was.agreement))
+        m_rounder.agreement(around) >= least_agreement)
       return true;
     before.rewind();
     return false;

@@ -86,10 +86,9 @@ public:
     return m_unroundness(a, b, c);
   }
 
-  /// The faces at some vertices: the sum and the most of their unroundness, the least of their
-  /// agreement.
+  /// The faces at some vertices: the sum and the most of their unroundness.
   struct Patch {
-    double sum = 0, most = 0, agreement = 1;
+    double sum = 0, most = 0;
   };
 
   Patch patch(const std::vector<Vertex>& vertices) const
@@ -99,10 +98,19 @@ public:
       const double x = unroundness(f);
       result.sum += x;
       result.most = std::max(result.most, x);
-      const auto [a, b, c] = m.working().corners(f);
-      result.agreement = std::min(result.agreement, m.agreement(a, b, c));
     }
     return result;
+  }
+
+  /// The least agreement of these faces, which may take a search for each.
+  double agreement(const std::vector<Vertex>& vertices) const
+  {
+    double least = 1;
+    for (const Face f : m.working().faces_at(vertices)) {
+      const auto [a, b, c] = m.working().corners(f);
+      least = std::min(least, m.agreement(a, b, c));
+    }
+    return least;
   }
 
 private:
