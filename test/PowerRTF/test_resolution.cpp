@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_of_shape.h"
+#include "odd_shapes.h"
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/Resolution.h>
@@ -166,6 +167,25 @@ TEST_CASE("a largest distance is kept by about as few vertices as can be")
       CHECK(std::max(distance_to(soup), distance_to(result.soup)) ==
             Approx(report.absolute(report.distance.max)));
     }
+}
+
+TEST_CASE("where nothing is flat, far places get vertices of bent parts")
+{
+  const shapes::Soup soup = shapes::mapped(shapes::icosphere(5), [](const Vec3d& p) {
+    return (1 + 0.15 * std::sin(10 * p.x) * std::sin(10 * p.y + 1) * std::sin(10 * p.z + 2)) * p;
+  });
+  Remeshing_options options;
+  options.density = Density::uniform;
+  options.relative_max_distance = 0.01;
+  options.number_of_samples = 600;
+  Remeshing_report report;
+  CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<shapes::Kernel>> remesher(
+      prepare_surface(make_mesh(soup), options, params::default_values(), report), options, report);
+  Remeshing_default_visitor visitor;
+  REQUIRE(remesher.optimize(visitor));
+  remesher.extract(visitor);
+  CHECK(remesher.report().missed_guarantees().empty());
+  CHECK(remesher.report().distance.bound <= 1); // in per cent
 }
 
 TEST_CASE("a largest distance that cannot be kept is a guarantee that is missed")

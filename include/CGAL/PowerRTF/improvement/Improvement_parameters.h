@@ -210,6 +210,7 @@ struct Improvement_parameters {
     static constexpr int relocations = 8, places_per_relocation = 2;
     /// What a run looks at, in the farthest, and the badness that it leaves.
     static constexpr double far_share = 0.5, relocation_badness = 0.13;
+    static constexpr double spare_agreement = 0.7; ///< of stars that can spare their vertex here
     static constexpr double less = 0.99; ///< of the largest distance, that another one must leave
   };
 
@@ -224,6 +225,7 @@ struct Improvement_parameters {
     static constexpr double intersection_radius = 4; ///< in h, around a change: what is checked
     static constexpr double steep_sine = 0.5;        ///< of the angle of edge and surface
     static constexpr double flat_agreement = 0.9;    ///< of stars that can spare their vertex
+    static constexpr double bend_cost = 10;          ///< badness, of agreement that lacks to that
     static constexpr double worthwhile_share = 0.85; ///< of the distance, that a flip must leave
     /// Badness right after the change that can be healed.
     static constexpr double max_collapse_badness = 1, max_split_badness = 5;

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -32,9 +33,11 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Edge = Star_mesh::Edge;
 
-  Vertex_relocator(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, Distance_tracker& tracker)
+  /// `min_agreement`: of the stars that can spare their vertex; the flattest come first.
+  Vertex_relocator(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, Distance_tracker& tracker,
+                   double min_agreement = Improvement_parameters::Relocation::flat_agreement)
       : m(mesh), m_optimizer(optimizer), m_tracker(tracker), m_steep(mesh), m_spare_changed(mesh),
-        m_stride(1 + mesh.size() / Parameters::max_candidates),
+        m_stride(1 + mesh.size() / Parameters::max_candidates), m_min_agreement(min_agreement),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size())))
   {}
 
@@ -103,6 +106,8 @@ private:
   };
 
   using Parameters = Improvement_parameters::Relocation;
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   // Unless the farthest stays. \returns whether anything has changed
   bool change(const std::vector<Tip>& tips)
@@ -271,16 +276,15 @@ private:
     return false;
   }
 
-  // The vertices in flat parts that leave the best triangles behind, apart from `places`; of a
-  // large mesh, of some vertices: many are as good.
+  // The vertices in flat parts that leave the best triangles behind, then those in others, apart
+  // from `places`; of a large mesh, of some vertices: many are as good.
   std::vector<Vertex> find_spare(std::vector<Vec3d> places)
   {
-    update_spare_badness();
+    update_spare_costs();
     std::vector<std::pair<double, Vertex>> candidates;
-    for (const int k : select(m.concurrency(), int(m_spare_badness.size()), [&](int k) {
-           return m_spare_badness[k] < Parameters::max_collapse_badness;
-         }))
-      candidates.push_back({m_spare_badness[k], Vertex(k * m_stride)});
+    for (const int k : select(m.concurrency(), int(m_spare_costs.size()),
+                              [&](int k) { return m_spare_costs[k] < infinity; }))
+      candidates.push_back({m_spare_costs[k], Vertex(k * m_stride)});
     sort(m.concurrency(), candidates.begin(), candidates.end());
     std::vector<Vertex> spare;
     for (const auto& [b, v] : candidates)
@@ -293,41 +297,43 @@ private:
   }
 
   // What it would cost to take a vertex out depends on it and its neighbors, and their edges.
-  void update_spare_badness()
+  void update_spare_costs()
   {
     const std::vector<int> changed = m_spare_changed.take();
     const auto update = [this](std::size_t v) {
-      if (v % m_stride == 0) m_spare_badness[v / m_stride] = best_collapse(Vertex(v)).first;
+      if (v % m_stride == 0) m_spare_costs[v / m_stride] = best_collapse(Vertex(v)).first;
     };
     if (m_spare_changed.are_few(changed)) {
       const std::vector<Vertex> around = vertices_around(m, changed);
       for_each_index(m.concurrency(), int(around.size()), [&](int k) { update(around[k]); });
     } else {
-      m_spare_badness.resize((m.size() + m_stride - 1) / m_stride);
-      for_each_index(m.concurrency(), int(m_spare_badness.size()),
+      m_spare_costs.resize((m.size() + m_stride - 1) / m_stride);
+      for_each_index(m.concurrency(), int(m_spare_costs.size()),
                      [&](int k) { update(k * m_stride); });
     }
   }
 
-  // The halfedge from v that leaves the best triangles when it is collapsed, and the badness of the
-  // worst of them.
+  // The halfedge from v that leaves the best triangles when it is collapsed, and the cost: the
+  // badness of the worst of them, and what the star is bent.
   std::pair<double, Halfedge> best_collapse(Vertex v) const
   {
     const auto& mesh = m.working().mesh;
-    const std::pair<double, Halfedge> none{Parameters::max_collapse_badness, Halfedge()};
+    const std::pair<double, Halfedge> none{infinity, Halfedge()};
     if (!m.is_movable(v)) return none;
     const Star star = m.star(v);
-    std::pair<double, Halfedge> best = none;
+    std::pair<double, Halfedge> best{Parameters::max_collapse_badness, Halfedge()};
     std::size_t at = 0; // the star's corners are in this order
     for (const Halfedge h : halfedges_around_target(v, mesh)) {
       const double worst = badness_collapsed(star, at++, best.first);
       if (worst < best.first && Euler::does_satisfy_link_condition(mesh.edge(h), mesh))
         best = {worst, mesh.opposite(h)};
     }
-    if (best == none) return none; // most vertices
+    if (!best.second.is_valid()) return none; // most vertices
     for (const Star::Corner& c : star.corners)
       if (!m.is_movable(c.vertex_a)) return none;
-    if (m.agreement(star, m.point(v), m.normal(v)) < Parameters::flat_agreement) return none;
+    const double agreement = m.agreement(star, m.point(v), m.normal(v));
+    if (agreement < m_min_agreement) return none;
+    best.first += Parameters::bend_cost * std::max(0., Parameters::flat_agreement - agreement);
     return best;
   }
 
@@ -435,11 +441,11 @@ private:
   Star_mesh& m;
   Bad_triangle_optimizer& m_optimizer;
   Distance_tracker& m_tracker;
-  Watched_faces m_steep;                // have an edge that may be flipped and is steep
-  Changed_vertices m_spare_changed;     // since the following was found
-  std::size_t m_stride;                 // between the vertices that may be spared
-  Unset_vector<double> m_spare_badness; // of these: see `best_collapse()`
-  double m_spacing, m_tolerable = 0;
+  Watched_faces m_steep;              // have an edge that may be flipped and is steep
+  Changed_vertices m_spare_changed;   // since the following was found
+  std::size_t m_stride;               // between the vertices that may be spared
+  Unset_vector<double> m_spare_costs; // of these: see `best_collapse()`
+  double m_min_agreement, m_spacing, m_tolerable = 0;
 };
 
 } // namespace CGAL::PowerRTF::internal
