@@ -207,7 +207,7 @@ struct Improvement_parameters {
     static constexpr double unroundness_weight = 0.5;
     static constexpr double worthwhile_share = 0.9; ///< of the distance, that a flip must leave
     /// Runs of the relocation, and the places at most that are too far for each of those to come.
-    static constexpr int relocations = 8, places_per_relocation = 2;
+    static constexpr int relocations = 16, places_per_relocation = 2;
     /// What a run looks at, in the farthest, and the badness that it leaves.
     static constexpr double far_share = 0.5, relocation_badness = 0.13;
     static constexpr double spare_agreement = 0.7; ///< of stars that can spare their vertex here

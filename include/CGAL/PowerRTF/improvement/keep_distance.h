@@ -45,14 +45,16 @@ public:
     m_lowerer.set_goal(m_goal);
   }
 
-  /// Puts vertices from flat parts into far places.
+  /// Puts vertices from flat parts into far places, several at a time or, where that helps no more,
+  /// into the farthest.
   static void relocate(Vertex_relocator& relocator, double distance)
   {
     for (int run = 0; run < Parameters::relocations; ++run) {
       const double farthest = relocator.farthest();
-      if (farthest <= distance ||
-          !relocator.run(std::max(Parameters::far_share, distance / farthest),
-                         Parameters::relocation_badness))
+      if (farthest <= distance) break;
+      const double share = std::max(Parameters::far_share, distance / farthest);
+      if (!relocator.run(share, Parameters::relocation_badness) &&
+          !relocator.run(1, Parameters::relocation_badness))
         break;
     }
   }
