@@ -7,14 +7,14 @@
 #include <thrust/iterator/counting_iterator.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace CGAL::PowerRTF::device {
 
 Cuda_backend::Cuda_backend(int device)
     : m_context(Device_context::of(device)), m_stream(m_context),
-      m_memory(Memory_of_stream{m_context.memory(), stream()}), m_stage(*this, stage_bytes)
+      m_memory(Memory_of_stream{m_context.memory(), stream()}),
+      m_staging(m_context.pinned_memory(), stream())
 {
   internal::allocate_listed(*this, *this);
   fill(m_ticket.data(), 0u, 1);
@@ -56,63 +56,6 @@ void Cuda_backend::give_back_pinned(void* block, std::size_t bytes) noexcept
 {
   cudaStreamSynchronize(stream());
   m_context.pinned_memory().give_back(block, bytes);
-}
-
-char* Cuda_backend::stage(std::size_t bytes)
-{
-  constexpr std::size_t alignment = 64;
-  if (m_staged + bytes > stage_bytes) synchronize();
-  char* const place = static_cast<char*>(m_stage.data()) + m_staged;
-  m_staged += (bytes + alignment - 1) / alignment * alignment;
-  return place;
-}
-
-namespace {
-
-/// Copies in the host's memory.
-void copy_in_parallel(char* to, const char* from, std::size_t bytes)
-{
-  constexpr std::size_t piece = std::size_t(1) << 17;
-  internal::for_each_chunk(Cuda_backend::concurrency(), int((bytes + piece - 1) / piece), 1,
-                           [&](int k, int) {
-                             const std::size_t begin = k * piece;
-                             std::memcpy(to + begin, from + begin, std::min(piece, bytes - begin));
-                           });
-}
-
-} // namespace
-
-void Cuda_backend::upload_bytes(void* to, const void* from, std::size_t bytes)
-{
-  for (std::size_t begin = 0; begin < bytes; begin += part_bytes) {
-    const std::size_t size = std::min(part_bytes, bytes - begin);
-    char* const part = stage(size);
-    copy_in_parallel(part, static_cast<const char*>(from) + begin, size);
-    check(cudaMemcpyAsync(static_cast<char*>(to) + begin, part, size, cudaMemcpyHostToDevice,
-                          stream()),
-          "upload");
-  }
-}
-
-void Cuda_backend::download_bytes(void* to, const void* from, std::size_t bytes)
-{
-  // One of two in turn. The device reads what is to go up before it writes there.
-  const auto part = [&](std::size_t begin) {
-    return static_cast<char*>(m_stage.data()) + begin / part_bytes % 2 * part_bytes;
-  };
-  const auto start = [&](std::size_t begin) {
-    if (begin >= bytes) return;
-    check(cudaMemcpyAsync(part(begin), static_cast<const char*>(from) + begin,
-                          std::min(part_bytes, bytes - begin), cudaMemcpyDeviceToHost, stream()),
-          "download");
-  };
-  start(0);
-  for (std::size_t begin = 0; begin < bytes; begin += part_bytes) {
-    synchronize();
-    start(begin + part_bytes);
-    copy_in_parallel(static_cast<char*>(to) + begin, part(begin),
-                     std::min(part_bytes, bytes - begin));
-  }
 }
 
 double Cuda_backend::seconds() const

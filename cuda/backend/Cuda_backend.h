@@ -8,6 +8,7 @@
 #define CGAL_POWER_RTF_CUDA_CUDA_BACKEND_H
 
 #include "Device_context.h"
+#include "Staging_ring.h"
 #include "kernels.cuh"
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -206,12 +207,13 @@ public:
   template <class T>
   void upload(T* to, const T* from, std::size_t n)
   {
-    upload_bytes(to, from, n * sizeof(T));
+    m_staging.upload(to, from, n * sizeof(T));
   }
   template <class T>
   void download(T* to, const T* from, std::size_t n)
   {
-    download_bytes(to, from, n * sizeof(T));
+    m_staging.download(to, from, n * sizeof(T));
+    m_memory.release();
   }
   template <class T>
   void fill(T* to, T value, std::size_t n)
@@ -239,7 +241,7 @@ public:
   void synchronize()
   {
     check(cudaStreamSynchronize(stream()), "waiting for the kernels");
-    m_staged = 0;
+    m_staging.clear();
     m_memory.release();
   }
   int multiprocessors() const { return m_context.multiprocessors(); }
@@ -278,13 +280,6 @@ private:
   void* take_pinned(std::size_t bytes);
   void give_back_pinned(void* block, std::size_t bytes) noexcept;
 
-  /// Through pinned memory, part by part: the bus has a part while the host's threads copy another,
-  /// and what is small is not waited for.
-  void upload_bytes(void* to, const void* from, std::size_t bytes);
-  void download_bytes(void* to, const void* from, std::size_t bytes);
-  /// Pinned memory that the host may write to. \pre `bytes` is at most `part_bytes`
-  char* stage(std::size_t bytes);
-
   template <class F>
   int max_team_blocks() const
   {
@@ -310,9 +305,7 @@ private:
   Borrowed_stream m_stream;
   Free_list<Memory_of_stream> m_memory;
   std::size_t m_bytes = 0, m_most_bytes = 0;
-  static constexpr std::size_t part_bytes = std::size_t(1) << 21, stage_bytes = 4 * part_bytes;
-  Pinned_block m_stage;
-  std::size_t m_staged = 0; // bytes there that the device may still have to read
+  Staging_ring m_staging;
   Buffer<double> m_partials;
   Buffer<unsigned> m_ticket;
   Sort_arrays m_sort;

@@ -48,6 +48,38 @@ std::vector<double> work(Cuda_backend& backend, int n, int rounds)
 
 } // namespace
 
+TEST_CASE("copies of all sizes come to the device and back, one after the other")
+{
+  constexpr std::size_t mib = std::size_t(1) << 20;
+  Cuda_backend backend(0);
+  Cuda_backend::Buffer<unsigned char> buffer, sum;
+  const std::vector<std::size_t> sizes = {1,           63,           2 * mib - 1, 2 * mib,
+                                          2 * mib + 1, 7 * mib,      8 * mib,     8 * mib + 1,
+                                          32 * mib,    32 * mib + 3, 100 * mib,   5};
+  buffer.allocate(backend, 100 * mib);
+  sum.allocate(backend, 1);
+  unsigned char seed = 1;
+  for (const std::size_t n : sizes) {
+    CAPTURE(n);
+    std::vector<unsigned char> up(n), down(n);
+    for (std::size_t i = 0; i < n; ++i)
+      up[i] = static_cast<unsigned char>(i * 31 + i / 4099 + seed);
+    unsigned char* const items = buffer.data();
+    unsigned char* const last = sum.data();
+    backend.upload(items, up.data(), n);
+    for (unsigned char& u : up) u ^= 1; // the device has what was there
+    backend.for_each(static_cast<int>(n), [=] __device__(int i) { items[i] ^= 3; });
+    for (int k = 0; k < 100; ++k) backend.upload(last, &seed, 1); // while others may be under way
+    backend.download(down.data(), items, n);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < n; ++i) wrong += down[i] != (up[i] ^ 2);
+    CHECK(wrong == 0);
+    unsigned char back = 0;
+    backend.download(&back, last, 1);
+    CHECK(back == seed++);
+  }
+}
+
 TEST_CASE("the second of two alike takes no memory from the device")
 {
   const auto run = [] {
