@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Brings the mesh within a distance of the surface that is asked for, both ways, where few places
-// are farther away: a single one would else ask for more samples everywhere. Vertices from flat
-// parts are put into such places; edges there are flipped; and the vertices around them move, also
-// to where the surface is too far, as long as triangles do not become bad. The mesh is looked at in
-// many points of its edges and faces, the surface at its vertices and along its edges.
+// are farther away: a single one would else ask for more samples everywhere. Vertices are put into
+// such places, from the flattest parts that there are; edges there are flipped; and the vertices
+// around them move, also to where the surface is too far, as long as triangles do not become bad.
+// The mesh is looked at in many points of its edges and faces, the surface at its vertices and
+// along its edges.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 #define CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 
@@ -45,8 +46,8 @@ public:
     m_lowerer.set_goal(m_goal);
   }
 
-  /// Puts vertices from flat parts into far places, several at a time or, where that helps no more,
-  /// into the farthest.
+  /// Puts vertices into far places, several at a time or, where that helps no more, into the
+  /// farthest.
   static void relocate(Vertex_relocator& relocator, double distance)
   {
     for (int run = 0; run < Parameters::relocations; ++run) {
