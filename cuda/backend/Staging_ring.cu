@@ -116,12 +116,18 @@ void Staging_ring::download(void* to, const void* from, std::size_t bytes)
           "download");
     if (count > 1) check(cudaEventRecord(event(k), m_stream), "download");
   };
-  for (std::size_t k = 0; k < parts; ++k) start(k);
-  for (std::size_t k = 0; k < count; ++k) {
-    check(k + 1 < count ? cudaEventSynchronize(event(k)) : cudaStreamSynchronize(m_stream),
-          "download");
-    copy_in_parallel(static_cast<char*>(to) + k * m_part_bytes, part(k), size(k));
-    start(k + parts);
+  try {
+    for (std::size_t k = 0; k < parts; ++k) start(k);
+    for (std::size_t k = 0; k < count; ++k) {
+      check(k + 1 < count ? cudaEventSynchronize(event(k)) : cudaStreamSynchronize(m_stream),
+            "download");
+      copy_in_parallel(static_cast<char*>(to) + k * m_part_bytes, part(k), size(k));
+      start(k + parts);
+    }
+  } catch (...) { // a run that was cancelled, too: nothing may write to the parts from now on
+    cudaStreamSynchronize(m_stream);
+    clear();
+    throw;
   }
   clear();
 }
