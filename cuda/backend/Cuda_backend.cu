@@ -45,19 +45,6 @@ void Cuda_backend::give_back(void* block, std::size_t bytes) noexcept
     cudaGetLastError(); // that work is under way is no error
 }
 
-void* Cuda_backend::take_pinned(std::size_t bytes)
-{
-  void* const block = m_context.pinned_memory().take(bytes);
-  if (!block) throw Cuda_error("the memory of the host that a GPU needs does not suffice");
-  return block;
-}
-
-void Cuda_backend::give_back_pinned(void* block, std::size_t bytes) noexcept
-{
-  cudaStreamSynchronize(stream());
-  m_context.pinned_memory().give_back(block, bytes);
-}
-
 double Cuda_backend::seconds() const
 {
   check(cudaEventSynchronize(m_stream->end), "clock");

@@ -83,31 +83,14 @@ public:
     std::size_t m_size = 0, m_capacity = 0;
   };
 
-  /// Memory of the host that the device sees, too.
-  class Pinned_block {
-  public:
-    /// \throws Cuda_error when the memory does not suffice
-    Pinned_block(Cuda_backend& backend, std::size_t bytes)
-        : m_backend(backend), m_bytes(bytes), m_data(backend.take_pinned(bytes))
-    {}
-    ~Pinned_block() { m_backend.give_back_pinned(m_data, m_bytes); }
-    Pinned_block(const Pinned_block&) = delete;
-    Pinned_block& operator=(const Pinned_block&) = delete;
-    void* data() { return m_data; }
-
-  private:
-    Cuda_backend& m_backend;
-    std::size_t m_bytes;
-    void* m_data;
-  };
-
   /// One item that both host and device see: the device writes it through the bus, the host reads
   /// it after `synchronize()`.
   template <class T>
   class Shared_item {
   public:
     explicit Shared_item(Cuda_backend& backend)
-        : m_memory(backend, sizeof(T)), m_item(new (m_memory.data()) T())
+        : m_memory(backend.m_context.pinned_memory(), backend.stream(), sizeof(T)),
+          m_item(new (m_memory.data()) T())
     {}
     T* data() { return m_item; }
 
@@ -277,8 +260,6 @@ private:
   void* take(std::size_t bytes);
   /// Keeps the block for this stream as long as its work is under way.
   void give_back(void* block, std::size_t bytes) noexcept;
-  void* take_pinned(std::size_t bytes);
-  void give_back_pinned(void* block, std::size_t bytes) noexcept;
 
   template <class F>
   int max_team_blocks() const

@@ -91,6 +91,31 @@ private:
   Timed_stream m_stream;
 };
 
+/// Memory of the host that the device sees, too, for the work of one stream.
+class Pinned_block {
+public:
+  /// \throws Cuda_error when the memory does not suffice
+  Pinned_block(Free_list<Pinned_memory>& memory, cudaStream_t stream, std::size_t bytes)
+      : m_memory(memory), m_stream(stream), m_bytes(bytes), m_data(memory.take(bytes))
+  {
+    if (!m_data) throw Cuda_error("the memory of the host that a GPU needs does not suffice");
+  }
+  ~Pinned_block()
+  {
+    cudaStreamSynchronize(m_stream);
+    m_memory.give_back(m_data, m_bytes);
+  }
+  Pinned_block(const Pinned_block&) = delete;
+  Pinned_block& operator=(const Pinned_block&) = delete;
+  void* data() { return m_data; }
+
+private:
+  Free_list<Pinned_memory>& m_memory;
+  cudaStream_t m_stream;
+  std::size_t m_bytes;
+  void* m_data;
+};
+
 /// Device memory for the work of one stream, which comes to it in order.
 struct Memory_of_stream {
   Free_list<Device_memory>& memory;

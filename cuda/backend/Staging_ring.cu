@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 namespace CGAL::PowerRTF::device {
 
@@ -26,54 +27,31 @@ void copy_in_parallel(char* to, const char* from, std::size_t bytes)
 
 } // namespace
 
+Staging_ring::Events::~Events()
+{
+  for (const cudaEvent_t e : all)
+    if (e) cudaEventDestroy(e);
+}
+
 Staging_ring::Staging_ring(Free_list<Pinned_memory>& memory, cudaStream_t stream)
     : m_memory(memory), m_stream(stream)
 {
-  try {
-    for (cudaEvent_t& e : m_events)
-      check(cudaEventCreateWithFlags(&e, cudaEventDisableTiming), "making an event");
-    if (!take(small_part))
-      throw Cuda_error("the memory of the host that a GPU needs does not suffice");
-  } catch (...) {
-    destroy_events();
-    throw;
-  }
+  for (cudaEvent_t& e : m_events.all)
+    check(cudaEventCreateWithFlags(&e, cudaEventDisableTiming), "making an event");
+  take_parts(small_part);
 }
 
-Staging_ring::~Staging_ring()
+void Staging_ring::take_parts(std::size_t bytes)
 {
-  give_back();
-  destroy_events();
-}
-
-bool Staging_ring::take(std::size_t part_bytes)
-{
-  char* const block = static_cast<char*>(m_memory.take(parts * part_bytes));
-  if (!block) return false;
-  give_back();
-  m_data = block;
-  m_part_bytes = part_bytes;
+  m_block = std::make_unique<Pinned_block>(m_memory, m_stream, parts * bytes);
+  m_part_bytes = bytes;
   m_part = 0;
   m_used = 0;
-  return true;
-}
-
-void Staging_ring::give_back() noexcept
-{
-  if (!m_data) return;
-  cudaStreamSynchronize(m_stream);
-  m_memory.give_back(m_data, parts * m_part_bytes);
-}
-
-void Staging_ring::destroy_events() noexcept
-{
-  for (const cudaEvent_t e : m_events)
-    if (e) cudaEventDestroy(e);
 }
 
 void Staging_ring::adapt(std::size_t bytes)
 {
-  if (bytes > parts * small_part && m_part_bytes < large_part) take(large_part);
+  if (bytes > parts * small_part && m_part_bytes < large_part) take_parts(large_part);
 }
 
 char* Staging_ring::stage(std::size_t bytes)

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 
 namespace CGAL::PowerRTF::device {
 
@@ -18,9 +19,6 @@ class Staging_ring {
 public:
   /// \throws Cuda_error when the device fails
   Staging_ring(Free_list<Pinned_memory>& memory, cudaStream_t stream);
-  ~Staging_ring();
-  Staging_ring(const Staging_ring&) = delete;
-  Staging_ring& operator=(const Staging_ring&) = delete;
 
   /// Returns once `from` is no longer needed. \throws Cuda_error when the device fails
   void upload(void* to, const void* from, std::size_t bytes);
@@ -35,21 +33,30 @@ private:
   /// What of an array goes at a time, of a small one and of a large one.
   static constexpr std::size_t small_part = std::size_t(1) << 21, large_part = std::size_t(1) << 23;
 
-  /// In place of what it has. \returns `false`, and keeps that, where the memory does not suffice
-  bool take(std::size_t part_bytes);
-  void give_back() noexcept;
-  void destroy_events() noexcept;
+  /// When the stream is done with each part.
+  struct Events {
+    std::array<cudaEvent_t, parts> all{};
+    Events() = default;
+    Events(const Events&) = delete;
+    Events& operator=(const Events&) = delete;
+    ~Events();
+  };
+
+  void take_parts(std::size_t bytes);
   /// Has larger parts from now on, if an array is large.
   void adapt(std::size_t bytes);
-  char* part(std::size_t k) { return m_data + k % parts * m_part_bytes; }
-  cudaEvent_t event(std::size_t k) const { return m_events[k % parts]; }
+  char* part(std::size_t k)
+  {
+    return static_cast<char*>(m_block->data()) + k % parts * m_part_bytes;
+  }
+  cudaEvent_t event(std::size_t k) const { return m_events.all[k % parts]; }
   /// Memory that the host may write to. \pre `bytes` is at most that of a part
   char* stage(std::size_t bytes);
 
   Free_list<Pinned_memory>& m_memory;
   cudaStream_t m_stream;
-  std::array<cudaEvent_t, parts> m_events{}; // when the stream is done with each part
-  char* m_data = nullptr;
+  Events m_events;
+  std::unique_ptr<Pinned_block> m_block; // all parts
   std::size_t m_part_bytes = 0;
   int m_part = 0;         // that the host writes to
   std::size_t m_used = 0; // bytes of it
