@@ -9,7 +9,7 @@
 
 namespace CGAL::PowerRTF {
 
-/// Of manifolds: compares what is counted of two.
+/// Compares what is counted of two, but for networks.
 inline void check_counts(const Topology_statistics& t, const Topology_statistics& expected)
 {
   CHECK(t.vertices == expected.vertices);
@@ -18,7 +18,10 @@ inline void check_counts(const Topology_statistics& t, const Topology_statistics
   CHECK(t.components == expected.components);
   CHECK(t.border_edges == expected.border_edges);
   CHECK(t.border_loops == expected.border_loops);
+  CHECK(t.non_manifold_edges == expected.non_manifold_edges);
+  CHECK(t.non_manifold_vertices == expected.non_manifold_vertices);
   CHECK(t.euler_characteristic == expected.euler_characteristic);
+  CHECK(t.oriented == expected.oriented);
 }
 
 } // namespace CGAL::PowerRTF
