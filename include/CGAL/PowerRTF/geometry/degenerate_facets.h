@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_GEOMETRY_DEGENERATE_FACETS_H
 
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/facet_shape.h>
 
 #include <boost/pending/disjoint_sets.hpp>
 
@@ -18,21 +19,6 @@
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// A facet is degenerate when its height is below this share of its longest edge, or below a few
-/// roundings of the unit box.
-constexpr double degenerate_aspect = 1e-10;
-constexpr double unit_box_rounding = 1e-15;
-
-/// Whether the triangle `a b c` (unit-box coordinates) has no usable normal.
-inline bool is_degenerate(const Vec3d& a, const Vec3d& b, const Vec3d& c)
-{
-  const double longest_2 =
-      (std::max)({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
-  const double height_2 = squared_length(cross(b - a, c - a)); // times longest_2
-  return !(height_2 > degenerate_aspect * degenerate_aspect * longest_2 * longest_2 &&
-           height_2 > unit_box_rounding * unit_box_rounding * longest_2);
-}
 
 inline std::vector<int> degenerate_facets(const std::vector<Vec3d>& points,
                                           const std::vector<Triangle>& triangles,

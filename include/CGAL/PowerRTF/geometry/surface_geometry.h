@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_GEOMETRY_H
 
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
+#include <CGAL/PowerRTF/geometry/facet_shape.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -71,44 +72,32 @@ inline void compute_geometry(Surface& surface, internal::Concurrency concurrency
       concurrency, [&] { resize(surface.facet_normals, facets); },
       [&] { resize(surface.facet_areas, facets); },
       [&] { resize(surface.vertex_normals, vertices); });
-  constexpr double pi = 3.14159265358979323846;
 
-  internal::Unset_vector<std::array<double, 3>> angles(facets); // 0: the facet is degenerate
+  internal::Unset_vector<internal::Facet_angles> angles(facets);
   surface.area = internal::reduce(
       concurrency, facets, 0.,
       [&](double& area, int f) {
         const Triangle& t = surface.triangles[f];
-        const Vec3d &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-        const Vec3d n = cross(b - a, c - a);
-        const double twice_area = length(n);
-        surface.facet_areas[f] = twice_area / 2;
-        area += twice_area / 2;
-        angles[f] = {0, 0, 0};
-        if (is_degenerate(a, b, c)) return;
-        surface.facet_normals[f] = n * (1 / twice_area);
-        const double angle_a = std::atan2(twice_area, dot(b - a, c - a));
-        const double angle_b = std::atan2(twice_area, dot(c - b, a - b));
-        angles[f] = {angle_a, angle_b, pi - angle_a - angle_b};
+        const internal::Facet_shape shape =
+            internal::facet_shape(surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]);
+        area += surface.facet_areas[f] = shape.area;
+        angles[f] = shape.angles;
+        if (angles[f].are_known()) surface.facet_normals[f] = shape.normal;
       },
       [](double& area, double part) { area += part; });
 
   const internal::Buckets<int>& corners = surface.adjacency.corners;
   const std::vector<int> cancelled = internal::select(concurrency, vertices, [&](int v) {
-    Vec3d sum{0, 0, 0};
-    for (int k = corners.first[v]; k < corners.first[v + 1]; ++k) {
-      const int f = corners.entries[k] / 3;
-      const double angle = angles[f][corners.entries[k] % 3];
-      if (angle != 0) sum += angle * surface.facet_normals[f];
-    }
-    const double l = length(sum);
-    constexpr double no_direction = 1e-6; // of sums of angles, which are of order 1
-    surface.vertex_normals[v] = l > no_direction ? sum * (1 / l) : Vec3d{0, 0, 0};
-    return !(l > no_direction);
+    const int* const entries = corners.entries.data();
+    Vec3d& normal = surface.vertex_normals[v];
+    normal = internal::vertex_normal(entries + corners.first[v], entries + corners.first[v + 1],
+                                     angles.data(), surface.facet_normals.data());
+    return squared_length(normal) == 0;
   });
   if (!cancelled.empty()) internal::mend_vertex_normals(surface, concurrency);
   if (surface.mirror) internal::level_mirror_normals(surface);
   internal::for_each_index(concurrency, facets, [&](int f) {
-    if (angles[f] != std::array<double, 3>{0, 0, 0}) return;
+    if (angles[f].are_known()) return;
     const Triangle& t = surface.triangles[f];
     const auto& n = surface.vertex_normals;
     const Vec3d mean = normalized(n[t[0]] + n[t[1]] + n[t[2]]);
