@@ -7,7 +7,6 @@
 
 #include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
 #include <CGAL/PowerRTF/engines/Engine.h>
-#include <CGAL/PowerRTF/fields/direction_diffusion.h>
 
 #include <string>
 #include <type_traits>
@@ -72,14 +71,6 @@ std::unique_ptr<Engine_base> make_cuda_engine(const Packed_surface& surface,
     return std::make_unique<std::remove_pointer_t<decltype(engine)>>(surface, options,
                                                                      options.device);
   });
-}
-
-Diffuse_directions cuda_direction_diffuser(int device)
-{
-  return [device](const Diffusion_graph& graph, int steps, Vec3d* directions) {
-    device::Cuda_backend backend(device);
-    return internal::diffuse_directions(backend, graph, steps, directions);
-  };
 }
 
 } // namespace CGAL::PowerRTF

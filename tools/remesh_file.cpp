@@ -147,7 +147,8 @@ Surface prepare(Polygon_soup&& soup, const Surface_fields& fields, Run& run)
   Program_options& options = run.options;
   const Stage stage("surface");
   Surface surface = about_input(options, [&] {
-    return prepare_surface(std::move(soup), fields, options.remeshing, run.report, Concurrency());
+    return prepare_surface(std::move(soup), fields, options.remeshing, run.report, Concurrency(),
+                           surface_work(options.traits, options.remeshing, options.meshes));
   });
   options.remeshing.number_of_samples = run.report.samples_asked;
   check_number_of_samples(options);

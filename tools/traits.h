@@ -45,6 +45,13 @@ inline bool is_gpu_faster(const CGAL::PowerRTF::Remeshing_options& options, std:
   const double saved = per_sample * static_cast<double>(options.number_of_samples) - per_mesh;
   return static_cast<double>(meshes) * saved > start * cores;
 }
+
+/// Whether the traits of that name will surely use a GPU, if there is one.
+inline bool is_gpu_wanted(const std::string& name, const CGAL::PowerRTF::Remeshing_options& options,
+                          std::size_t meshes)
+{
+  return name == "cuda" || (name == "auto" && is_gpu_faster(options, meshes));
+}
 #endif
 
 /// Begins to start the GPU if the traits of that name will surely use it; the result waits for
@@ -55,8 +62,21 @@ start_gpu([[maybe_unused]] const std::string& name,
           [[maybe_unused]] std::size_t meshes = 1)
 {
 #ifdef CGAL_POWER_RTF_WITH_CUDA
-  if (name == "cuda" || (name == "auto" && is_gpu_faster(options, meshes)))
+  if (is_gpu_wanted(name, options, meshes))
     return CGAL::PowerRTF::start_cuda_device(options.device);
+#endif
+  return {};
+}
+
+/// What is done to surfaces by the GPU, if the traits of that name will surely use it.
+inline CGAL::PowerRTF::Surface_work
+surface_work([[maybe_unused]] const std::string& name,
+             [[maybe_unused]] const CGAL::PowerRTF::Remeshing_options& options,
+             [[maybe_unused]] std::size_t meshes = 1)
+{
+#ifdef CGAL_POWER_RTF_WITH_CUDA
+  if (is_gpu_wanted(name, options, meshes))
+    return CGAL::PowerRTF::cuda_surface_work(options.device);
 #endif
   return {};
 }

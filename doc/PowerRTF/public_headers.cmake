@@ -28,6 +28,7 @@ set(public_headers
     PowerRTF/extraction/Extracted_mesh.h
     PowerRTF/internal/errors.h
     PowerRTF/geometry/Surface.h
+    PowerRTF/fields/Surface_work.h
     PowerRTF/fields/density.h
     PowerRTF/features/Feature_samples.h
     PowerRTF/features/sample_features.h

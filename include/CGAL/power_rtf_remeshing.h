@@ -347,7 +347,8 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
       parameters::get_parameter_reference(np_in, internal_np::visitor), default_visitor);
   const auto prepare = [&](const PowerRTF::Remeshing_options& o, PowerRTF::Remeshing_report& r) {
     const PowerRTF::internal::Stage stage("surface");
-    return PowerRTF::prepare_surface(input, o, np_in, r, ConcurrencyTag());
+    return PowerRTF::prepare_surface(input, o, np_in, r, ConcurrencyTag(),
+                                     Types::Traits::Engine::surface_work(o));
   };
   return PowerRTF::internal::run<typename Types::Traits>(
       options, prepare, visitor,
@@ -422,7 +423,7 @@ power_rtf_remeshing(const FaceRange& faces, PolygonMesh& mesh,
   const auto prepare = [&](const PowerRTF::Remeshing_options& o, PowerRTF::Remeshing_report& r) {
     const PowerRTF::internal::Stage stage("surface");
     return PowerRTF::prepare_surface(PowerRTF::Polygon_soup(region.soup()), region.fields(), o, r,
-                                     ConcurrencyTag());
+                                     ConcurrencyTag(), Types::Traits::Engine::surface_work(o));
   };
   return PowerRTF::internal::run<typename Types::Traits>(
       options, prepare, visitor,

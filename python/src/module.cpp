@@ -197,7 +197,8 @@ Result remesh_with_traits(tools::Run& run, Input& input, Python_visitor& visitor
       const internal::Stage stage("surface");
       Polygon_soup& soup = input.remeshed_soup();
       return prepare_surface(keeps_input ? Polygon_soup(soup) : std::move(soup),
-                             input.remeshed_fields(), o, report, tools::Concurrency());
+                             input.remeshed_fields(), o, report, tools::Concurrency(),
+                             tools::surface_work(name, o));
     };
     Surface surface = prepare(options, run.report);
     options.number_of_samples =

@@ -14,7 +14,7 @@ public:
   Engine_archetype(const Surface&, const Remeshing_options&);
   Engine_archetype(const Engine_archetype&) = delete;
   Engine_archetype& operator=(const Engine_archetype&) = delete;
-  static Diffuse_directions direction_diffuser(const Remeshing_options&);
+  static Surface_work surface_work(const Remeshing_options&);
   Make_lattice_field lattice_field_maker();
   Find_facets facet_finder();
   void set_samples(const Samples& samples, const Feature_samples& features);

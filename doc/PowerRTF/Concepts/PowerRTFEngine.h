@@ -28,10 +28,9 @@ public:
   PowerRTFEngine(const CGAL::PowerRTF::Surface& surface,
                  const CGAL::PowerRTF::Remeshing_options& options);
 
-  /// What diffuses directions, the vertex normals, where such an engine works; or empty. It is
-  /// asked for before there is an engine.
-  static CGAL::PowerRTF::Diffuse_directions
-  direction_diffuser(const CGAL::PowerRTF::Remeshing_options& options);
+  /// What is done to surfaces where such an engine works, before there is one.
+  static CGAL::PowerRTF::Surface_work
+  surface_work(const CGAL::PowerRTF::Remeshing_options& options);
 
   /// What makes the fields of a lattice, on which samples begin, where the engine works; or empty.
   CGAL::PowerRTF::Make_lattice_field lattice_field_maker();

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/Surface_fields.h>
+#include <CGAL/PowerRTF/fields/Surface_work.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/input/read_mesh.h>
 #include <CGAL/PowerRTF/internal/Stopwatch.h>
@@ -100,11 +101,13 @@ Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
 /// \param report gets the repairs, the seconds, and the number of samples that `options` asks for;
 ///   and the topology, where facets are split as `set_wanted_lengths()` does
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
+/// \param work what is done elsewhere: `PowerRTFEngine::surface_work()`
 /// \throws Invalid_input_error as `import_surface()`, `set_density()`, `number_of_samples()` and
 ///   `set_wanted_lengths()`
 Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
                         const Remeshing_options& options, Remeshing_report& report,
-                        internal::Concurrency concurrency = Sequential_tag());
+                        internal::Concurrency concurrency = Sequential_tag(),
+                        const Surface_work& work = {});
 
 /// \ingroup PkgPowerRTFSurface
 /// The surface of any model of `FaceListGraph` as the remesher wants it: imported by
@@ -116,12 +119,14 @@ Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
 ///   `face_patch_map`, whose values are labels
 /// \param report gets the repairs, the seconds, and the number of samples that `options` asks for
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
+/// \param work what is done elsewhere: `PowerRTFEngine::surface_work()`
 /// \throws Invalid_input_error as `import_surface()`, `set_density()`, `number_of_samples()` and
 ///   `set_wanted_lengths()`
 template <class FaceGraph, class NamedParameters>
 Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
                         const NamedParameters& np, Remeshing_report& report,
-                        internal::Concurrency concurrency = Sequential_tag())
+                        internal::Concurrency concurrency = Sequential_tag(),
+                        const Surface_work& work = {})
 {
   Polygon_soup soup;
   Surface_fields fields;
@@ -130,7 +135,7 @@ Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
     soup = internal::soup_of_mesh(mesh, np, concurrency);
     fields = internal::surface_fields(mesh, np);
   }
-  return prepare_surface(std::move(soup), fields, options, report, concurrency);
+  return prepare_surface(std::move(soup), fields, options, report, concurrency, work);
 }
 
 /// \ingroup PkgPowerRTFSurface
@@ -142,14 +147,15 @@ Surface prepare_surface(const FaceGraph& mesh, const Remeshing_options& options,
 template <class PointRange, class PolygonRange>
 Surface prepare_surface(const PointRange& points, const PolygonRange& polygons,
                         const Remeshing_options& options, Remeshing_report& report,
-                        internal::Concurrency concurrency = Sequential_tag())
+                        internal::Concurrency concurrency = Sequential_tag(),
+                        const Surface_work& work = {})
 {
   Polygon_soup soup;
   {
     const internal::Stopwatch watch(report.seconds.surface);
     soup = internal::soup_of_ranges(points, polygons);
   }
-  return prepare_surface(std::move(soup), Surface_fields(), options, report, concurrency);
+  return prepare_surface(std::move(soup), Surface_fields(), options, report, concurrency, work);
 }
 
 } // namespace CGAL::PowerRTF

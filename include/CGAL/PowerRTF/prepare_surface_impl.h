@@ -94,7 +94,8 @@ inline std::vector<Edge> label_edges(const Surface& surface, const Polygon_soup&
 CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
                                               const Remeshing_options& options,
                                               Remeshing_report& report,
-                                              internal::Concurrency concurrency)
+                                              internal::Concurrency concurrency,
+                                              const Surface_work& work)
 {
   const internal::Stopwatch watch(report.seconds.surface);
   internal::check_fields(options, fields);
@@ -112,7 +113,7 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
     soup = internal::cured_soup(soup, options, report.cure, concurrency);
   }
   Surface surface = internal::clean_surface(soup, options.repair, options.non_manifold,
-                                            report.repairs, concurrency);
+                                            report.repairs, concurrency, work.build);
   if (!fields.kept_edges.empty()) {
     if (!report.faces_as_input())
       throw Invalid_input_error("the facets of the region do not all face the same way, so that "

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What is done with whole meshes on a GPU beside the samples, against the host.
+#include "../built_surfaces.h"
 #include "../dirty_shapes.h"
 #include "../engine_comparison.h"
 #include "../topology_counts.h"
@@ -104,11 +105,18 @@ TEST_CASE("cells whose triangles are sound are those that the host finds")
   }
 }
 
+TEST_CASE("clean triangles become the surface and the tree that the host makes")
+{
+  built_surfaces::check(Cuda_engine<float>::surface_work({}).build);
+  built_surfaces::check_trees(Cuda_engine<float>::surface_work({}).arrange_facets);
+}
+
 TEST_CASE("normals are smoothed as on the host")
 {
   const Diffuse_directions diffuse = [](const Diffusion_graph& graph, int steps,
                                         Vec3d* directions) {
-    REQUIRE(Cuda_engine<float>::direction_diffuser({})(graph, steps, directions)); // not the host
+    REQUIRE(Cuda_engine<float>::surface_work({}).diffuse_directions(graph, steps,
+                                                                    directions)); // not the host
     return true;
   };
   for (const shapes::Soup& soup : {shapes::octahedron(), shapes::icosphere(4),

@@ -25,9 +25,9 @@ struct Make_cuda_engine {
   {
     check_cuda_device(sizes, options, precision);
   }
-  static Diffuse_directions direction_diffuser(const Remeshing_options& options)
+  static Surface_work surface_work(const Remeshing_options& options)
   {
-    return cuda_direction_diffuser(options.device);
+    return cuda_surface_work(options.device);
   }
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
                                            const Remeshing_options& options)

@@ -7,7 +7,7 @@
 #define CGAL_POWER_RTF_ENGINES_CUDA_ENGINE_API_H
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
-#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
+#include <CGAL/PowerRTF/fields/Surface_work.h>
 
 #include <cstddef>
 #include <future>
@@ -65,8 +65,8 @@ std::unique_ptr<Engine_base> make_cuda_engine(const Packed_surface& surface,
                                               const Remeshing_options& options,
                                               Cuda_precision precision);
 
-/// What diffuses directions on a GPU; it throws `Cuda_error`, too.
-Diffuse_directions cuda_direction_diffuser(int device);
+/// What is done to surfaces on a GPU. Where that fails, the host does it: engines say why.
+Surface_work cuda_surface_work(int device);
 
 } // namespace CGAL::PowerRTF
 

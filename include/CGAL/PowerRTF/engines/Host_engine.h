@@ -16,7 +16,7 @@ template <class Real, class Construction, class ConcurrencyTag>
 struct Make_host_engine {
   using Concurrency_tag = ConcurrencyTag;
   static void check(const Run_sizes&, const Remeshing_options&) {}
-  static Diffuse_directions direction_diffuser(const Remeshing_options&) { return {}; }
+  static Surface_work surface_work(const Remeshing_options&) { return {}; }
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
                                            const Remeshing_options& options);
 };

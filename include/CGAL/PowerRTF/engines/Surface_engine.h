@@ -7,7 +7,7 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
-#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
+#include <CGAL/PowerRTF/fields/Surface_work.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
@@ -92,9 +92,9 @@ protected:
   using Make = std::unique_ptr<Engine_base> (*)(const Packed_surface&, const Remeshing_options&);
 
   /// Keeps a reference to `surface`.
-  /// `concurrency`: of the construction of what stays on the host.
+  /// `concurrency`: of the construction of what stays on the host; `arrange`: of the facets' tree.
   Surface_engine_base(const Surface& surface, const Remeshing_options& options, Make make,
-                      internal::Concurrency concurrency);
+                      internal::Concurrency concurrency, Arrange_facets&& arrange);
   ~Surface_engine_base();
 
 private:
@@ -105,6 +105,7 @@ private:
   const Surface& m_surface;
   Make m_make;
   internal::Concurrency m_concurrency;
+  Arrange_facets m_arrange;
   std::unique_ptr<Facet_tree> m_tree;
   Packed_surface m_packed; // refers to the tree
   std::unique_ptr<Engine_base> m_engine;
@@ -115,22 +116,23 @@ private:
 ///
 /// \tparam Maker `Maker::check(run_sizes, options)` throws what keeps the engine from working;
 /// `Maker::make(packed_surface, options)` returns a `std::unique_ptr<Engine_base>`;
-/// `Maker::direction_diffuser(options)` is what the engine's is;
+/// `Maker::surface_work(options)` is what the engine's is;
 /// `Maker::Concurrency_tag` is that of the host's work.
 template <class Maker>
 class Surface_engine : public Surface_engine_base {
 public:
   /// Keeps a reference to `surface`.
   Surface_engine(const Surface& surface, const Remeshing_options& options)
-      : Surface_engine_base(surface, options, &Maker::make, typename Maker::Concurrency_tag())
+      : Surface_engine_base(surface, options, &Maker::make, typename Maker::Concurrency_tag(),
+                            Maker::surface_work(options).arrange_facets)
   {
     Maker::check(run_sizes(surface, options), options);
   }
 
-  /// What diffuses directions where such an engine works, before there is one; empty: on the host.
-  static Diffuse_directions direction_diffuser(const Remeshing_options& options)
+  /// What is done to a surface where such an engine works, before there is one.
+  static Surface_work surface_work(const Remeshing_options& options)
   {
-    return Maker::direction_diffuser(options);
+    return Maker::surface_work(options);
   }
 };
 

@@ -14,14 +14,17 @@
 #include <cstddef>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
 CGAL_POWER_RTF_INLINE
 Surface_engine_base::Surface_engine_base(const Surface& surface, const Remeshing_options& options,
-                                         Make make, internal::Concurrency concurrency)
-    : m_options(options), m_surface(surface), m_make(make), m_concurrency(concurrency)
+                                         Make make, internal::Concurrency concurrency,
+                                         Arrange_facets&& arrange)
+    : m_options(options), m_surface(surface), m_make(make), m_concurrency(concurrency),
+      m_arrange(std::move(arrange))
 {}
 
 CGAL_POWER_RTF_INLINE Surface_engine_base::~Surface_engine_base() = default;
@@ -54,7 +57,7 @@ CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
 {
   if (!m_tree)
     m_tree = std::make_unique<Facet_tree>(m_surface.points, m_surface.triangles,
-                                          m_surface.facet_patches, m_concurrency);
+                                          m_surface.facet_patches, m_concurrency, m_arrange);
   return *m_tree;
 }
 

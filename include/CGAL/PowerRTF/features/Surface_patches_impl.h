@@ -28,7 +28,6 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
     : m_whole(surface)
 {
   const std::size_t n = options.number_of_samples;
-  surface.topology = {};
   if (!surface.is_closed_up())
     surface.topology.value = internal::known_topology(surface, concurrency);
   if (surface.adjacency.non_manifold_edges == 0 &&

@@ -5,6 +5,7 @@
 #ifndef CGAL_POWER_RTF_GEOMETRY_FACET_TREE_H
 #define CGAL_POWER_RTF_GEOMETRY_FACET_TREE_H
 
+#include <CGAL/PowerRTF/geometry/Arrange_facets.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
@@ -23,44 +24,32 @@ namespace CGAL::PowerRTF {
 class Facet_tree {
 public:
   /// `points` and `triangles`: the mesh (#V by 3, #F by 3), in coordinates of size at most 1;
-  /// `patches`: of the facets, or empty. `concurrency`: of the construction.
+  /// `patches`: of the facets, or empty. `concurrency`: of the construction; `arrange`: what does
+  /// the most of it elsewhere, where it does.
   Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
              const std::vector<int>& patches = {},
-             internal::Concurrency concurrency = Sequential_tag())
-      : Facet_tree(
-            triangles.size(),
-            [&](int f) {
-              const Triangle& t = triangles[f];
-              return std::array<Vec3d, 3>{points[t[0]], points[t[1]], points[t[2]]};
-            },
-            patches, concurrency)
-  {}
+             internal::Concurrency concurrency = Sequential_tag(),
+             const Arrange_facets& arrange = {})
+      : Facet_tree(triangles.size(), patches, concurrency)
+  {
+    const auto corners = [&](int f) {
+      const Triangle& t = triangles[f];
+      return std::array<Vec3d, 3>{points[t[0]], points[t[1]], points[t[2]]};
+    };
+    m_order.resize(arrange ? triangles.size() : 0);
+    if (arrange && arrange(points, triangles, m_order.data(), m_nodes.data()))
+      take_facets(corners, patches);
+    else
+      build(corners, patches);
+  }
 
   /// Of `facets` triangles. `corners`: function facet -> its three points.
   template <class Corners>
   Facet_tree(std::size_t facets, const Corners& corners, const std::vector<int>& patches,
              internal::Concurrency concurrency)
-      : m_concurrency(concurrency), m_tree(static_cast<int>(facets)), m_facets(facets),
-        m_patches(patches.size()), m_places(facets)
+      : Facet_tree(facets, patches, concurrency)
   {
-    internal::Unset_vector<Vec3d> centers(facets);
-    internal::for_each_index(concurrency, m_tree.items, [&](int f) {
-      const auto [a, b, c] = corners(f);
-      centers[f] = internal::center_of(a, b, c);
-    });
-    m_order = internal::spatial_order(centers, concurrency);
-    internal::for_each_index(concurrency, m_tree.items, [&](int place) {
-      m_places[m_order[place]] = place;
-      if (!patches.empty()) m_patches[place] = patches[m_order[place]];
-      const auto [a, b, c] = corners(m_order[place]);
-      m_facets[place] = facet_corners(a, b, c);
-    });
-    const internal::Box_of_facet box_of{m_facets.data()};
-    internal::Unset_vector<Box3<double>> boxes(m_tree.nodes());
-    m_nodes.resize(m_tree.nodes());
-    internal::for_each_node(m_concurrency, m_tree, [&](int level, int k) {
-      fit_child_boxes(m_tree, level, k, box_of, boxes.data(), m_nodes.data());
-    });
+    build(corners, patches);
   }
 
   /// The facets alone.
@@ -116,6 +105,40 @@ public:
   }
 
 private:
+  Facet_tree(std::size_t facets, const std::vector<int>& patches, internal::Concurrency concurrency)
+      : m_concurrency(concurrency), m_tree(static_cast<int>(facets)), m_facets(facets),
+        m_patches(patches.size()), m_nodes(m_tree.nodes()), m_places(facets)
+  {}
+
+  template <class Corners>
+  void build(const Corners& corners, const std::vector<int>& patches)
+  {
+    internal::Unset_vector<Vec3d> centers(m_facets.size());
+    internal::for_each_index(m_concurrency, m_tree.items, [&](int f) {
+      const auto [a, b, c] = corners(f);
+      centers[f] = internal::center_of(a, b, c);
+    });
+    m_order = internal::spatial_order(centers, m_concurrency);
+    take_facets(corners, patches);
+    const internal::Box_of_facet box_of{m_facets.data()};
+    internal::Unset_vector<Box3<double>> boxes(m_tree.nodes());
+    internal::for_each_node(m_concurrency, m_tree, [&](int level, int k) {
+      fit_child_boxes(m_tree, level, k, box_of, boxes.data(), m_nodes.data());
+    });
+  }
+
+  /// Takes the facets to their places in the order.
+  template <class Corners>
+  void take_facets(const Corners& corners, const std::vector<int>& patches)
+  {
+    internal::for_each_index(m_concurrency, m_tree.items, [&](int place) {
+      m_places[m_order[place]] = place;
+      if (!patches.empty()) m_patches[place] = patches[m_order[place]];
+      const auto [a, b, c] = corners(m_order[place]);
+      m_facets[place] = facet_corners(a, b, c);
+    });
+  }
+
   internal::Concurrency m_concurrency;
   Packed_tree_layout m_tree;
   internal::Unset_vector<Facet_corners<double>>

@@ -10,9 +10,13 @@
 #include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
+
+/// A surface of no more facets needs no order in space: caches hold it as it is.
+constexpr std::size_t facets_in_caches = 1 << 16;
 
 /// The indices of `points`, a vector, along the Hilbert curve through the cube around them. No size
 /// or position decides it.

@@ -129,7 +129,7 @@ struct Surface {
   /// on as its own mirror image.
   std::optional<Mirror_plane> mirror;
   std::size_t mirror_samples = 0;    ///< to be on the plane; 0: as many as their spacing gives
-  internal::Known_topology topology; ///< once the facets stay as they are: `known_topology()`
+  internal::Known_topology topology; ///< of the facets as they are: `known_topology()`
   double area = 0;                   ///< sum of the facets' areas
   Normalization normalization;
 

@@ -171,6 +171,7 @@ inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& given,
       if (!patches.empty()) patches[k] = surface.facet_patches[f];
     }
   });
+  surface.topology = {};
   surface.triangles.swap(triangles);
   surface.facet_patches.swap(patches);
   if (!surface.creases.empty() || !surface.kept_edges.empty()) {

@@ -29,6 +29,7 @@ inline void split_at_centers(Surface& surface, const std::vector<int>& facets,
     surface.triangles[f] = {a, b, center};
     surface.triangles.insert(surface.triangles.end(), {{b, c, center}, {c, a, center}});
   }
+  surface.topology = {};
   surface.adjacency = facet_adjacency(surface.triangles, surface.points.size(), concurrency);
   compute_geometry(surface, concurrency);
 }

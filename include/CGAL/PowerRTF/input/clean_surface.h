@@ -7,6 +7,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/Remeshing_report.h>
+#include <CGAL/PowerRTF/geometry/Build_surface.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
@@ -15,10 +16,11 @@
 namespace CGAL::PowerRTF::internal {
 
 /// What `import_surface()` and `import_soup()` share: the surface of the first attempt to repair
-/// the soup that succeeds.
+/// the soup that succeeds. `build`: what makes it where nothing has to be repaired; or empty.
 /// \throws Invalid_input_error there is none
 Surface clean_surface(const Polygon_soup& soup, Repair repair, Non_manifold non_manifold,
-                      Repair_counts& repairs, Concurrency concurrency = Sequential_tag());
+                      Repair_counts& repairs, Concurrency concurrency = Sequential_tag(),
+                      const Build_surface& build = {});
 
 } // namespace CGAL::PowerRTF::internal
 

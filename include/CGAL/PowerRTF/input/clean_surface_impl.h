@@ -39,9 +39,8 @@ namespace CGAL::PowerRTF::internal {
 inline Triangle_soup triangle_soup(const std::vector<Vec3d>& points,
                                    std::vector<Triangle>&& triangles, Concurrency concurrency)
 {
-  constexpr std::size_t max_unsorted = 1 << 16;
   Triangle_soup soup{{}, std::move(triangles), {}, {}, {}, {}};
-  if (soup.triangles.size() <= max_unsorted) {
+  if (soup.triangles.size() <= facets_in_caches) {
     soup.points = points;
     soup.originals.resize(points.size());
     std::iota(soup.originals.begin(), soup.originals.end(), 0);
@@ -219,13 +218,19 @@ inline void close_cracks(Triangle_soup& soup, Manifold_repair allowed, Repair_co
 }
 
 /// Makes the surface of polygons in the unit box. `vertex[v]` is the vertex that stands for `v`.
+/// `build`: what makes it elsewhere, where nothing has to be repaired; or empty.
 inline Repair_status make_surface(const Polygon_soup& polygons, const std::vector<Vec3d>& points,
                                   const std::vector<int>& vertex,
                                   const Normalization& normalization, Manifold_repair allowed,
-                                  Repair_counts& repairs, Surface& surface, Concurrency concurrency)
+                                  Repair_counts& repairs, Surface& surface, Concurrency concurrency,
+                                  const Build_surface& build)
 {
-  Triangle_soup soup = triangle_soup(
-      points, triangulated(polygons, points, vertex, repairs, concurrency), concurrency);
+  std::vector<Triangle> triangles = triangulated(polygons, points, vertex, repairs, concurrency);
+  if (build && build(points, triangles, surface)) {
+    surface.normalization = normalization;
+    return {};
+  }
+  Triangle_soup soup = triangle_soup(points, std::move(triangles), concurrency);
   const std::size_t degenerate = degenerate_facets(soup.points, soup.triangles, concurrency).size();
   if (degenerate == soup.triangles.size()) return {"the surface has no area"};
   if (degenerate > 0 && allowed == Manifold_repair::none)
@@ -293,19 +298,19 @@ inline int number_of_parts(const Polygon_soup& soup, const std::vector<int>& ver
 
 CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair repair,
                                             Non_manifold non_manifold, Repair_counts& repairs,
-                                            Concurrency concurrency)
+                                            Concurrency concurrency, const Build_surface& build)
 {
-  const auto [normalization, used, points] = boxed_points(soup, concurrency);
+  const Boxed_points boxed = boxed_points(soup, concurrency);
+  const std::vector<int>& used = boxed.used;
 
-  std::vector<int> own_vertex(soup.points.size());
-  std::iota(own_vertex.begin(), own_vertex.end(), 0);
+  const int vertices = static_cast<int>(soup.points.size());
+  std::vector<int> own_vertex(vertices);
+  for_each_index(concurrency, vertices, [&](int v) { own_vertex[v] = v; });
   const std::vector<int> vertex =
       soup.merges_vertices ? merged_vertices(soup, used, concurrency) : own_vertex;
-  std::size_t duplicates = 0, unused = 0;
-  for (std::size_t v = 0; v < used.size(); ++v) {
-    duplicates += used[v] && vertex[v] != own_vertex[v];
-    unused += !used[v];
-  }
+  const auto count = [&](auto&& counts) { return select(concurrency, vertices, counts).size(); };
+  const std::size_t duplicates = count([&](int v) { return used[v] && vertex[v] != v; }),
+                    unused = count([&](int v) { return !used[v]; });
 
   std::string reason;
   for (const auto& [merges, allowed, is_of_pinches] :
@@ -316,9 +321,11 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
     Repair_counts counts = repairs;
     counts.unused_vertices += unused;
     if (merges) counts.duplicate_vertices += duplicates;
+    const bool has_all_points = unused == 0 && (!merges || duplicates == 0);
     Surface surface;
-    const Repair_status status = make_surface(soup, points, merges ? vertex : own_vertex,
-                                              normalization, allowed, counts, surface, concurrency);
+    const Repair_status status =
+        make_surface(soup, boxed.points, merges ? vertex : own_vertex, boxed.normalization, allowed,
+                     counts, surface, concurrency, has_all_points ? build : Build_surface());
     if (status.is_done() && (merges || surface.adjacency.border_edges == 0)) {
       repairs = counts;
       return surface;

@@ -1,0 +1,56 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is done to a surface before there is an engine. Compiled without fused operations: sums and
+// products round as on the host.
+#include "backend/Cuda_backend.h"
+
+#include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
+#include <CGAL/PowerRTF/engines/arrange_facets.h>
+#include <CGAL/PowerRTF/engines/build_surface.h>
+#include <CGAL/PowerRTF/fields/direction_diffusion.h>
+
+#include <vector>
+
+namespace CGAL::PowerRTF {
+namespace {
+
+/// Returns `work(backend)`, or `false` where the GPU fails: who makes an engine is told so.
+template <class Work>
+bool done_on(int device, const Work& work)
+{
+  try {
+    device::Cuda_backend backend(device);
+    return work(backend);
+  } catch (const Cuda_error&) {
+    return false;
+  }
+}
+
+} // namespace
+
+Surface_work cuda_surface_work(int device)
+{
+  Surface_work work;
+  work.build = [device](const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
+                        Surface& surface) {
+    return done_on(device, [&](device::Cuda_backend& backend) {
+      return build_surface(backend, points, triangles, surface);
+    });
+  };
+  work.arrange_facets = [device](const std::vector<Vec3d>& points,
+                                 const std::vector<Triangle>& triangles, int* order,
+                                 Child_boxes* nodes) {
+    return done_on(device, [&](device::Cuda_backend& backend) {
+      return arrange_facets(backend, points, triangles, order, nodes);
+    });
+  };
+  work.diffuse_directions = [device](const Diffusion_graph& graph, int steps, Vec3d* directions) {
+    return done_on(device, [&](device::Cuda_backend& backend) {
+      return internal::diffuse_directions(backend, graph, steps, directions);
+    });
+  };
+  return work;
+}
+
+} // namespace CGAL::PowerRTF

@@ -1,0 +1,287 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The surface of triangles that need no repair, made where a backend works. It is what the host
+// makes, but for the last bits of normals and of the area.
+#ifndef CGAL_POWER_RTF_ENGINES_BUILD_SURFACE_H
+#define CGAL_POWER_RTF_ENGINES_BUILD_SURFACE_H
+
+#include <CGAL/PowerRTF/engines/curve_order.h>
+#include <CGAL/PowerRTF/engines/oriented_topology.h>
+#include <CGAL/PowerRTF/geometry/Build_surface.h>
+#include <CGAL/PowerRTF/geometry/Spatial_order.h>
+#include <CGAL/PowerRTF/geometry/Vertex_fan.h>
+#include <CGAL/PowerRTF/geometry/component_topology.h>
+#include <CGAL/PowerRTF/geometry/facet_shape.h>
+#include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+
+namespace internal {
+
+/// Takes a point to its place.
+struct Place_point {
+  const Vec3d* from;
+  const int* order;
+  Vec3d* points;
+  int* places; ///< by point: the place
+
+  CGAL_POWER_RTF_HD void operator()(int place) const
+  {
+    points[place] = from[order[place]];
+    places[order[place]] = place;
+  }
+};
+
+/// Renumbers a facet's vertices, the least of which is its key.
+struct Renumber_facet {
+  const int* places;
+  int* vertices;
+  std::uint64_t* keys;
+
+  CGAL_POWER_RTF_HD void operator()(int f) const
+  {
+    int* const v = vertices + 3 * std::size_t(f);
+    for (int k = 0; k < 3; ++k) v[k] = places[v[k]];
+    const int least = v[0] < v[1] ? v[0] : v[1];
+    keys[f] = std::uint64_t(least < v[2] ? least : v[2]);
+  }
+};
+
+struct Place_facet {
+  const int *from, *order;
+  int* vertices;
+
+  CGAL_POWER_RTF_HD void operator()(int place) const
+  {
+    const int* const v = from + 3 * std::size_t(order[place]);
+    for (int k = 0; k < 3; ++k) vertices[3 * std::size_t(place) + k] = v[k];
+  }
+};
+
+struct Set_vertex_key {
+  const int* vertices;
+  std::uint64_t* keys;
+  CGAL_POWER_RTF_HD void operator()(int c) const { keys[c] = std::uint64_t(vertices[c]); }
+};
+
+/// Where the lists of corners begin that do so at place k.
+struct Mark_first_corners {
+  const int *vertices, *corners;
+  int number_of_corners, number_of_vertices;
+  int* first;
+
+  CGAL_POWER_RTF_HD void operator()(int k) const
+  {
+    const int before = k > 0 ? vertices[corners[k - 1]] : -1,
+              here = k < number_of_corners ? vertices[corners[k]] : number_of_vertices;
+    for (int v = before + 1; v <= here; ++v) first[v] = k;
+  }
+};
+
+/// Counts what makes a facet need a closer look, and areas.
+struct Shape_facet {
+  const Vec3d* points;
+  const int* vertices;
+  double* areas;
+  Vec3d* normals;
+  Facet_angles* angles;
+
+  CGAL_POWER_RTF_HD void operator()(int f, Totals<2, 0>& sums) const
+  {
+    const int* const v = vertices + 3 * std::size_t(f);
+    const Facet_shape shape = facet_shape(points[v[0]], points[v[1]], points[v[2]]);
+    areas[f] = shape.area;
+    angles[f] = shape.angles;
+    sums.add(0, shape.area);
+    if (shape.angles.are_known())
+      normals[f] = shape.normal;
+    else
+      sums.add(1, 1);
+  }
+};
+
+/// Joins the facets at a vertex, whose normal it sets. Counts vertices that need a closer look: two
+/// facets with the same vertices make the only disk of two.
+struct Close_vertex {
+  const int* vertices;
+  Corner_lists lists;
+  const Facet_angles* angles;
+  const Vec3d* facet_normals;
+  int *component, *opposite; ///< `component`: label trees
+  Vec3d* normals;
+
+  CGAL_POWER_RTF_HD void operator()(int v, Totals<1, 0>& defects) const
+  {
+    const int n = lists.size(v);
+    if (n < 3) return defects.add(0, 1);
+    const int* const corners = lists[v];
+    const Vertex_fan fan(vertices, v, corners, n);
+    if (!fan.is_single() || fan.border() >= 0) return defects.add(0, 1);
+    for (int k = 0; k < n; ++k) {
+      opposite[corners[fan.after(k)]] = previous_halfedge(corners[k]);
+      if (fan.next(k) < v) join_trees(component, v, fan.next(k)); // each edge once
+    }
+    normals[v] = vertex_normal(corners, corners + n, angles, facet_normals);
+    if (squared_length(normals[v]) == 0) defects.add(0, 1);
+  }
+};
+
+struct Count_components {
+  const int* component;
+
+  CGAL_POWER_RTF_HD void operator()(int v, Totals<1, 0>& count) const
+  {
+    count.add(0, component[v] == v);
+  }
+};
+
+template <class Backend>
+struct Surface_building {
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  Buffer<Vec3d> given_points, points, facet_normals, vertex_normals;
+  Buffer<int> given_vertices, vertices, vertex_order, facet_order, places, first, corners, opposite;
+  Buffer<int> component;
+  Buffer<double> areas, sums;
+  Buffer<Facet_angles> angles;
+  Buffer<std::uint64_t> keys;
+
+  /// See listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t vertices, std::size_t facets)
+  {
+    using A = Surface_building;
+    for (auto array : {&A::given_points, &A::points, &A::vertex_normals}) f(array, vertices);
+    for (auto array : {&A::vertex_order, &A::places, &A::component}) f(array, vertices);
+    f(&A::first, vertices + 1);
+    for (auto array : {&A::given_vertices, &A::vertices, &A::corners, &A::opposite})
+      f(array, 3 * facets);
+    f(&A::facet_order, facets);
+    f(&A::facet_normals, facets);
+    f(&A::areas, facets);
+    f(&A::angles, facets);
+    f(&A::keys, 3 * facets > vertices ? 3 * facets : vertices);
+    f(&A::sums, std::size_t(6)); // those of order_along_curve()
+  }
+};
+
+/// Sorts the points along the Hilbert curve and the facets by their least vertices.
+template <class Backend>
+void sort_spatially(Backend& backend, Surface_building<Backend>& a, int vertices, int facets)
+{
+  order_along_curve(backend, vertices, a.given_points.data(), a.sums.data(), a.keys.data(),
+                    a.vertex_order.data());
+  backend.for_each(vertices, Place_point{a.given_points.data(), a.vertex_order.data(),
+                                         a.points.data(), a.places.data()});
+  backend.for_each(facets, Renumber_facet{a.places.data(), a.given_vertices.data(), a.keys.data()});
+  backend.sort_order(facets, a.keys.data(), a.facet_order.data());
+  backend.for_each(facets,
+                   Place_facet{a.given_vertices.data(), a.facet_order.data(), a.vertices.data()});
+}
+
+/// The topology of a closed surface that hangs together.
+inline std::shared_ptr<const Topology> one_component(int vertices, int facets)
+{
+  return std::make_shared<const Topology>(
+      Topology{std::vector<int>(facets), {{vertices - facets / 2, 0}}});
+}
+
+/// Makes room for what is built; the density is 1.
+inline void allocate_surface(Concurrency concurrency, int vertices, int facets, Surface& surface)
+{
+  const auto resize = [&](auto& items, std::size_t n) {
+    resize_in_parallel(concurrency, items, n);
+  };
+  call_at_once(
+      concurrency, [&] { resize(surface.facet_normals, facets); },
+      [&] { resize(surface.points, vertices); }, [&] { resize(surface.vertex_normals, vertices); },
+      [&] { resize(surface.triangles, facets); },
+      [&] { resize(surface.adjacency.opposite, 3 * std::size_t(facets)); },
+      [&] {
+        resize(surface.facet_areas, facets);
+        resize(surface.input_vertices, vertices);
+        resize_in_parallel(concurrency, surface.vertex_density, vertices, 1.);
+      });
+  surface.adjacency.corners.first.resize(vertices + 1);
+  surface.adjacency.corners.entries.resize(3 * std::size_t(facets));
+}
+
+} // namespace internal
+
+/// As `Build_surface`.
+template <class Backend>
+bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
+                   const std::vector<Triangle>& triangles, Surface& surface)
+{
+  using namespace internal;
+  const int vertices = static_cast<int>(points.size()), facets = static_cast<int>(triangles.size()),
+            corners = 3 * facets;
+  Surface_building<Backend> a;
+  if (!backend.has_room(bytes_of_listed<Surface_building<Backend>>(vertices, facets) +
+                        backend.sort_bytes(corners)))
+    return false;
+  allocate_listed(backend, a, std::size_t(vertices), std::size_t(facets));
+  const bool is_sorted = triangles.size() > facets_in_caches;
+  backend.upload((is_sorted ? a.given_points : a.points).data(), points.data(), points.size());
+  backend.upload((is_sorted ? a.given_vertices : a.vertices).data(), triangles.data()->data(),
+                 3 * triangles.size());
+  if (is_sorted) sort_spatially(backend, a, vertices, facets);
+
+  double* const sums = a.sums.data();
+  backend.template reduce<2, 0>(facets,
+                                Shape_facet{a.points.data(), a.vertices.data(), a.areas.data(),
+                                            a.facet_normals.data(), a.angles.data()},
+                                Keep_sums<2>{sums});
+  backend.for_each(corners, Set_vertex_key{a.vertices.data(), a.keys.data()});
+  backend.sort_order(corners, a.keys.data(), a.corners.data());
+  backend.for_each(corners + 1, Mark_first_corners{a.vertices.data(), a.corners.data(), corners,
+                                                   vertices, a.first.data()});
+  backend.for_each(vertices, Set_to_own_number{a.component.data()});
+  const Corner_lists lists{a.first.data(), nullptr, a.corners.data()};
+  backend.template reduce<1, 0>(vertices,
+                                Close_vertex{a.vertices.data(), lists, a.angles.data(),
+                                             a.facet_normals.data(), a.component.data(),
+                                             a.opposite.data(), a.vertex_normals.data()},
+                                Keep_sums<1>{sums + 2});
+  backend.template reduce<1, 0>(vertices, Count_components{a.component.data()},
+                                Keep_sums<1>{sums + 3});
+  Surface result; // its memory comes while the backend works
+  allocate_surface(Backend::concurrency(), vertices, facets, result);
+  double found[4]; // area, defects of facets and of vertices, components
+  backend.download(found, sums, 4);
+  if (found[1] > 0 || found[2] > 0) return false;
+  result.area = found[0];
+  if (found[3] == 1) result.topology.value = one_component(vertices, facets);
+  const auto take = [&](auto* to, const auto& from) {
+    backend.download(to, from.data(), from.size());
+  };
+  take(result.points.data(), a.points);
+  take(result.triangles.data()->data(), a.vertices);
+  take(result.facet_normals.data(), a.facet_normals);
+  take(result.facet_areas.data(), a.areas);
+  take(result.vertex_normals.data(), a.vertex_normals);
+  take(result.adjacency.opposite.data(), a.opposite);
+  take(result.adjacency.corners.first.data(), a.first);
+  take(result.adjacency.corners.entries.data(), a.corners);
+  if (is_sorted)
+    take(result.input_vertices.data(), a.vertex_order);
+  else
+    std::iota(result.input_vertices.begin(), result.input_vertices.end(), 0);
+  surface = std::move(result);
+  return true;
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_ENGINES_BUILD_SURFACE_H
