@@ -5,12 +5,32 @@
 #ifndef CGAL_POWER_RTF_FIELDS_DIFFUSION_STAGE_H
 #define CGAL_POWER_RTF_FIELDS_DIFFUSION_STAGE_H
 
+#include <CGAL/PowerRTF/geometry/Edges_view.h>
 #include <CGAL/PowerRTF/internal/host_device.h>
 
 #include <cmath>
 #include <utility>
 
 namespace CGAL::PowerRTF {
+
+/// How long dx_v / dt = (mean of the neighbors' x) - x_v lasts at `v` for a variance: twice that
+/// over the mean squared length of the edges. At most `longest`.
+CGAL_POWER_RTF_HD inline double diffusion_time(const Edges_view& edges, int v, double variance,
+                                               double longest)
+{
+  double squares = 0;
+  const int degree = edges.first[v + 1] - edges.first[v];
+  for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
+    squares += edges.length[e] * edges.length[e];
+  if (!(squares > 0)) return 0;
+  const double time = 2 * variance * degree / squares;
+  return time < longest ? time : longest;
+}
+
+/// What a diffusion leaves as it is.
+struct Keep_value {
+  CGAL_POWER_RTF_HD double operator()(int, double x) const { return x; }
+};
 
 /// One stage of a diffusion, at a vertex.
 template <class Value, class Finish>

@@ -30,6 +30,10 @@ struct Vertex_clusters {
 
 namespace internal {
 
+/// Of the vertices that may be left as centers if there is to be a further level of clusters: it
+/// costs as much as it has vertices.
+constexpr double largest_share = 0.7;
+
 /// A maximal set of vertices no two of which an edge joins that is not longer than `longest`: the
 /// one that is made by taking vertices in a random order, whatever the threads do.
 class Independent_set {
@@ -144,11 +148,10 @@ inline Vertex_clusters vertex_clusters(const std::vector<Vec3d>& points, const S
                                        double longest,
                                        internal::Concurrency concurrency = Sequential_tag())
 {
-  constexpr double least_gain = 0.7; // of a further level, which costs as much as it has vertices
   Vertex_clusters all = internal::cluster_once(
       points, edges, [](int v) { return v; }, longest, concurrency);
   for (std::size_t before = points.size();
-       double(all.centers.size()) < least_gain * double(before);) {
+       double(all.centers.size()) < internal::largest_share * double(before);) {
     before = all.centers.size();
     Vertex_clusters next = internal::cluster_once(
         points, all.edges, [&](int c) { return all.centers[c]; }, longest, concurrency);

@@ -5,12 +5,12 @@
 #ifndef CGAL_POWER_RTF_FIELDS_CURVATURE_H
 #define CGAL_POWER_RTF_FIELDS_CURVATURE_H
 
+#include <CGAL/PowerRTF/fields/density_steps.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
 #include <CGAL/PowerRTF/internal/nth_value.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -21,21 +21,11 @@ namespace CGAL::PowerRTF {
 inline std::vector<double> vertex_curvature(const Surface& surface, const Surface_edges& edges,
                                             internal::Concurrency concurrency = Sequential_tag())
 {
-  std::vector<double> curvature(surface.points.size(), 0);
-  internal::for_each_index(concurrency, static_cast<int>(curvature.size()), [&](int v) {
-    double sum = 0;
-    int count = 0;
-    for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) {
-      const int u = edges.neighbor[e];
-      const Vec3d d = surface.points[u] - surface.points[v];
-      const double length_2 = squared_length(d);
-      if (!(length_2 > 0)) continue;
-      const double k = dot(surface.vertex_normals[u] - surface.vertex_normals[v], d) / length_2;
-      sum += k * k;
-      ++count;
-    }
-    if (count > 0) curvature[v] = std::sqrt(sum / count);
-  });
+  std::vector<double> curvature(surface.points.size());
+  internal::for_each_index(concurrency, static_cast<int>(curvature.size()),
+                           internal::Find_curvature{edges.view(), surface.points.data(),
+                                                    surface.vertex_normals.data(),
+                                                    curvature.data()});
   return curvature;
 }
 
@@ -45,11 +35,9 @@ inline void smooth_over_edges(const Surface_edges& edges, int passes, std::vecto
 {
   std::vector<double> smooth(values.size());
   for (int pass = 0; pass < passes; ++pass) {
-    internal::for_each_index(concurrency, static_cast<int>(values.size()), [&](int v) {
-      double sum = 0;
-      for (int e = edges.first[v]; e < edges.first[v + 1]; ++e) sum += values[edges.neighbor[e]];
-      smooth[v] = (values[v] + sum / (edges.first[v + 1] - edges.first[v])) / 2;
-    });
+    internal::for_each_index(
+        concurrency, static_cast<int>(values.size()),
+        internal::Smooth_over_edges{edges.view(), values.data(), smooth.data()});
     values.swap(smooth);
   }
 }
@@ -60,20 +48,15 @@ inline std::vector<double>
 normalized_curvature(const Surface& surface, const Surface_edges& edges,
                      internal::Concurrency concurrency = Sequential_tag())
 {
-  constexpr int smoothing_passes = 3;
-  constexpr double percentile = 0.98, smallest = 0.05;
-  // Curvature times size below this is rounding (a radius of 10^4 times the surface's size).
-  constexpr double flat = 1e-4;
-
+  using Normalize = internal::Normalize_curvature;
   std::vector<double> curvature = vertex_curvature(surface, edges, concurrency);
-  smooth_over_edges(edges, smoothing_passes, curvature, concurrency);
-  double unit = internal::nth_value(concurrency, curvature,
-                                    static_cast<std::size_t>(percentile * (curvature.size() - 1)));
-  const double size = std::sqrt(surface.area);
-  if (unit * size < flat) // flat almost everywhere
+  smooth_over_edges(edges, Normalize::smoothing_passes, curvature, concurrency);
+  const std::size_t size = curvature.size();
+  double unit = internal::nth_value(concurrency, curvature, Normalize::rank(size));
+  if (Normalize::is_flat(unit, surface.area)) // almost everywhere
     unit = *std::max_element(curvature.begin(), curvature.end());
-  if (unit * size < flat) return std::vector<double>(curvature.size(), 1);
-  for (double& k : curvature) k = (std::min)(1., (std::max)(smallest, k / unit));
+  if (Normalize::is_flat(unit, surface.area)) return std::vector<double>(size, 1);
+  internal::for_each_index(concurrency, static_cast<int>(size), Normalize{unit, curvature.data()});
   return curvature;
 }
 

@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/fields/Vertex_clusters.h>
 #include <CGAL/PowerRTF/fields/curvature.h>
+#include <CGAL/PowerRTF/fields/density_steps.h>
 #include <CGAL/PowerRTF/fields/diffusion.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
@@ -26,13 +27,13 @@ namespace CGAL::PowerRTF {
 
 namespace internal {
 
-/// Divides the densities by the largest, and keeps them away from the limits of double: nothing is
-/// sampled at 1e-12 of the largest density.
-inline void normalize_density(std::vector<double>& density)
+/// See `Normalize_density`.
+inline void normalize_density(std::vector<double>& density,
+                              Concurrency concurrency = Sequential_tag())
 {
-  constexpr double smallest = 1e-12;
   const double largest = *std::max_element(density.begin(), density.end());
-  for (double& rho : density) rho = (std::max)(smallest, rho / largest);
+  for_each_index(concurrency, static_cast<int>(density.size()),
+                 Normalize_density{largest, density.data()});
 }
 
 /// The values at the vertices of a surface.
@@ -62,11 +63,11 @@ inline std::optional<Vertex_clusters> near_vertices(const Surface& surface,
                                                     const Surface_edges& edges, std::size_t n,
                                                     Concurrency concurrency)
 {
-  constexpr double near = 0.5; // of the least spacing, which gradation makes larger only
   const double least =
       spacing_constant(surface, n, concurrency) /
       std::sqrt(*std::max_element(surface.vertex_density.begin(), surface.vertex_density.end()));
-  Vertex_clusters clusters = vertex_clusters(surface.points, edges, near * least, concurrency);
+  Vertex_clusters clusters =
+      vertex_clusters(surface.points, edges, Count_near::distance * least, concurrency);
   if (2 * clusters.centers.size() > surface.points.size()) return std::nullopt;
   return clusters;
 }
@@ -76,17 +77,16 @@ inline void smooth_density(Surface& surface, const Surface_edges& edges,
                            const std::optional<Vertex_clusters>& clusters, std::size_t n,
                            double width, Concurrency concurrency)
 {
-  constexpr double longest = 4000; // where edges are shorter than a 45th of the width, less is done
-  constexpr int steps = 4;
+  using Times = Find_smoothing_times;
   std::vector<double>& rho = surface.vertex_density;
   const double variance = diffusion_variance(surface, n, width, concurrency);
   const auto smooth = [&](const Surface_edges& graph, std::vector<double>& density) {
     const int size = static_cast<int>(density.size());
     const std::vector<double> times = diffusion_times(
-        graph, [&](int v) { return variance / density[v]; }, longest, concurrency);
-    for_each_index(concurrency, size, [&](int v) { density[v] = std::log(density[v]); });
-    diffuse(graph, times, steps, density, concurrency);
-    for_each_index(concurrency, size, [&](int v) { density[v] = std::exp(density[v]); });
+        graph, [&](int v) { return variance / density[v]; }, Times::longest, concurrency);
+    for_each_index(concurrency, size, Take_logarithm{density.data()});
+    diffuse(graph, times, Times::steps, density, concurrency);
+    for_each_index(concurrency, size, Take_exponential{density.data()});
   };
   if (!clusters) return smooth(edges, rho);
   std::vector<double> coarse;
@@ -98,7 +98,7 @@ inline void smooth_density(Surface& surface, const Surface_edges& edges,
   // Over about half the distance of two centers, so that no steps between clusters are left.
   const double deviation = 0.7 * clusters->longest;
   const std::vector<double> times = diffusion_times(
-      edges, [&](int) { return deviation * deviation; }, longest, concurrency);
+      edges, [&](int) { return deviation * deviation; }, Times::longest, concurrency);
   diffuse(edges, times, 3, rho, concurrency);
 }
 
@@ -107,8 +107,8 @@ inline void smooth_density(Surface& surface, const Surface_edges& edges,
 /// \ingroup PkgPowerRTFSurface
 /// Sets `surface.vertex_density` as `options` asks: 1, or \f$\kappa^p\f$ with \f$p\f$ =
 /// `density_power`, its growth limited by `gradation`, smoothed over `density_smoothing` times the
-/// spacing. Only ratios of densities matter to any later stage. \throws Invalid_input_error an
-/// option has a value that is not allowed
+/// spacing. Only ratios of densities matter to any later stage.
+/// \throws Invalid_input_error an option has a value that is not allowed
 inline void set_density(Surface& surface, const Remeshing_options& options,
                         internal::Concurrency concurrency = Sequential_tag())
 {
@@ -129,10 +129,9 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
     }
   }
   std::vector<double>& density = surface.vertex_density;
-  internal::for_each_index(concurrency, static_cast<int>(density.size()), [&](int v) {
-    density[v] = std::pow(density[v], options.density_power);
-  });
-  internal::normalize_density(surface.vertex_density);
+  internal::for_each_index(concurrency, static_cast<int>(density.size()),
+                           internal::Raise_to_power{options.density_power, density.data()});
+  internal::normalize_density(density, concurrency);
   const std::size_t n = options.number_of_samples;
   const auto clusters = internal::near_vertices(surface, edges, n, concurrency);
   if (options.gradation > 0)
@@ -154,7 +153,7 @@ inline void set_density(Surface& surface, const Remeshing_options& options,
 {
   validate(options);
   surface.vertex_density = internal::surface_values(surface, densities, "density");
-  internal::normalize_density(surface.vertex_density);
+  internal::normalize_density(surface.vertex_density, concurrency);
   if (options.gradation > 0) {
     const Surface_edges edges = surface_edges(surface, concurrency);
     const std::size_t n = options.number_of_samples;

@@ -18,26 +18,26 @@
 namespace CGAL::PowerRTF {
 
 /// The variance of a diffusion over `width` times the spacing of `n` samples, times the density.
+inline double diffusion_variance(double integral, std::size_t n, double width)
+{
+  return width * width * integral / static_cast<double>(n);
+}
 inline double diffusion_variance(const Surface& surface, std::size_t n, double width,
                                  internal::Concurrency concurrency = Sequential_tag())
 {
-  return width * width * density_integral(surface, concurrency) / static_cast<double>(n);
+  return diffusion_variance(density_integral(surface, concurrency), n, width);
 }
 
-/// By vertex, how long dx_v / dt = (mean of its neighbors' x) - x_v lasts, for `variance(v)`: twice
-/// that over the mean squared length of the edges. At most `longest`.
+/// `diffusion_time()` by vertex, for `variance(v)`.
 template <class Variance>
 std::vector<double> diffusion_times(const Surface_edges& edges, const Variance& variance,
                                     double longest,
                                     internal::Concurrency concurrency = Sequential_tag())
 {
-  std::vector<double> times(edges.first.size() - 1, 0);
+  const Edges_view view = edges.view();
+  std::vector<double> times(edges.first.size() - 1);
   internal::for_each_index(concurrency, static_cast<int>(times.size()), [&](int v) {
-    double squares = 0;
-    const int degree = edges.first[v + 1] - edges.first[v];
-    for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
-      squares += edges.length[e] * edges.length[e];
-    if (squares > 0) times[v] = (std::min)(longest, 2 * variance(v) * degree / squares);
+    times[v] = diffusion_time(view, v, variance(v), longest);
   });
   return times;
 }
@@ -53,8 +53,7 @@ inline void diffuse(const Surface_edges& edges, const std::vector<double>& times
   const double* const result = diffuse(
       edges.first.data(), edges.neighbor.data(), times.data(),
       *std::max_element(times.begin(), times.end()), steps, values.data(), others.data(),
-      [](int, double x) { return x; },
-      [&](const auto& stage) { internal::for_each_index(concurrency, size, stage); });
+      Keep_value(), [&](const auto& stage) { internal::for_each_index(concurrency, size, stage); });
   if (result != values.data())
     internal::for_each_index(concurrency, size, [&](int v) { values[v] = result[v]; });
 }

@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_FIELDS_GRADATION_H
 
 #include <CGAL/PowerRTF/fields/Vertex_clusters.h>
+#include <CGAL/PowerRTF/fields/density_steps.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
@@ -32,23 +33,22 @@ inline bool has_uniform_density(const Surface& surface)
 inline double density_integral(const Surface& surface,
                                internal::Concurrency concurrency = Sequential_tag())
 {
-  const auto& rho = surface.vertex_density;
-  return internal::reduce(
-      concurrency, static_cast<int>(surface.triangles.size()), 0.,
-      [&](double& sum, int f) {
-        const Triangle& t = surface.triangles[f];
-        sum += surface.facet_areas[f] * (rho[t[0]] + rho[t[1]] + rho[t[2]]) / 3;
-      },
-      [](double& sum, double part) { sum += part; });
+  return internal::sum(concurrency, static_cast<int>(surface.triangles.size()),
+                       internal::Density_integral{surface.triangles.data()->data(),
+                                                  surface.facet_areas.data(),
+                                                  surface.vertex_density.data()});
 }
 
 /// C of `h = C rho^(-1/2)`, the spacing of `n` samples in hexagonal arrangement where the density
 /// is rho.
+inline double spacing_constant(double integral, std::size_t n)
+{
+  return std::sqrt(2 / std::sqrt(3.) * integral / static_cast<double>(n));
+}
 inline double spacing_constant(const Surface& surface, std::size_t n,
                                internal::Concurrency concurrency = Sequential_tag())
 {
-  return std::sqrt(2 / std::sqrt(3.) * density_integral(surface, concurrency) /
-                   static_cast<double>(n));
+  return spacing_constant(density_integral(surface, concurrency), n);
 }
 
 /// Lowers `h`, all above 0, to the largest function below it with `h_v <= h_u + gradation |uv|` on
@@ -60,7 +60,7 @@ inline void limit_growth(const Surface_edges& edges, double gradation, std::vect
 {
   constexpr double edges_per_band = 16;
   constexpr int chunk = 256;
-  const auto bound = [&](int v, int e) { return atomic_load(&h[v]) + gradation * edges.length[e]; };
+  const internal::Growth_bound bound{edges.view(), gradation, h.data()};
   std::vector<int> waiting = internal::select(concurrency, static_cast<int>(h.size()), [&](int v) {
     for (int e = edges.first[v]; e < edges.first[v + 1]; ++e)
       if (bound(v, e) < h[edges.neighbor[e]]) return true;
@@ -127,35 +127,47 @@ inline void estimate_limited_growth(const Surface& surface, const Vertex_cluster
   });
 }
 
-/// Raises `surface.vertex_density` where needed so that the spacing of `n` samples grows by at most
-/// `gradation` per unit of length. Raising the density makes all spacings larger, so the limit is
-/// applied until that is less than 2 %, at most 4 times, with `clusters` to an estimate but for the
-/// last time.
-inline void limit_gradation(Surface& surface, const Surface_edges& edges,
-                            const std::optional<Vertex_clusters>& clusters, double gradation,
-                            std::size_t n, internal::Concurrency concurrency = Sequential_tag())
+/// `limit(C)` limits the growth of spacings with the constant C, which makes all of them larger,
+/// and returns the constant then. So this is done until C grows by less than 2 %, at most 4 times.
+/// \returns C
+template <class Limit>
+double limit_repeatedly(double C, const Limit& limit)
 {
   constexpr int passes = 4;
   constexpr double least_growth = 1.02;
-  const int vertices = static_cast<int>(surface.points.size());
-  std::vector<double>& rho = surface.vertex_density;
-  std::vector<double> unit(vertices), h(vertices); // spacing by C
-  internal::for_each_index(concurrency, vertices, [&](int v) { unit[v] = 1 / std::sqrt(rho[v]); });
-  double C = spacing_constant(surface, n, concurrency);
-  const auto limit = [&](bool to_estimate) {
-    internal::for_each_index(concurrency, vertices, [&](int v) { h[v] = C * unit[v]; });
-    to_estimate ? estimate_limited_growth(surface, *clusters, gradation, h, concurrency)
-                : limit_growth(edges, gradation, h, concurrency);
-    internal::for_each_index(concurrency, vertices, [&](int v) { rho[v] = C * C / (h[v] * h[v]); });
-    C = spacing_constant(surface, n, concurrency);
-  };
   double before = 0;
   for (int pass = 0; pass < passes && C > least_growth * before; ++pass) {
     const internal::Progress_part part(double(pass + 1) / passes);
     before = C;
-    limit(clusters.has_value());
+    C = limit(C);
   }
-  if (clusters) limit(false);
+  return C;
+}
+
+/// Raises `surface.vertex_density` where needed so that the spacing of `n` samples grows by at most
+/// `gradation` per unit of length; see `limit_repeatedly()`. With `clusters`, to an estimate but
+/// for the last time.
+inline void limit_gradation(Surface& surface, const Surface_edges& edges,
+                            const std::optional<Vertex_clusters>& clusters, double gradation,
+                            std::size_t n, internal::Concurrency concurrency = Sequential_tag())
+{
+  const int vertices = static_cast<int>(surface.points.size());
+  double* const rho = surface.vertex_density.data();
+  std::vector<double> relative(vertices), h(vertices);
+  internal::for_each_index(concurrency, vertices,
+                           internal::Find_relative_spacing{rho, relative.data()});
+  const auto limit = [&](double C, bool to_estimate) {
+    internal::for_each_index(concurrency, vertices,
+                             internal::Scale_spacing{C, relative.data(), h.data()});
+    to_estimate ? estimate_limited_growth(surface, *clusters, gradation, h, concurrency)
+                : limit_growth(edges, gradation, h, concurrency);
+    internal::for_each_index(concurrency, vertices,
+                             internal::Find_density_of_spacing{C, h.data(), rho});
+    return spacing_constant(surface, n, concurrency);
+  };
+  const double last = limit_repeatedly(spacing_constant(surface, n, concurrency),
+                                       [&](double C) { return limit(C, clusters.has_value()); });
+  if (clusters) limit(last, false);
 }
 
 } // namespace CGAL::PowerRTF

@@ -42,10 +42,17 @@ CGAL_POWER_RTF_HD inline bool atomic_min(int* p, int x)
 #endif
 }
 
-#ifndef __CUDA_ARCH__
 /// Returns the value before.
-inline int atomic_exchange(int* p, int x) { return __atomic_exchange_n(p, x, __ATOMIC_RELAXED); }
+CGAL_POWER_RTF_HD inline int atomic_exchange(int* p, int x)
+{
+#ifdef __CUDA_ARCH__
+  return atomicExch(p, x);
+#else
+  return __atomic_exchange_n(p, x, __ATOMIC_RELAXED);
+#endif
+}
 
+#ifndef __CUDA_ARCH__
 /// Writes `x` if it is larger than what stands there.
 inline void atomic_max(int* p, int x)
 {
@@ -55,23 +62,35 @@ inline void atomic_max(int* p, int x)
   }
 }
 
-inline double atomic_load(const double* p)
+#endif
+
+/// What other threads may have written meanwhile.
+CGAL_POWER_RTF_HD inline double atomic_load(const double* p)
 {
+#ifdef __CUDA_ARCH__
+  return *static_cast<const volatile double*>(p);
+#else
   double x;
   __atomic_load(p, &x, __ATOMIC_RELAXED);
   return x;
+#endif
 }
 
-/// Whether `x` is less than what stood there.
-inline bool atomic_min(double* p, double x)
+/// Whether `x` is less than what stood there; on a device, neither may be negative.
+CGAL_POWER_RTF_HD inline bool atomic_min(double* p, double x)
 {
   double before = atomic_load(p);
+#ifdef __CUDA_ARCH__
+  if (!(x < before)) return false;
+  const auto bits = static_cast<unsigned long long>(__double_as_longlong(x)); // in the same order
+  return bits < atomicMin(reinterpret_cast<unsigned long long*>(p), bits);
+#else
   while (x < before)
     if (__atomic_compare_exchange(p, &before, &x, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
       return true;
   return false;
-}
 #endif
+}
 
 /// Writes `x` where `expected` stands; returns what stood there.
 CGAL_POWER_RTF_HD inline int atomic_exchange_if(int* p, int expected, int x)
