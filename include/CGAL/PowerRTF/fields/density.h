@@ -7,6 +7,7 @@
 #define CGAL_POWER_RTF_FIELDS_DENSITY_H
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
+#include <CGAL/PowerRTF/fields/Compute_density.h>
 #include <CGAL/PowerRTF/fields/Vertex_clusters.h>
 #include <CGAL/PowerRTF/fields/curvature.h>
 #include <CGAL/PowerRTF/fields/density_steps.h>
@@ -108,13 +109,16 @@ inline void smooth_density(Surface& surface, const Surface_edges& edges,
 /// Sets `surface.vertex_density` as `options` asks: 1, or \f$\kappa^p\f$ with \f$p\f$ =
 /// `density_power`, its growth limited by `gradation`, smoothed over `density_smoothing` times the
 /// spacing. Only ratios of densities matter to any later stage.
+/// \param compute_there what computes the density that follows the curvature instead, where it does
 /// \throws Invalid_input_error an option has a value that is not allowed
 inline void set_density(Surface& surface, const Remeshing_options& options,
-                        internal::Concurrency concurrency = Sequential_tag())
+                        internal::Concurrency concurrency = Sequential_tag(),
+                        const Compute_density& compute_there = {})
 {
   validate(options);
   surface.vertex_density.assign(surface.points.size(), 1);
   if (options.density == Density::uniform) return;
+  if (compute_there && compute_there(surface, options, surface.vertex_density)) return;
   const Surface_edges edges = surface_edges(surface, concurrency);
   if (surface.creases.empty()) {
     surface.vertex_density = normalized_curvature(surface, edges, concurrency);
