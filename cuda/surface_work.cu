@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/engines/Cuda_engine_api.h>
 #include <CGAL/PowerRTF/engines/arrange_facets.h>
 #include <CGAL/PowerRTF/engines/build_surface.h>
+#include <CGAL/PowerRTF/fields/density_by_curvature.h>
 #include <CGAL/PowerRTF/fields/direction_diffusion.h>
 
 #include <vector>
@@ -43,6 +44,12 @@ Surface_work cuda_surface_work(int device)
                                  Child_boxes* nodes) {
     return done_on(device, [&](device::Cuda_backend& backend) {
       return arrange_facets(backend, points, triangles, order, nodes);
+    });
+  };
+  work.compute_density = [device](const Surface& surface, const Remeshing_options& options,
+                                  std::vector<double>& density) {
+    return done_on(device, [&](device::Cuda_backend& backend) {
+      return internal::density_by_curvature(backend, surface, options, density);
     });
   };
   work.diffuse_directions = [device](const Diffusion_graph& graph, int steps, Vec3d* directions) {

@@ -131,7 +131,7 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   const auto set_density_by_fields = [&] {
     fields.sizes       ? set_density_by_sizes(surface, *fields.sizes)
     : fields.densities ? set_density(surface, with_number, *fields.densities, concurrency)
-                       : set_density(surface, with_number, concurrency);
+                       : set_density(surface, with_number, concurrency, work.compute_density);
   };
   const auto set_fields = [&] {
     with_number.number_of_samples = number_of_samples(surface, options, concurrency);
