@@ -9,7 +9,7 @@
 #include <CGAL/PowerRTF/engines/arrange_facets.h>
 #include <CGAL/PowerRTF/engines/build_surface.h>
 #include <CGAL/PowerRTF/fields/density_by_curvature.h>
-#include <CGAL/PowerRTF/fields/direction_diffusion.h>
+#include <CGAL/PowerRTF/fields/normal_diffusion.h>
 
 #include <vector>
 
@@ -52,9 +52,9 @@ Surface_work cuda_surface_work(int device)
       return internal::density_by_curvature(backend, surface, options, density);
     });
   };
-  work.diffuse_directions = [device](const Diffusion_graph& graph, int steps, Vec3d* directions) {
+  work.diffuse_normals = [device](const Surface& surface, double variance, Vec3d* normals) {
     return done_on(device, [&](device::Cuda_backend& backend) {
-      return internal::diffuse_directions(backend, graph, steps, directions);
+      return internal::diffuse_normals(backend, surface, variance, normals);
     });
   };
   return work;

@@ -113,11 +113,9 @@ TEST_CASE("clean triangles become the surface and the tree that the host makes")
 
 TEST_CASE("normals are smoothed as on the host")
 {
-  const Diffuse_directions diffuse = [](const Diffusion_graph& graph, int steps,
-                                        Vec3d* directions) {
-    REQUIRE(Cuda_engine<float>::surface_work({}).diffuse_directions(graph, steps,
-                                                                    directions)); // not the host
-    return true;
+  const auto smooth = [](const Surface& surface, double variance, Vec3d* normals) {
+    REQUIRE(Cuda_engine<float>::surface_work({}).diffuse_normals(surface, variance, normals));
+    return true; // not the host
   };
   for (const shapes::Soup& soup : {shapes::octahedron(), shapes::icosphere(4),
                                    shapes::plane_patch(30, 7), shapes::torus(500, 300, 1, .3)})
@@ -131,8 +129,8 @@ TEST_CASE("normals are smoothed as on the host")
       rough.vertex_normals[0] = {0, 0, 1};
       const std::size_t n = std::max<std::size_t>(8, rough.points.size() / 20);
       Surface there = rough, again = rough, here = rough;
-      smooth_normals(there, n, width, CGAL::Parallel_if_available_tag(), diffuse);
-      smooth_normals(again, n, width, CGAL::Parallel_if_available_tag(), diffuse);
+      smooth_normals(there, n, width, CGAL::Parallel_if_available_tag(), smooth);
+      smooth_normals(again, n, width, CGAL::Parallel_if_available_tag(), smooth);
       smooth_normals(here, n, width, CGAL::Parallel_if_available_tag());
       double most = 0, moved = 0;
       for (std::size_t v = 0; v < rough.points.size(); ++v) {

@@ -5,6 +5,8 @@
 #include "../density_cases.h"
 
 #include <CGAL/PowerRTF/fields/density_by_curvature.h>
+#include <CGAL/PowerRTF/fields/normal_diffusion.h>
+#include <CGAL/PowerRTF/fields/smooth_normals.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <doctest/doctest.h>
@@ -89,4 +91,29 @@ TEST_CASE("a backend computes no density where the host would use clusters")
   }
   CHECK(there > 20);
   CHECK(not_there > 20);
+}
+
+TEST_CASE_TEMPLATE("a backend diffuses normals as the host does", Tag, CGAL::Sequential_tag,
+                   CGAL::Parallel_if_available_tag)
+{
+  int times = 0;
+  const auto there = [&](const Surface& surface, double variance, Vec3d* normals) {
+    Host_backend<Tag> backend;
+    ++times;
+    return internal::diffuse_normals(backend, surface, variance, normals);
+  };
+  for (const shapes::Soup& soup :
+       {shapes::octahedron(), shapes::plane_patch(30, 7), shapes::torus(50, 30, 1, .3)}) {
+    const Surface smooth = shapes::make_surface(soup);
+    Surface here = smooth;
+    for (std::size_t v = 0; v < here.points.size(); ++v)
+      here.vertex_normals[v] =
+          normalized(here.vertex_normals[v] + Vec3d{0.3 * double(v % 3), 0.2 * double(v % 5), 0});
+    Surface other = here;
+    smooth_normals(here, 100, 1.5);
+    smooth_normals(other, 100, 1.5, CGAL::Parallel_if_available_tag(), there);
+    CHECK(here.vertex_normals == other.vertex_normals);
+    CHECK(here.vertex_normals != smooth.vertex_normals);
+  }
+  CHECK(times == 3);
 }

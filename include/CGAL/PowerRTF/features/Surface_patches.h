@@ -8,7 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
-#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
+#include <CGAL/PowerRTF/fields/Diffuse_normals.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -27,7 +27,7 @@ public:
   /// \param diffuse what smooths the normals instead of the host, where it does
   Surface_patches(Surface& surface, const Remeshing_options& options,
                   internal::Concurrency concurrency = Sequential_tag(),
-                  const Diffuse_directions& diffuse = {});
+                  const Diffuse_normals& diffuse = {});
 
   Surface_patches(const Surface_patches&) = delete;
   Surface_patches& operator=(const Surface_patches&) = delete;

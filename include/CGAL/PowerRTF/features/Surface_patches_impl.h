@@ -23,8 +23,7 @@ namespace CGAL::PowerRTF {
 
 CGAL_POWER_RTF_INLINE
 Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& options,
-                                 internal::Concurrency concurrency,
-                                 const Diffuse_directions& diffuse)
+                                 internal::Concurrency concurrency, const Diffuse_normals& diffuse)
     : m_whole(surface)
 {
   const std::size_t n = options.number_of_samples;

@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_FIELDS_DIFFUSION_STAGE_H
 
 #include <CGAL/PowerRTF/geometry/Edges_view.h>
+#include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/host_device.h>
 
 #include <cmath>
@@ -26,6 +27,21 @@ CGAL_POWER_RTF_HD inline double diffusion_time(const Edges_view& edges, int v, d
   const double time = 2 * variance * degree / squares;
   return time < longest ? time : longest;
 }
+
+/// Sets these times, and finds the longest.
+struct Set_diffusion_times {
+  Edges_view edges;
+  double variance; ///< see `diffusion_variance()`
+  const double* density;
+  double longest;
+  double* times;
+
+  CGAL_POWER_RTF_HD void operator()(int v, Totals<0, 1>& most) const
+  {
+    times[v] = diffusion_time(edges, v, variance / density[v], longest);
+    most.raise(0, times[v]);
+  }
+};
 
 /// What a diffusion leaves as it is.
 struct Keep_value {

@@ -4,7 +4,7 @@
 #define CGAL_POWER_RTF_FIELDS_SURFACE_WORK_H
 
 #include <CGAL/PowerRTF/fields/Compute_density.h>
-#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
+#include <CGAL/PowerRTF/fields/Diffuse_normals.h>
 #include <CGAL/PowerRTF/geometry/Arrange_facets.h>
 #include <CGAL/PowerRTF/geometry/Build_surface.h>
 
@@ -17,7 +17,7 @@ struct Surface_work {
   Build_surface build;
   Arrange_facets arrange_facets;
   Compute_density compute_density;
-  Diffuse_directions diffuse_directions;
+  Diffuse_normals diffuse_normals;
 };
 
 } // namespace CGAL::PowerRTF

@@ -78,7 +78,7 @@ inline void smooth_density(Surface& surface, const Surface_edges& edges,
                            const std::optional<Vertex_clusters>& clusters, std::size_t n,
                            double width, Concurrency concurrency)
 {
-  using Times = Find_smoothing_times;
+  using Times = Density_diffusion;
   std::vector<double>& rho = surface.vertex_density;
   const double variance = diffusion_variance(surface, n, width, concurrency);
   const auto smooth = [&](const Surface_edges& graph, std::vector<double>& density) {

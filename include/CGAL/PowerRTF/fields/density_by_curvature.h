@@ -9,16 +9,15 @@
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/fields/Compute_density.h>
 #include <CGAL/PowerRTF/fields/Diffusion_stage.h>
+#include <CGAL/PowerRTF/fields/Edge_lists.h>
 #include <CGAL/PowerRTF/fields/Vertex_clusters.h>
 #include <CGAL/PowerRTF/fields/density_steps.h>
 #include <CGAL/PowerRTF/fields/diffusion.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/fields/growth_rounds.h>
-#include <CGAL/PowerRTF/geometry/Edges_view.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
-#include <CGAL/PowerRTF/internal/scan.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -61,9 +60,10 @@ class Density_by_curvature {
 public:
   Density_by_curvature(Backend& backend, const Surface& surface, const Remeshing_options& options)
       : m_backend(backend), m_surface(surface), m_options(options), m_total(backend),
-        m_vertices(static_cast<int>(surface.points.size()))
+        m_vertices(static_cast<int>(surface.points.size())), m_edges(backend, surface)
   {
     allocate_listed(backend, *this, surface);
+    uploaded(backend, m_areas, surface.facet_areas.data());
     m_density = m_values.data();
     m_spare = m_others.data();
   }
@@ -73,45 +73,21 @@ public:
   static void for_each_array(F&& f, const Surface& surface)
   {
     using D = Density_by_curvature;
-    const std::size_t vertices = surface.points.size(), corners = 3 * surface.triangles.size(),
-                      neighbors = corners + surface.adjacency.border_edges;
-    for (auto array : {&D::m_points, &D::m_normals}) f(array, vertices);
-    for (auto array : {&D::m_triangles, &D::m_corners, &D::m_opposite}) f(array, corners);
-    for (auto array : {&D::m_first_corner, &D::m_first}) f(array, vertices + 1);
+    const std::size_t vertices = surface.points.size();
+    f(&D::m_normals, vertices);
     for (auto array : {&D::m_values, &D::m_others, &D::m_relative, &D::m_spacing, &D::m_times})
       f(array, vertices);
     for (auto array : {&D::m_order, &D::m_lowered}) f(array, vertices);
     f(&D::m_last, 1);
     f(&D::m_keys, vertices);
     f(&D::m_areas, surface.triangles.size());
-    f(&D::m_neighbor, neighbors);
-    f(&D::m_length, neighbors);
-    f(&D::m_sums, scan_sums(static_cast<int>(vertices + 1)));
-  }
-
-  void list_edges()
-  {
-    const Facet_adjacency& adjacency = m_surface.adjacency;
-    const Vertex_neighbors neighbors{
-        uploaded(m_backend, m_first_corner, adjacency.corners.first.data()),
-        uploaded(m_backend, m_corners, adjacency.corners.entries.data()),
-        uploaded(m_backend, m_triangles, m_surface.triangles.data()->data()),
-        uploaded(m_backend, m_opposite, adjacency.opposite.data())};
-    const Vec3d* const points = uploaded(m_backend, m_points, m_surface.points.data());
-    uploaded(m_backend, m_areas, m_surface.facet_areas.data());
-    int* const first = m_first.data();
-    m_backend.fill(first + m_vertices, 0, 1);
-    m_backend.for_each(m_vertices, Count_neighbors{neighbors, first});
-    exclusive_scan(m_backend, m_vertices + 1, first, m_sums.data());
-    m_backend.for_each(
-        m_vertices, List_neighbors{neighbors, points, first, m_neighbor.data(), m_length.data()});
   }
 
   void set_to_curvature()
   {
     using Normalize = Normalize_curvature;
     const Vec3d* const normals = uploaded(m_backend, m_normals, m_surface.vertex_normals.data());
-    m_backend.for_each(m_vertices, Find_curvature{edges(), m_points.data(), normals, m_density});
+    m_backend.for_each(m_vertices, Find_curvature{edges(), m_edges.points(), normals, m_density});
     for (int pass = 0; pass < Normalize::smoothing_passes; ++pass) {
       m_backend.for_each(m_vertices, Smooth_over_edges{edges(), m_density, m_spare});
       std::swap(m_density, m_spare);
@@ -161,10 +137,11 @@ public:
     const double variance =
         diffusion_variance(integral(), m_options.number_of_samples, m_options.density_smoothing);
     const double longest =
-        total<0>(m_vertices, Find_smoothing_times{edges(), variance, m_density, m_times.data()});
+        total<0>(m_vertices, Set_diffusion_times{edges(), variance, m_density,
+                                                 Density_diffusion::longest, m_times.data()});
     m_backend.for_each(m_vertices, Take_logarithm{m_density});
-    m_density = diffuse(m_first.data(), m_neighbor.data(), m_times.data(), longest,
-                        Find_smoothing_times::steps, m_density, m_spare, Keep_value(),
+    m_density = diffuse(edges().first, edges().neighbor, m_times.data(), longest,
+                        Density_diffusion::steps, m_density, m_spare, Keep_value(),
                         [&](const auto& stage) { m_backend.for_each(m_vertices, stage); });
     m_backend.for_each(m_vertices, Take_exponential{m_density});
   }
@@ -179,7 +156,7 @@ private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Edges_view edges() const { return {m_first.data(), m_neighbor.data(), m_length.data()}; }
+  Edges_view edges() const { return m_edges.view(); }
 
   /// What `f(i, totals)` gathers over [0, n): a sum, or a maximum.
   template <int Sums, class F>
@@ -193,7 +170,7 @@ private:
   double integral()
   {
     return total<1>(static_cast<int>(m_areas.size()),
-                    Density_integral{m_triangles.data(), m_areas.data(), m_density});
+                    Density_integral{m_edges.vertices(), m_areas.data(), m_density});
   }
 
   double nth_value(std::size_t n)
@@ -213,10 +190,8 @@ private:
   typename Backend::template Shared_item<double> m_total;
   int m_vertices;
   double *m_density, *m_spare; // the values and the others, or the other way round
-  Buffer<Vec3d> m_points, m_normals;
-  Buffer<int> m_triangles, m_first_corner, m_corners, m_opposite;
-  Buffer<int> m_first, m_sums, m_neighbor; // of the edges
-  Buffer<double> m_length;
+  Edge_lists<Backend> m_edges;
+  Buffer<Vec3d> m_normals;
   Buffer<double> m_areas, m_values, m_others, m_relative, m_spacing, m_times;
   Buffer<std::uint64_t> m_keys;
   Buffer<int> m_order, m_lowered, m_last;
@@ -230,11 +205,11 @@ bool density_by_curvature(Backend& backend, const Surface& surface,
 {
   using Field = Density_by_curvature<Backend>;
   if (!surface.creases.empty() || surface.adjacency.non_manifold_edges > 0) return false;
-  if (!backend.has_room(bytes_of_listed<Field>(surface) +
+  if (!backend.has_room(bytes_of_listed<Edge_lists<Backend>>(surface) +
+                        bytes_of_listed<Field>(surface) +
                         Backend::sort_bytes(static_cast<int>(surface.points.size()))))
     return false;
   Field field(backend, surface, options);
-  field.list_edges();
   field.set_to_curvature();
   field.raise_to_power();
   const double C = field.spacing_constant();

@@ -166,21 +166,10 @@ struct Growth_bound {
   }
 };
 
-/// How long the logarithms of densities are diffused, and the longest time.
-struct Find_smoothing_times {
+/// How the logarithms of densities are diffused.
+struct Density_diffusion {
   static constexpr double longest = 4000; ///< shorter edges than a 45th of the width: less is done
   static constexpr int steps = 4;
-
-  Edges_view edges;
-  double variance; ///< see `diffusion_variance()`
-  const double* density;
-  double* times;
-
-  CGAL_POWER_RTF_HD void operator()(int v, Totals<0, 1>& most) const
-  {
-    times[v] = diffusion_time(edges, v, variance / density[v], longest);
-    most.raise(0, times[v]);
-  }
 };
 
 struct Take_logarithm {

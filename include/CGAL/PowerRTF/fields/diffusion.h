@@ -43,17 +43,18 @@ std::vector<double> diffusion_times(const Surface_edges& edges, const Variance& 
 }
 
 /// Diffuses `values` along `edges`; see Diffusion_stage.h.
-inline void diffuse(const Surface_edges& edges, const std::vector<double>& times, int steps,
-                    std::vector<double>& values,
-                    internal::Concurrency concurrency = Sequential_tag())
+template <class Value, class Finish = Keep_value>
+void diffuse(const Surface_edges& edges, const std::vector<double>& times, int steps,
+             std::vector<Value>& values, internal::Concurrency concurrency = Sequential_tag(),
+             const Finish& finish = {})
 {
   if (values.empty()) return;
   const int size = static_cast<int>(values.size());
-  internal::Unset_vector<double> others(values.size());
-  const double* const result = diffuse(
+  internal::Unset_vector<Value> others(values.size());
+  const Value* const result = diffuse(
       edges.first.data(), edges.neighbor.data(), times.data(),
-      *std::max_element(times.begin(), times.end()), steps, values.data(), others.data(),
-      Keep_value(), [&](const auto& stage) { internal::for_each_index(concurrency, size, stage); });
+      *std::max_element(times.begin(), times.end()), steps, values.data(), others.data(), finish,
+      [&](const auto& stage) { internal::for_each_index(concurrency, size, stage); });
   if (result != values.data())
     internal::for_each_index(concurrency, size, [&](int v) { values[v] = result[v]; });
 }

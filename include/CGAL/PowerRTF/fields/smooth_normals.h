@@ -8,14 +8,12 @@
 #ifndef CGAL_POWER_RTF_FIELDS_SMOOTH_NORMALS_H
 #define CGAL_POWER_RTF_FIELDS_SMOOTH_NORMALS_H
 
-#include <CGAL/PowerRTF/fields/Diffuse_directions.h>
+#include <CGAL/PowerRTF/fields/Diffuse_normals.h>
 #include <CGAL/PowerRTF/fields/diffusion.h>
-#include <CGAL/PowerRTF/fields/direction_diffusion.h>
+#include <CGAL/PowerRTF/fields/normal_diffusion.h>
 #include <CGAL/PowerRTF/geometry/surface_edges.h>
-#include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -24,29 +22,23 @@ namespace CGAL::PowerRTF {
 /// Smooths `surface.vertex_normals` by a diffusion of standard deviation `width` times the local
 /// spacing h_v = sqrt(integral(rho) / (n rho_v)) of `n` samples. Edges longer than that are hardly
 /// smoothed over, and where the edges are shorter than a quarter of it, less is smoothed.
-/// `diffuse_there`: what does the diffusion instead, where it does.
+/// `diffuse_there`: what does that instead, where it does.
 inline void smooth_normals(Surface& surface, std::size_t n, double width,
                            internal::Concurrency concurrency = Sequential_tag(),
-                           const Diffuse_directions& diffuse_there = {})
+                           const Diffuse_normals& diffuse_there = {})
 {
   if (!(width > 0) || surface.points.empty()) return;
-  constexpr double longest = 32;
-  constexpr int steps = 4;
-  const Surface_edges edges = surface_edges(surface, concurrency);
+  using Diffusion = internal::Normal_diffusion;
+  std::vector<Vec3d>& normals = surface.vertex_normals;
   const double variance = diffusion_variance(surface, n, width, concurrency);
+  if (diffuse_there && diffuse_there(surface, variance, normals.data())) return;
+  const Surface_edges edges = surface_edges(surface, concurrency);
   const std::vector<double> times = diffusion_times(
-      edges, [&](int v) { return variance / surface.vertex_density[v]; }, longest, concurrency);
-  const Diffusion_graph graph{static_cast<int>(surface.points.size()),
-                              static_cast<int>(edges.neighbor.size()),
-                              edges.first.data(),
-                              edges.neighbor.data(),
-                              times.data(),
-                              *std::max_element(times.begin(), times.end())};
-  Vec3d* const normals = surface.vertex_normals.data();
-  if (diffuse_there && diffuse_there(graph, steps, normals)) return;
-  internal::with_host_backend(concurrency, [&](auto backend) {
-    return internal::diffuse_directions(backend, graph, steps, normals);
-  });
+      edges, [&](int v) { return variance / surface.vertex_density[v]; }, Diffusion::longest,
+      concurrency);
+  const std::vector<Vec3d> original = normals;
+  diffuse(edges, times, Diffusion::steps, normals, concurrency,
+          internal::Keep_direction{original.data()});
 }
 
 } // namespace CGAL::PowerRTF
