@@ -110,9 +110,9 @@ struct Shape_facet {
   }
 };
 
-/// Joins the facets at a vertex, whose normal it sets. Counts vertices that need a closer look: two
-/// facets with the same vertices make the only disk of two.
-struct Close_vertex {
+/// Joins the facets at a vertex, whose normal it sets. Counts vertices that need a closer look, and
+/// edges on the border. Two facets with the same vertices make the only disk of two.
+struct Join_facets {
   const int* vertices;
   Corner_lists lists;
   const Facet_angles* angles;
@@ -120,19 +120,20 @@ struct Close_vertex {
   int *component, *opposite; ///< `component`: label trees
   Vec3d* normals;
 
-  CGAL_POWER_RTF_HD void operator()(int v, Totals<1, 0>& defects) const
+  CGAL_POWER_RTF_HD void operator()(int v, Totals<2, 0>& counts) const
   {
     const int n = lists.size(v);
-    if (n < 3) return defects.add(0, 1);
+    if (n == 0) return counts.add(0, 1);
     const int* const corners = lists[v];
     const Vertex_fan fan(vertices, v, corners, n);
-    if (!fan.is_single() || fan.border() >= 0) return defects.add(0, 1);
-    for (int k = 0; k < n; ++k) {
-      opposite[corners[fan.after(k)]] = previous_halfedge(corners[k]);
-      if (fan.next(k) < v) join_trees(component, v, fan.next(k)); // each edge once
-    }
+    const bool is_on_border = fan.border() >= 0;
+    if (!fan.is_single() || (n < 3 && !is_on_border)) return counts.add(0, 1);
+    write_opposites(fan, corners, n, opposite);
+    for (int k = 0; k < n; ++k)
+      if (fan.next(k) < v) join_trees(component, v, fan.next(k));
     normals[v] = vertex_normal(corners, corners + n, angles, facet_normals);
-    if (squared_length(normals[v]) == 0) defects.add(0, 1);
+    counts.add(0, squared_length(normals[v]) == 0);
+    counts.add(1, is_on_border);
   }
 };
 
@@ -249,20 +250,21 @@ bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
                                                    vertices, a.first.data()});
   backend.for_each(vertices, Set_to_own_number{a.component.data()});
   const Corner_lists lists{a.first.data(), nullptr, a.corners.data()};
-  backend.template reduce<1, 0>(vertices,
-                                Close_vertex{a.vertices.data(), lists, a.angles.data(),
-                                             a.facet_normals.data(), a.component.data(),
-                                             a.opposite.data(), a.vertex_normals.data()},
-                                Keep_sums<1>{sums + 2});
+  backend.template reduce<2, 0>(vertices,
+                                Join_facets{a.vertices.data(), lists, a.angles.data(),
+                                            a.facet_normals.data(), a.component.data(),
+                                            a.opposite.data(), a.vertex_normals.data()},
+                                Keep_sums<2>{sums + 2});
   backend.template reduce<1, 0>(vertices, Count_components{a.component.data()},
-                                Keep_sums<1>{sums + 3});
+                                Keep_sums<1>{sums + 4});
   Surface result; // its memory comes while the backend works
   allocate_surface(Backend::concurrency(), vertices, facets, result);
-  double found[4]; // area, defects of facets and of vertices, components
-  backend.download(found, sums, 4);
+  double found[5]; // area, defects of facets and of vertices, border edges, components
+  backend.download(found, sums, 5);
   if (found[1] > 0 || found[2] > 0) return false;
   result.area = found[0];
-  if (found[3] == 1) result.topology.value = one_component(vertices, facets);
+  result.adjacency.border_edges = static_cast<std::size_t>(found[3]);
+  if (found[3] == 0 && found[4] == 1) result.topology.value = one_component(vertices, facets);
   const auto take = [&](auto* to, const auto& from) {
     backend.download(to, from.data(), from.size());
   };

@@ -52,6 +52,15 @@ struct Set_to_own_number {
   CGAL_POWER_RTF_HD void operator()(int v) const { label[v] = v; }
 };
 
+/// Writes the opposites of the halfedges that leave a vertex with `n` corners; -1: on the border.
+CGAL_POWER_RTF_HD inline void write_opposites(const Vertex_fan& fan, const int* corners, int n,
+                                              int* opposite)
+{
+  if (fan.border() >= 0) opposite[corners[fan.border()]] = -1;
+  for (int k = 0; k < n; ++k)
+    if (fan.after(k) >= 0) opposite[corners[fan.after(k)]] = previous_halfedge(corners[k]);
+}
+
 /// Joins a vertex to its neighbors, and counts those whose triangles are not as they should be.
 struct Join_fan {
   const int* vertices;
@@ -79,12 +88,9 @@ private:
   CGAL_POWER_RTF_HD void write_links(const Vertex_fan& fan, int v, int n) const
   {
     const int* const corners = lists[v];
-    if (fan.border() >= 0) opposite[corners[fan.border()]] = -1;
+    write_opposites(fan, corners, n, opposite);
     int last = -1;
-    for (int k = 0; k < n; ++k) {
-      if (fan.after(k) >= 0) opposite[corners[fan.after(k)]] = previous_halfedge(corners[k]);
-      last = corners[k] > last ? corners[k] : last;
-    }
+    for (int k = 0; k < n; ++k) last = corners[k] > last ? corners[k] : last;
     last_corner[v] = last;
   }
 };

@@ -197,15 +197,17 @@ inline Surface compacted(Triangle_soup&& soup, const Normalization& normalizatio
 }
 
 /// Closes the cracks of an oriented 2-manifold: as many as can be while it stays one.
-inline void close_cracks(Triangle_soup& soup, Manifold_repair allowed, Repair_counts& repairs)
+inline void close_cracks(Triangle_soup& soup, Manifold_repair allowed, Repair_counts& repairs,
+                         Concurrency concurrency)
 {
   if (soup.adjacency.border_edges == 0) return;
-  const std::vector<int> vertex = merged_near_borders(soup.points, soup.triangles, soup.adjacency);
+  const std::vector<int> vertex =
+      merged_near_borders(soup.points, soup.triangles, soup.adjacency, concurrency);
+  if (vertex.empty()) return;
   Triangle_soup closed = soup;
   Repair_counts counts = repairs;
   for (std::size_t v = 0; v < vertex.size(); ++v)
     counts.duplicate_vertices += vertex[v] != static_cast<int>(v);
-  if (counts.duplicate_vertices == repairs.duplicate_vertices) return;
   for (Triangle& t : closed.triangles)
     for (int& v : t) v = vertex[v];
   counts.degenerate_facets += drop_collapsed(closed.triangles);
@@ -217,6 +219,13 @@ inline void close_cracks(Triangle_soup& soup, Manifold_repair allowed, Repair_co
   repairs = counts;
 }
 
+inline bool has_cracks(const Surface& surface, Concurrency concurrency)
+{
+  return surface.adjacency.border_edges > 0 &&
+         !merged_near_borders(surface.points, surface.triangles, surface.adjacency, concurrency)
+              .empty();
+}
+
 /// Makes the surface of polygons in the unit box. `vertex[v]` is the vertex that stands for `v`.
 /// `build`: what makes it elsewhere, where nothing has to be repaired; or empty.
 inline Repair_status make_surface(const Polygon_soup& polygons, const std::vector<Vec3d>& points,
@@ -226,7 +235,9 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
                                   const Build_surface& build)
 {
   std::vector<Triangle> triangles = triangulated(polygons, points, vertex, repairs, concurrency);
-  if (build && build(points, triangles, surface)) {
+  const bool closes_cracks = polygons.merges_vertices && allowed != Manifold_repair::none;
+  if (build && build(points, triangles, surface) &&
+      !(closes_cracks && has_cracks(surface, concurrency))) {
     surface.normalization = normalization;
     return {};
   }
@@ -238,8 +249,7 @@ inline Repair_status make_surface(const Polygon_soup& polygons, const std::vecto
   soup.update_adjacency(concurrency);
   Repair_status status = make_manifold(soup, allowed, repairs, concurrency);
   if (!status.is_done()) return status;
-  if (polygons.merges_vertices && allowed != Manifold_repair::none)
-    close_cracks(soup, allowed, repairs);
+  if (closes_cracks) close_cracks(soup, allowed, repairs, concurrency);
   if (degenerate > 0 && soup.seams.empty() && soup.contacts.empty()) {
     const std::size_t before = degenerate_facets(soup.points, soup.triangles).size();
     repairs.duplicate_vertices += remove_degenerate_facets(soup.points, soup.triangles);

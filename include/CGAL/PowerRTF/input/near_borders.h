@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -57,30 +56,44 @@ constexpr double crack_width = 1e-5;
 constexpr double crack_width_per_edge = 0.05;
 
 /// For each vertex the one that stands for it, once border vertices within the width of a crack are
-/// one. `points`: in the unit box.
+/// one; empty: all are as they were. `points`: in the unit box.
 inline std::vector<int> merged_near_borders(const std::vector<Vec3d>& points,
                                             const std::vector<Triangle>& triangles,
-                                            const Facet_adjacency& adjacency)
+                                            const Facet_adjacency& adjacency,
+                                            internal::Concurrency concurrency)
 {
-  std::vector<double> width(points.size(), std::numeric_limits<double>::infinity());
-  for (int h = 0; h < static_cast<int>(adjacency.opposite.size()); ++h) {
-    if (adjacency.opposite[h] != Facet_adjacency::none) continue;
+  const std::vector<int> halfedges =
+      internal::select(concurrency, static_cast<int>(adjacency.opposite.size()),
+                       [&](int h) { return adjacency.opposite[h] == Facet_adjacency::none; });
+  std::vector<int> border;
+  for (const int h : halfedges)
+    border.insert(border.end(), {halfedge_source(triangles, h), halfedge_target(triangles, h)});
+  sort_uniquely(border);
+  const auto place = [&](int v) {
+    return std::lower_bound(border.begin(), border.end(), v) - border.begin();
+  };
+  std::vector<double> width(border.size(), crack_width);
+  for (const int h : halfedges) {
     const int a = halfedge_source(triangles, h), b = halfedge_target(triangles, h);
     const double of_edge = crack_width_per_edge * length(points[b] - points[a]);
-    for (const int v : {a, b}) width[v] = (std::min)({width[v], crack_width, of_edge});
+    for (const int v : {a, b}) width[place(v)] = (std::min)(width[place(v)], of_edge);
   }
-  std::vector<int> border;
-  for (std::size_t v = 0; v < points.size(); ++v)
-    if (width[v] <= crack_width) border.push_back(static_cast<int>(v));
 
-  boost::disjoint_sets_with_storage<> merged(points.size());
+  boost::disjoint_sets_with_storage<> merged(border.size());
   const Point_grid grid(points, border, crack_width);
-  for (const int a : border)
-    grid.for_each_near(points[a], width[a], [&](int b, double squared_distance) {
-      if (squared_distance <= width[b] * width[b]) merged.union_set(a, b);
+  bool is_any_merged = false;
+  for (std::size_t k = 0; k < border.size(); ++k)
+    grid.for_each_near(points[border[k]], width[k], [&](int b, double squared_distance) {
+      const std::size_t other = place(b);
+      if (other == k || squared_distance > width[other] * width[other]) return;
+      merged.union_set(k, other);
+      is_any_merged = true;
     });
+  if (!is_any_merged) return {};
   std::vector<int> result(points.size());
-  for (std::size_t v = 0; v < points.size(); ++v) result[v] = merged.find_set(static_cast<int>(v));
+  internal::for_each_index(concurrency, static_cast<int>(result.size()),
+                           [&](int v) { result[v] = v; });
+  for (std::size_t k = 0; k < border.size(); ++k) result[border[k]] = border[merged.find_set(k)];
   return result;
 }
 
