@@ -219,6 +219,7 @@ inline void close_cracks(Triangle_soup& soup, Manifold_repair allowed, Repair_co
   repairs = counts;
 }
 
+/// Whether `close_cracks()` would try to close some.
 inline bool has_cracks(const Surface& surface, Concurrency concurrency)
 {
   return surface.adjacency.border_edges > 0 &&
