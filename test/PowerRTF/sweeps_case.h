@@ -13,12 +13,16 @@
 #include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
+#include <CGAL/PowerRTF/improvement/better_flips.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
+#include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
+#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace improvement_case {
@@ -27,8 +31,9 @@ class Sweeps_case {
 public:
   using Stars = internal::Flat_stars;
 
-  Sweeps_case(const shapes::Soup& soup, std::size_t n)
-      : m_case(make_case(soup, n, 1)), m_tree(m_case.surface.points, m_case.surface.triangles),
+  Sweeps_case(const shapes::Soup& soup, std::size_t n) : Sweeps_case(make_case(soup, n, 1)) {}
+  explicit Sweeps_case(Case c)
+      : m_case(std::move(c)), m_tree(m_case.surface.points, m_case.surface.triangles),
         m_projector(m_case.surface, m_tree), m_mesh(m_case.raw, m_projector)
   {}
 
@@ -90,6 +95,36 @@ inline std::vector<double> distances(const internal::Flat_stars& a, const intern
   for (std::size_t v = 0; v < a.points.size(); ++v)
     result.push_back(length(a.points[v] - b.points[v]));
   std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// What is to be found at doubtful vertices.
+struct Doubts {
+  int flips = 0, bad = 0; ///< edges of which a flip helps, bad triangles
+  int missed = 0;         ///< of these: at vertices that are not doubtful
+};
+
+/// Of a mesh whose vertices are where they are in `stars`.
+inline Doubts doubts(internal::Star_mesh mesh, const internal::Flat_stars& stars)
+{
+  mesh.move_all(stars);
+  const internal::Working_mesh& working = mesh.working();
+  Doubts result;
+  const auto note = [&](int& count, const auto& corners) {
+    ++count;
+    result.missed += std::none_of(corners.begin(), corners.end(), [&](const auto v) {
+      return std::binary_search(stars.doubtful.begin(), stars.doubtful.end(), int(v));
+    });
+  };
+  const auto energy = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    return internal::shape_energy(a, b, c);
+  };
+  for (const auto e : working.mesh.edges())
+    if (is_better_flipped(mesh, e, energy, 0, -1)) note(result.flips, mesh.corners(e));
+  for (const auto f : working.mesh.faces()) {
+    const auto [a, b, c] = mesh.points(working.mesh.halfedge(f));
+    if (internal::triangle_badness(a, b, c).badness > 0) note(result.bad, working.corners(f));
+  }
   return result;
 }
 

@@ -31,6 +31,14 @@ public:
     for_each_index(m_mesh->concurrency(), int(m_seen.size()), [&](int v) { m_seen[v] = 0; });
   }
 
+  /// These count as changed, and no others.
+  void assign(const std::vector<int>& vertices)
+  {
+    for_each_index(m_mesh->concurrency(), int(m_seen.size()),
+                   [&](int v) { m_seen[v] = m_mesh->changes(Vertex(v)); });
+    for (const int v : vertices) m_seen[v] = 0;
+  }
+
   /// Those that have changed, or their edges, since this was called last; in order.
   std::vector<int> take()
   {
@@ -42,10 +50,9 @@ public:
     return changed;
   }
 
-  /// Whether so few have changed that it pays to look at these alone.
-  bool are_few(const std::vector<int>& changed) const
+  /// Whether so few have changed, one in so many, that it pays to look at these alone.
+  bool are_few(const std::vector<int>& changed, std::size_t vertices_per_change = 32) const
   {
-    constexpr std::size_t vertices_per_change = 32;
     return changed.size() < m_seen.size() / vertices_per_change;
   }
 
@@ -68,9 +75,10 @@ std::vector<Star_mesh::Vertex> vertices_around(const Star_mesh& m, const Vertice
   });
 }
 
-/// The faces at the vertices that have edges; sorted.
-template <class Vertices>
-std::vector<Working_mesh::Face> faces_around(const Star_mesh& m, const Vertices& vertices)
+/// The faces at the vertices that have edges, of which `holds(face)`; sorted.
+template <class Vertices, class Holds>
+std::vector<Working_mesh::Face> faces_around(const Star_mesh& m, const Vertices& vertices,
+                                             const Holds& holds)
 {
   using Face = Working_mesh::Face;
   const auto& mesh = m.working().mesh;
@@ -78,7 +86,32 @@ std::vector<Working_mesh::Face> faces_around(const Star_mesh& m, const Vertices&
     const Star_mesh::Vertex v(vertices[k]);
     if (mesh.is_isolated(v)) return;
     for (const auto h : halfedges_around_target(v, mesh))
-      if (!mesh.is_border(h)) add(mesh.face(h));
+      if (!mesh.is_border(h) && holds(mesh.face(h))) add(mesh.face(h));
+  });
+}
+
+/// All of them.
+template <class Vertices>
+std::vector<Working_mesh::Face> faces_around(const Star_mesh& m, const Vertices& vertices)
+{
+  return faces_around(m, vertices, [](Working_mesh::Face) { return true; });
+}
+
+/// The edges of the faces at the vertices that have edges, of which `holds(edge)`; sorted.
+template <class Vertices, class Holds>
+std::vector<Star_mesh::Edge> edges_around(const Star_mesh& m, const Vertices& vertices,
+                                          const Holds& holds)
+{
+  using Edge = Star_mesh::Edge;
+  const auto& mesh = m.working().mesh;
+  return gather_uniquely<Edge>(m.concurrency(), int(vertices.size()), [&](int k, auto&& add) {
+    const Star_mesh::Vertex v(vertices[k]);
+    if (mesh.is_isolated(v)) return;
+    for (const auto h : halfedges_around_target(v, mesh))
+      for (const auto side : {h, mesh.prev(h)}) {
+        const Edge e(mesh.edge(side).idx()); // whichever halfedge it was found by
+        if (holds(e)) add(e);
+      }
   });
 }
 
@@ -88,6 +121,13 @@ public:
   using Face = Working_mesh::Face;
 
   explicit Watched_faces(const Star_mesh& mesh) : m_mesh(&mesh), m_changed(mesh) {}
+
+  /// It holds at most of faces at these vertices.
+  void assign(const std::vector<int>& vertices)
+  {
+    m_changed.assign(vertices);
+    m_faces.clear();
+  }
 
   /// Those of which `holds(face)`, sorted. \pre it is always the same question
   template <class Holds>
@@ -102,20 +142,17 @@ public:
         faces.push_back(face(k));
       return faces;
     };
+    constexpr std::size_t vertices_per_change = 6;
     const std::vector<int> changed = m_changed.take();
-    if (!m_changed.are_few(changed)) {
+    if (!m_changed.are_few(changed, vertices_per_change)) {
       m_faces = wanted(int(mesh.num_faces()), [](int f) { return Face(f); });
     } else if (!changed.empty()) {
-      const std::vector<Face> near = faces_around(*m_mesh, changed);
-      std::vector<Face> others, all;
-      std::set_difference(m_faces.begin(), m_faces.end(), near.begin(), near.end(),
-                          std::back_inserter(others));
-      others.erase(
-          std::remove_if(others.begin(), others.end(), [&](Face f) { return mesh.is_removed(f); }),
-          others.end());
-      const std::vector<Face> found = wanted(int(near.size()), [&](int k) { return near[k]; });
-      std::merge(others.begin(), others.end(), found.begin(), found.end(), std::back_inserter(all));
-      m_faces.swap(all);
+      const std::vector<Face> before =
+                                  wanted(int(m_faces.size()), [&](int k) { return m_faces[k]; }),
+                              near = faces_around(*m_mesh, changed, holds);
+      m_faces.clear();
+      std::set_union(before.begin(), before.end(), near.begin(), near.end(),
+                     std::back_inserter(m_faces));
     }
     return m_faces;
   }

@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -37,12 +39,14 @@ public:
       : m(mesh), m_tracker(tracker), m_flat(flat), m_sweeps(sweeps), m_badness_limit(limit)
   {}
 
-  void run()
+  /// \returns the vertices that are left doubtful.
+  std::vector<int> run()
   {
     Flat_stars stars = flat_stars(m);
     Flat_fit fit = equations(stars);
     m_sweeps.fit(stars, fit);
     m.move_all(stars, fit.heights.data());
+    return std::move(stars.doubtful);
   }
 
   /// What `Star_sweeps_base::fit()` has to know.

@@ -158,8 +158,8 @@ private:
       Dislocation_annihilator(stars).run();
     }
     part.next(0.4);
-    smoother.run(Schedule::last_smoothing_passes - passes_less);
     Bad_triangle_optimizer optimizer(stars);
+    optimizer.expect_at(smoother.run(Schedule::last_smoothing_passes - passes_less));
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
     const auto slide = [&] {
       Feature_slider slider(stars, m_surface);
@@ -181,7 +181,9 @@ private:
     optimize();
     m_tracker.update();
     part.next(0.75);
-    Surface_fitter(stars, m_tracker, m_prepared->flat, m_sweeps, Schedule::healable_badness).run();
+    optimizer.expect_at(
+        Surface_fitter(stars, m_tracker, m_prepared->flat, m_sweeps, Schedule::healable_badness)
+            .run());
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
     if (has_features && optimizer.is_needed()) slide();

@@ -55,6 +55,9 @@ public:
   /// Whether a triangle is worse than tolerable.
   bool is_needed() { return !faces_worse_than(Triangle_badness::tolerable).empty(); }
 
+  /// Triangles are bad at these vertices alone, if at all.
+  void expect_at(const std::vector<int>& vertices) { m_bad.assign(vertices); }
+
   /// Sorted. \pre `limit` >= 0
   std::vector<Face> faces_worse_than(double limit)
   {

@@ -6,6 +6,7 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
 #define CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
 
+#include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/better_flips.h>
@@ -15,6 +16,8 @@
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -25,15 +28,19 @@ public:
   using Edge = Star_mesh::Edge;
   using Halfedge = Star_mesh::Halfedge;
 
-  Mesh_smoother(Star_mesh& mesh, Star_sweeps_base& sweeps) : m(mesh), m_sweeps(sweeps) {}
+  Mesh_smoother(Star_mesh& mesh, Star_sweeps_base& sweeps)
+      : m(mesh), m_sweeps(sweeps), m_changed(mesh)
+  {}
 
-  /// Flips edges, then moves all vertices so many times.
-  void run(int steps)
+  /// Flips edges, then moves all vertices so many times. \returns those that are left doubtful.
+  std::vector<int> run(int steps)
   {
     flip();
     Flat_stars stars = flat_stars(m);
     m_sweeps.smooth(stars, steps);
     m.move_all(stars);
+    m_changed.assign(stars.doubtful);
+    return std::move(stars.doubtful);
   }
 
 private:
@@ -43,10 +50,7 @@ private:
   // Flips edges until that does not help any more.
   void flip()
   {
-    std::vector<Edge> edges; // that may be worth a flip
-    for (const int e : select(m.concurrency(), int(m.working().mesh.num_edges()),
-                              [this](int e) { return is_better_flipped(Edge(e)); }))
-      edges.push_back(Edge(e));
+    std::vector<Edge> edges = edges_to_flip();
     for (int pass = 0; pass < Parameters::max_flip_passes && !edges.empty(); ++pass) {
       std::vector<Edge> around;
       for (const Edge e : edges) {
@@ -62,6 +66,20 @@ private:
     }
   }
 
+  // Where something has changed, or the last sweeps have left doubts.
+  std::vector<Edge> edges_to_flip()
+  {
+    constexpr std::size_t vertices_per_change = 6;
+    const auto is_wanted = [this](Edge e) { return is_better_flipped(e); };
+    const std::vector<int> changed = m_changed.take();
+    if (m_changed.are_few(changed, vertices_per_change)) return edges_around(m, changed, is_wanted);
+    std::vector<Edge> edges;
+    for (const int e : select(m.concurrency(), int(m.working().mesh.num_edges()),
+                              [&](int e) { return is_wanted(Edge(e)); }))
+      edges.push_back(Edge(e));
+    return edges;
+  }
+
   bool is_better_flipped(Edge e) const
   {
     return internal::is_better_flipped(
@@ -71,6 +89,7 @@ private:
 
   Star_mesh& m;
   Star_sweeps_base& m_sweeps;
+  Changed_vertices m_changed; // since the last sweeps, and the doubtful ones
 };
 
 } // namespace CGAL::PowerRTF::internal

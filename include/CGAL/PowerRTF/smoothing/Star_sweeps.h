@@ -6,6 +6,7 @@
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 #include <CGAL/PowerRTF/smoothing/color_vertices.h>
+#include <CGAL/PowerRTF/smoothing/doubtful_stars.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <cstddef>
@@ -230,7 +231,7 @@ public:
     const std::vector<int> first = order(view, arrays);
     for (int step = 0; step < steps; ++step)
       for_each_vertex(first, arrays, internal::Smooth_vertices{view});
-    download(arrays, stars);
+    download(view, arrays, stars);
     return true;
   }
 
@@ -252,7 +253,7 @@ public:
     for (int sweep = 0; sweep < internal::Fitting_parameters::sweeps; ++sweep)
       for_each_vertex(first, arrays, Fit_rule<Part::step>{equations});
     for_each_vertex(first, arrays, Fit_rule<Part::move>{equations});
-    download(arrays, stars);
+    download(equations.stars, arrays, stars);
     m_backend.download(fit.heights.data(), fit_arrays.heights.data(), fit.heights.size());
     return true;
   }
@@ -300,8 +301,12 @@ private:
                          internal::In_order<Rule>{rule, arrays.order.data() + first[c]});
   }
 
-  void download(const Arrays& arrays, internal::Flat_stars& stars)
+  /// What has become of the stars, and which of them are doubtful.
+  void download(const internal::Star_view& view, Arrays& arrays, internal::Flat_stars& stars)
   {
+    m_backend.for_each(view.size, internal::Find_doubtful_stars{view, arrays.flags.data()});
+    stars.doubtful.resize(m_backend.select(view.size, arrays.flags.data(), arrays.order.data()));
+    m_backend.download(stars.doubtful.data(), arrays.order.data(), stars.doubtful.size());
     m_backend.download(stars.points.data(), arrays.points.data(), stars.points.size());
     m_backend.download(stars.normals.data(), arrays.normals.data(), stars.normals.size());
     m_backend.download(stars.facets.data(), arrays.facets.data(), stars.facets.size());

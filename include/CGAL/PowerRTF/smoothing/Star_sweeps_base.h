@@ -11,8 +11,8 @@
 
 namespace CGAL::PowerRTF {
 
-/// Looks at all vertices of a mesh again and again, where an engine works. What returns `false` has
-/// done nothing, as the memory does not suffice.
+/// Looks at all vertices of a mesh again and again, where an engine works, and in the end tells
+/// which are doubtful. What returns `false` has done nothing, as the memory does not suffice.
 class Star_sweeps_base {
 public:
   virtual ~Star_sweeps_base() = default;

@@ -9,6 +9,8 @@
 #include <CGAL/PowerRTF/geometry/snapped.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 
+#include <vector>
+
 namespace CGAL::PowerRTF::internal {
 
 /// What is known of a vertex: flags.
@@ -111,6 +113,7 @@ struct Flat_stars {
   Unset_vector<unsigned char> kinds;
   Unset_vector<Vec3d> points, normals;
   Unset_vector<int> facets;
+  std::vector<int> doubtful; ///< what sweeps find: vertices, sorted; see `Find_doubtful_stars`
 
   int size() const { return static_cast<int>(points.size()); }
 };

@@ -18,6 +18,9 @@ struct Triangle_badness {
   double inverse_mean_ratio = 1; ///< 1: equilateral
 
   static constexpr double tolerable = 0.0012; ///< Q .763, or 42.06 degrees, or 83.93 degrees
+  /// An inverse mean ratio: all below it are good. The least of those with an angle of 43.1 degrees
+  /// is 1.0730.
+  static constexpr double surely_good = 1.072;
 
   /// What the search lowers: badness first, then the shape of all.
   CGAL_POWER_RTF_HD double energy() const { return badness + 0.02 * (inverse_mean_ratio - 1); }
@@ -34,7 +37,6 @@ CGAL_POWER_RTF_HD inline Triangle_badness triangle_badness(const Vec3d& a, const
   constexpr double least_quality = 0.78, quality_weight = 4;
   constexpr double cot_smallest = 1.0686233026146528, smallest_weight = 3.648; // 43.1 degrees
   constexpr double cot_largest = 0.11924278068055229, largest_weight = 7.295;  // 83.2 degrees
-  constexpr double surely_good = 1.072; // the least of those with an angle of 43.1 degrees: 1.0730
   Triangle_badness result;
   const Vec3d ab = b - a, ac = c - a;
   const double squared_double_area = squared_length(cross(ab, ac));
@@ -45,7 +47,7 @@ CGAL_POWER_RTF_HD inline Triangle_badness triangle_badness(const Vec3d& a, const
   const double s0 = squared_length(ab), s1 = squared_length(ac), s2 = squared_length(c - b);
   const double sum = s0 + s1 + s2, quadruple_area = 2 * std::sqrt(squared_double_area);
   result.inverse_mean_ratio = sum / (1.7320508075688772 * quadruple_area);
-  if (result.inverse_mean_ratio < surely_good) return result;
+  if (result.inverse_mean_ratio < Triangle_badness::surely_good) return result;
   // the cotangent of the angle opposite to the edge s: (sum - 2 s) / quadruple_area
   const double shortest = smaller(s0, smaller(s1, s2)), longest = larger(s0, larger(s1, s2));
   const double smallest_excess = sum - 2 * shortest - cot_smallest * quadruple_area;
