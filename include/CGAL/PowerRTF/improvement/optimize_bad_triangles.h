@@ -232,8 +232,12 @@ private:
 
   void search(Vertex v)
   {
-    if (m.is_movable(v) && m.state_around(v) != m_failed_searches[v] && !move_to_better(v))
-      m_failed_searches[v] = m.state_around(v);
+    if (!m.is_movable(v) || m.state_around(v) == m_failed_searches[v]) return;
+    if (m_anchored[v] == 0) { // flips have led to it
+      m_anchored[v] = m_run;
+      m_anchors[v] = m.point(v);
+    }
+    if (!move_to_better(v)) m_failed_searches[v] = m.state_around(v);
   }
 
   bool move_to_better(Vertex v)
