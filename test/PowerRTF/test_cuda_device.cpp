@@ -425,9 +425,12 @@ TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
     REQUIRE(smooth.size() == int(mesh.mesh().size()));
     CHECK(improvement_case::distances(smooth, smooth_on_host).back() < 1e-11 * mesh.spacing());
     CHECK(mesh.smoothed(*device, 2).points == smooth.points);
+    CHECK(improvement_case::doubts(mesh.mesh(), smooth).missed == 0);
+    if (n > 1000) CHECK(smooth.doubtful.size() < 0.8 * n);
     double gain = 0, gain_on_host = 0;
     const auto fit = mesh.fitted(*device, gain), fit_on_host = mesh.fitted(*host, gain_on_host);
     REQUIRE(fit.size() == smooth.size());
+    CHECK(improvement_case::doubts(mesh.mesh(), fit).missed == 0);
     const std::vector<double> d = improvement_case::distances(fit, fit_on_host);
     CHECK(d[d.size() * 9 / 10] < bound * mesh.spacing());
     CHECK(std::fabs(gain - gain_on_host) < 0.01 * gain_on_host);
