@@ -361,9 +361,13 @@ private:
       return mesh;
     }
     if (!by_cells) return PowerRTF::extract_by_insertion(surface, samples, features, seams);
-    return PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
-        surface, samples, features, std::move(neighbors), nullptr, m_engine.close_face_finder(),
+    PowerRTF::Cell_extraction_statistics statistics;
+    PowerRTF::Extracted_mesh mesh = PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
+        surface, samples, features, std::move(neighbors), &statistics, m_engine.close_face_finder(),
         m_engine.sound_star_finder());
+    m_report.mended_samples =
+        statistics.is_from_insertion ? samples.size() : statistics.open_samples;
+    return mesh;
   }
 
   template <class Visitor>

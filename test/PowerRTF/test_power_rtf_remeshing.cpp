@@ -282,3 +282,15 @@ TEST_CASE("unusable input is refused; the output stays as it was")
   options.gradation = -1;
   refuse(sphere, 100, params::remeshing_options(options));
 }
+
+TEST_CASE("the report tells how many samples were mended, as the cells did not fit")
+{
+  Remeshing_options options;
+  options.density = Density::uniform;
+  CHECK(remesh(shapes::icosphere(4), 1000, options).report.mended_samples < 10);
+  const Soup thin = shapes::torus(60, 40, 1, 0.1);
+  const std::size_t some = remesh(thin, 200, options).report.mended_samples;
+  CHECK(some > 5);
+  CHECK(some < 100);
+  CHECK(remesh(thin, 60, options).report.mended_samples == 60); // all
+}

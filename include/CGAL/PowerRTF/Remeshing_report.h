@@ -150,6 +150,9 @@ struct Remeshing_report {
   std::size_t feature_samples = 0; ///< on creases and borders: they have no cells
   /// `Sampling::lattice`: first samples where it does not fit, as in gaps and on small components.
   std::size_t off_lattice_samples = 0;
+  /// Samples whose cells' triangles do not fit together or lie badly, so that they were made by
+  /// insertion, on the host; all of them where that made all triangles.
+  std::size_t mended_samples = 0;
   Cell_counts cells;            ///< at the end
   Capacity_statistics capacity; ///< at the end
   Repair_counts repairs;
