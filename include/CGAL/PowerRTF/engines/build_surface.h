@@ -129,7 +129,7 @@ struct Join_facets {
     const bool is_on_border = fan.border() >= 0;
     if (!fan.is_single() || (n < 3 && !is_on_border)) return counts.add(0, 1);
     write_opposites(fan, corners, n, opposite);
-    for (int k = 0; k < n; ++k)
+    for (int k = 0; k < n; ++k) // each edge once, where there is no border
       if (fan.next(k) < v) join_trees(component, v, fan.next(k));
     normals[v] = vertex_normal(corners, corners + n, angles, facet_normals);
     counts.add(0, squared_length(normals[v]) == 0);
