@@ -80,6 +80,7 @@ using Counted = Engine<float, Counting_backend, Host_cells>;
 struct Make_counted {
   using Concurrency_tag = CGAL::Sequential_tag;
   static void check(const Run_sizes&, const Remeshing_options&) {}
+  static Surface_work surface_work(const Remeshing_options&) { return {}; }
   static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
                                            const Remeshing_options& options)
   {
