@@ -4,7 +4,7 @@
 // The distance of two surfaces against closed forms.
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/engines/face_order.h>
+#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
@@ -143,7 +143,9 @@ TEST_CASE("distance: a backend has the faces in the order of their tree")
         shapes::permuted(shapes::icosphere(4), 1), Soup{{{1, 1, 1}}, {{0, 0, 0}}}}) {
     const int n = int(s.triangles.size());
     std::vector<int> order(n);
-    internal::order_faces(backend, s.points.data(), n, s.triangles.front().data(), order.data());
+    internal::order_along_curve(backend, n,
+                                internal::Face_centers{s.points.data(), s.triangles.front().data()},
+                                order.data());
     CHECK(order == Facet_tree(s.points, s.triangles).order());
   }
 }

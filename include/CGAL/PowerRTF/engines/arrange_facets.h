@@ -7,29 +7,15 @@
 
 #include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/geometry/Arrange_facets.h>
-#include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace CGAL::PowerRTF {
 
 namespace internal {
-
-struct Set_center {
-  const Vec3d* points;
-  const int* vertices;
-  Vec3d* centers;
-
-  CGAL_POWER_RTF_HD void operator()(int f) const
-  {
-    const int* const v = vertices + 3 * std::size_t(f);
-    centers[f] = center_of(points[v[0]], points[v[1]], points[v[2]]);
-  }
-};
 
 /// As `Box_of_facet`, of facets that are not yet in their places.
 struct Box_of_ordered_facet {
@@ -46,29 +32,13 @@ struct Box_of_ordered_facet {
   }
 };
 
-/// Fits the boxes of a node at some level.
-struct Fit_node {
-  Packed_tree_layout tree;
-  int level;
-  Box_of_ordered_facet box_of;
-  Box3<double>* boxes;
-  Child_boxes* nodes;
-
-  CGAL_POWER_RTF_HD void operator()(int k) const
-  {
-    fit_child_boxes(tree, level, k, box_of, boxes, nodes);
-  }
-};
-
 template <class Backend>
 struct Facet_arrangement {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Buffer<Vec3d> points, centers;
+  Buffer<Vec3d> points;
   Buffer<int> vertices, order;
-  Buffer<std::uint64_t> keys;
-  Buffer<double> maxima;
   Buffer<Box3<double>> boxes;
   Buffer<Child_boxes> nodes;
 
@@ -79,11 +49,8 @@ struct Facet_arrangement {
     using A = Facet_arrangement;
     const std::size_t nodes = Packed_tree_layout(static_cast<int>(facets)).nodes();
     f(&A::points, vertices);
-    f(&A::centers, facets);
     f(&A::vertices, 3 * facets);
     f(&A::order, facets);
-    f(&A::keys, facets);
-    f(&A::maxima, std::size_t(6));
     f(&A::boxes, nodes);
     f(&A::nodes, nodes);
   }
@@ -99,20 +66,15 @@ bool arrange_facets(Backend& backend, const std::vector<Vec3d>& points,
   using Arrays = internal::Facet_arrangement<Backend>;
   const int facets = static_cast<int>(triangles.size());
   if (!backend.has_room(internal::bytes_of_listed<Arrays>(points.size(), triangles.size()) +
-                        backend.sort_bytes(facets)))
+                        internal::order_bytes<Backend>(triangles.size())))
     return false;
   Arrays a;
   internal::allocate_listed(backend, a, points.size(), triangles.size());
   const Vec3d* const p = internal::uploaded(backend, a.points, points.data());
   const int* const v = internal::uploaded(backend, a.vertices, triangles.data()->data());
-  backend.for_each(facets, internal::Set_center{p, v, a.centers.data()});
-  internal::order_along_curve(backend, facets, a.centers.data(), a.maxima.data(), a.keys.data(),
-                              a.order.data());
-  const Packed_tree_layout tree(facets);
-  for (int level = 0; level < tree.levels; ++level)
-    backend.for_each(
-        tree.nodes(level),
-        internal::Fit_node{tree, level, {p, v, a.order.data()}, a.boxes.data(), a.nodes.data()});
+  internal::order_along_curve(backend, facets, internal::Face_centers{p, v}, a.order.data());
+  fit_tree(backend, Packed_tree_layout(facets),
+           internal::Box_of_ordered_facet{p, v, a.order.data()}, a.boxes.data(), a.nodes.data());
   backend.download(order, a.order.data(), a.order.size());
   backend.download(nodes, a.nodes.data(), a.nodes.size());
   return true;

@@ -57,17 +57,6 @@ struct Renumber_facet {
   }
 };
 
-struct Place_facet {
-  const int *from, *order;
-  int* vertices;
-
-  CGAL_POWER_RTF_HD void operator()(int place) const
-  {
-    const int* const v = from + 3 * std::size_t(order[place]);
-    for (int k = 0; k < 3; ++k) vertices[3 * std::size_t(place) + k] = v[k];
-  }
-};
-
 struct Set_vertex_key {
   const int* vertices;
   std::uint64_t* keys;
@@ -172,8 +161,8 @@ struct Surface_building {
     f(&A::facet_normals, facets);
     f(&A::areas, facets);
     f(&A::angles, facets);
-    f(&A::keys, 3 * facets > vertices ? 3 * facets : vertices);
-    f(&A::sums, std::size_t(6)); // those of order_along_curve()
+    f(&A::keys, 3 * facets);
+    f(&A::sums, std::size_t(5));
   }
 };
 
@@ -181,14 +170,14 @@ struct Surface_building {
 template <class Backend>
 void sort_spatially(Backend& backend, Surface_building<Backend>& a, int vertices, int facets)
 {
-  order_along_curve(backend, vertices, a.given_points.data(), a.sums.data(), a.keys.data(),
+  order_along_curve(backend, vertices, Points_themselves{a.given_points.data()},
                     a.vertex_order.data());
   backend.for_each(vertices, Place_point{a.given_points.data(), a.vertex_order.data(),
                                          a.points.data(), a.places.data()});
   backend.for_each(facets, Renumber_facet{a.places.data(), a.given_vertices.data(), a.keys.data()});
   backend.sort_order(facets, a.keys.data(), a.facet_order.data());
   backend.for_each(facets,
-                   Place_facet{a.given_vertices.data(), a.facet_order.data(), a.vertices.data()});
+                   Order_corners{a.given_vertices.data(), a.facet_order.data(), a.vertices.data()});
 }
 
 /// The topology of a closed surface that hangs together.
@@ -230,7 +219,7 @@ bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
             corners = 3 * facets;
   Surface_building<Backend> a;
   if (!backend.has_room(bytes_of_listed<Surface_building<Backend>>(vertices, facets) +
-                        backend.sort_bytes(corners)))
+                        backend.sort_bytes(corners) + order_bytes<Backend>(points.size())))
     return false;
   allocate_listed(backend, a, std::size_t(vertices), std::size_t(facets));
   const bool is_sorted = triangles.size() > facets_in_caches;
@@ -243,7 +232,7 @@ bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
   backend.template reduce<2, 0>(facets,
                                 Shape_facet{a.points.data(), a.vertices.data(), a.areas.data(),
                                             a.facet_normals.data(), a.angles.data()},
-                                Keep_sums<2>{sums});
+                                Keep_totals{sums});
   backend.for_each(corners, Set_vertex_key{a.vertices.data(), a.keys.data()});
   backend.sort_order(corners, a.keys.data(), a.corners.data());
   backend.for_each(corners + 1, Mark_first_corners{a.vertices.data(), a.corners.data(), corners,
@@ -254,9 +243,9 @@ bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
                                 Join_facets{a.vertices.data(), lists, a.angles.data(),
                                             a.facet_normals.data(), a.component.data(),
                                             a.opposite.data(), a.vertex_normals.data()},
-                                Keep_sums<2>{sums + 2});
+                                Keep_totals{sums + 2});
   backend.template reduce<1, 0>(vertices, Count_components{a.component.data()},
-                                Keep_sums<1>{sums + 4});
+                                Keep_totals{sums + 4});
   Surface result; // its memory comes while the backend works
   allocate_surface(Backend::concurrency(), vertices, facets, result);
   double found[5]; // area, defects of facets and of vertices, border edges, components

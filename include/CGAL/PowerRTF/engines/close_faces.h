@@ -6,7 +6,7 @@
 #ifndef CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 #define CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 
-#include <CGAL/PowerRTF/engines/face_order.h>
+#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Parting_plane.h>
 #include <CGAL/PowerRTF/geometry/box_around.h>
@@ -156,7 +156,7 @@ bool close_faces(Backend& backend, int vertices, const Vec3d* points, int n, con
   allocate_listed(backend, a, vertices, n, capacity);
   backend.upload(a.points.data(), points, vertices);
   backend.upload(a.corners.data(), corners, 3 * std::size_t(n));
-  order_faces(backend, a.points.data(), n, a.corners.data(), a.order.data());
+  order_along_curve(backend, n, Face_centers{a.points.data(), a.corners.data()}, a.order.data());
   backend.for_each(n,
                    Gather_faces{a.points.data(), a.corners.data(), a.order.data(), a.faces.data()});
   const Packed_tree_layout tree(n);

@@ -128,16 +128,6 @@ struct Count_loops {
   }
 };
 
-template <int Sums>
-struct Keep_sums {
-  double* sums;
-
-  CGAL_POWER_RTF_HD void operator()(const Totals<Sums, 0>& t) const
-  {
-    for (int k = 0; k < Sums; ++k) sums[k] = t.sum(k);
-  }
-};
-
 template <class Backend>
 struct Topology_arrays {
   template <class T>
@@ -200,9 +190,9 @@ std::optional<Topology_statistics> oriented_topology(Backend& backend, int verti
   backend.for_each(vertices, Set_to_own_number{component});
   backend.template reduce<1, 0>(vertices,
                                 Join_fan{corners, lists, component, next, opposite, last_corner},
-                                Keep_sums<1>{sums});
+                                Keep_totals{sums});
   backend.template reduce<3, 0>(vertices, Count_parts{lists, component, next},
-                                Keep_sums<3>{sums + 1});
+                                Keep_totals{sums + 1});
   double counts[4];
   backend.download(counts, sums, 4);
   if (counts[0] > 0) return std::nullopt;
@@ -224,7 +214,7 @@ std::optional<Topology_statistics> oriented_topology(Backend& backend, int verti
   if (result.border_edges == 0) return result;
   backend.for_each(vertices, Set_to_own_number{component});
   backend.for_each(vertices, Join_on_border{next, component});
-  backend.template reduce<1, 0>(vertices, Count_loops{next, component}, Keep_sums<1>{sums});
+  backend.template reduce<1, 0>(vertices, Count_loops{next, component}, Keep_totals{sums});
   backend.download(counts, sums, 1);
   result.border_loops = static_cast<std::size_t>(counts[0]);
   return result;

@@ -6,7 +6,7 @@
 #ifndef CGAL_POWER_RTF_ENGINES_PLACED_FACETS_H
 #define CGAL_POWER_RTF_ENGINES_PLACED_FACETS_H
 
-#include <CGAL/PowerRTF/engines/face_order.h>
+#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
@@ -14,18 +14,6 @@
 #include <cstddef>
 
 namespace CGAL::PowerRTF::internal {
-
-struct Order_corners {
-  const int* corners;
-  const int* order;
-  int* ordered;
-
-  CGAL_POWER_RTF_HD void operator()(int place) const
-  {
-    const std::size_t from = 3 * std::size_t(order[place]), to = 3 * std::size_t(place);
-    for (int k = 0; k < 3; ++k) ordered[to + k] = corners[from + k];
-  }
-};
 
 struct Place_facets {
   const Vec3d* points;
@@ -117,7 +105,8 @@ Surface_view<double> placed_mesh(Backend& backend, const Mesh_arrays& mesh,
   typename Mesh_tree_arrays<Backend>::Construction a;
   allocate_listed(backend, a, tree);
   const int* const corners = uploaded(backend, a.corners, mesh.corners);
-  order_faces(backend, arrays.points.data(), mesh.faces, corners, a.order.data());
+  order_along_curve(backend, mesh.faces, Face_centers{arrays.points.data(), corners},
+                    a.order.data());
   backend.for_each(mesh.faces, Order_corners{corners, a.order.data(), result.corners.data()});
   const Surface_view<double> view =
       placed_facets(backend, arrays, tree, result.corners.data(), result.nodes.data());

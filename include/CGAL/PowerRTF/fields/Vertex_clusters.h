@@ -32,7 +32,7 @@ namespace internal {
 
 /// Of the vertices that may be left as centers if there is to be a further level of clusters: it
 /// costs as much as it has vertices.
-constexpr double largest_share = 0.7;
+constexpr double largest_share_of_centers = 0.7;
 
 /// A maximal set of vertices no two of which an edge joins that is not longer than `longest`: the
 /// one that is made by taking vertices in a random order, whatever the threads do.
@@ -151,7 +151,7 @@ inline Vertex_clusters vertex_clusters(const std::vector<Vec3d>& points, const S
   Vertex_clusters all = internal::cluster_once(
       points, edges, [](int v) { return v; }, longest, concurrency);
   for (std::size_t before = points.size();
-       double(all.centers.size()) < internal::largest_share * double(before);) {
+       double(all.centers.size()) < internal::largest_share_of_centers * double(before);) {
     before = all.centers.size();
     Vertex_clusters next = internal::cluster_once(
         points, all.edges, [&](int c) { return all.centers[c]; }, longest, concurrency);

@@ -43,16 +43,6 @@ struct Find_largest {
   CGAL_POWER_RTF_HD void operator()(int v, Totals<0, 1>& most) const { most.raise(0, values[v]); }
 };
 
-struct Keep_total {
-  double* total;
-
-  template <class T>
-  CGAL_POWER_RTF_HD void operator()(const T& totals) const
-  {
-    *total = totals.values[0];
-  }
-};
-
 /// The steps of `density_by_curvature()`. What they read and write stays where the backend works;
 /// the host knows totals only.
 template <class Backend>
@@ -116,7 +106,7 @@ public:
   bool may_have_clusters(double C)
   {
     const double near = total<1>(m_vertices, Count_near{edges(), Count_near::distance * C});
-    return m_vertices - near < largest_share * m_vertices;
+    return m_vertices - near < largest_share_of_centers * m_vertices;
   }
 
   void limit_gradation(double first_constant)
@@ -162,7 +152,7 @@ private:
   template <int Sums, class F>
   double total(int n, const F& f)
   {
-    m_backend.template reduce<Sums, 1 - Sums>(n, f, Keep_total{m_total.data()});
+    m_backend.template reduce<Sums, 1 - Sums>(n, f, Keep_totals{m_total.data()});
     m_backend.synchronize();
     return *m_total.data();
   }

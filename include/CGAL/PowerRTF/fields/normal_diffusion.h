@@ -9,7 +9,10 @@
 #include <CGAL/PowerRTF/fields/Diffusion_stage.h>
 #include <CGAL/PowerRTF/fields/Edge_lists.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/internal/Totals.h>
+#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <cstddef>
 
@@ -28,11 +31,6 @@ struct Keep_direction {
   {
     return squared_length(mean) > 0 ? normalized(mean) : original[v];
   }
-};
-
-struct Keep_longest {
-  double* longest;
-  CGAL_POWER_RTF_HD void operator()(const Totals<0, 1>& t) const { *longest = t.maximum(0); }
 };
 
 template <class Backend>
@@ -71,7 +69,7 @@ bool diffuse_normals(Backend& backend, const Surface& surface, double variance, 
   const double* const density = uploaded(backend, a.density, surface.vertex_density.data());
   backend.template reduce<0, 1>(
       n, Set_diffusion_times{edges, variance, density, Normal_diffusion::longest, a.times.data()},
-      Keep_longest{a.longest.data()});
+      Keep_totals{a.longest.data()});
   double longest;
   backend.download(&longest, a.longest.data(), 1);
   const Keep_direction keep{uploaded(backend, a.original, normals)};
@@ -79,7 +77,9 @@ bool diffuse_normals(Backend& backend, const Surface& surface, double variance, 
       diffuse(edges.first, edges.neighbor, a.times.data(), longest, Normal_diffusion::steps,
               uploaded(backend, a.normals, normals), a.others.data(), keep,
               [&](const auto& stage) { backend.for_each(n, stage); });
-  backend.download(normals, result, n);
+  Unset_vector<Vec3d> diffused(n); // a download that fails leaves the normals as they were
+  backend.download(diffused.data(), result, n);
+  for_each_index(Backend::concurrency(), n, [&](int v) { normals[v] = diffused[v]; });
   return true;
 }
 

@@ -32,6 +32,17 @@ struct Totals {
   }
 };
 
+/// Where a reduction ends: writes the totals, the sums first.
+struct Keep_totals {
+  double* values;
+
+  template <int Sums, int Maxima>
+  CGAL_POWER_RTF_HD void operator()(const Totals<Sums, Maxima>& totals) const
+  {
+    for (int k = 0; k < totals.size; ++k) values[k] = totals.values[k];
+  }
+};
+
 } // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_INTERNAL_TOTALS_H
