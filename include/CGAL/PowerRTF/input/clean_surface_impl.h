@@ -324,6 +324,7 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
                     unused = count([&](int v) { return !used[v]; });
 
   std::string reason;
+  Build_surface untried = unused == 0 ? build : Build_surface(); // its triangles never change
   for (const auto& [merges, allowed, is_of_pinches] :
        repair_attempts(repair, non_manifold, duplicates > 0)) {
     if (is_of_pinches && number_of_parts(soup, vertex, concurrency) !=
@@ -332,11 +333,12 @@ CGAL_POWER_RTF_INLINE Surface clean_surface(const Polygon_soup& soup, Repair rep
     Repair_counts counts = repairs;
     counts.unused_vertices += unused;
     if (merges) counts.duplicate_vertices += duplicates;
-    const bool has_all_points = unused == 0 && (!merges || duplicates == 0);
+    const Build_surface build_now =
+        merges && duplicates > 0 ? Build_surface() : std::exchange(untried, {});
     Surface surface;
     const Repair_status status =
         make_surface(soup, boxed.points, merges ? vertex : own_vertex, boxed.normalization, allowed,
-                     counts, surface, concurrency, has_all_points ? build : Build_surface());
+                     counts, surface, concurrency, build_now);
     if (status.is_done() && (merges || surface.adjacency.border_edges == 0)) {
       repairs = counts;
       return surface;
