@@ -36,7 +36,7 @@ public:
   CGAL_POWER_RTF_HD bool exists() const
   {
     const Vec3d c = m_p[0] + m_p[1] + m_p[2], d = m_q[0] + m_q[1] + m_q[2];
-    if (!m_is_shared) return parts(d - c) || is_along(m_p) || is_along(m_q);
+    if (!m_is_shared) return parts(d - c) || is_along(m_p) || is_along(m_q) || is_along_edges();
     return parts(d - c) || parts(normalized(d) - normalized(c)) || is_between_edges();
   }
 
@@ -57,6 +57,15 @@ private:
     if (parts(n)) return true;
     for (int k = 0; k < 3; ++k)
       if (parts(cross(n, t[(k + 1) % 3] - t[k]))) return true;
+    return false;
+  }
+
+  // One along an edge of each.
+  CGAL_POWER_RTF_HD bool is_along_edges() const
+  {
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        if (parts(cross(m_p[(k + 1) % 3] - m_p[k], m_q[(l + 1) % 3] - m_q[l]))) return true;
     return false;
   }
 

@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,17 @@ struct Star {
   void for_each(const F& f) const
   {
     for (const Corner& c : corners) f(c);
+  }
+
+  /// `sum` and `energy(p, a, b)`, never negative, of the triangles with the center at `p`; or what
+  /// is no less than `limit`.
+  template <class Energy>
+  double sum(const Vec3d& p, const Energy& energy,
+             double limit = std::numeric_limits<double>::infinity(), double sum = 0) const
+  {
+    for (const Corner& c : corners)
+      if (!((sum += energy(p, c.a, c.b)) < limit)) break;
+    return sum;
   }
 };
 
@@ -227,24 +239,34 @@ public:
     return star_agreement(*this, star, p, normal);
   }
 
-  /// The same for one triangle. Between features alone the surface's nearest facet counts.
-  double agreement(Vertex a, Vertex b, Vertex c) const
+  /// A triangle with the normals of the surface at its corners; 0: on a feature.
+  struct Placed_triangle {
+    std::array<Vec3d, 3> points, normals;
+  };
+  Placed_triangle placed(Vertex a, Vertex b, Vertex c) const
   {
-    const Vec3d n = m.area_vector(a, b, c);
+    const auto normal = [this](Vertex v) { return m_on_feature[v] ? Vec3d{0, 0, 0} : m.normals[v]; };
+    return {{m.point(a), m.point(b), m.point(c)}, {normal(a), normal(b), normal(c)}};
+  }
+
+  /// The same for one triangle. Between features alone the surface's nearest facet counts.
+  double agreement(const Placed_triangle& t) const
+  {
+    const auto& [a, b, c] = t.points;
+    const Vec3d n = cross(b - a, c - a);
     const double l = length(n);
     if (!(l > 0)) return -1;
     double least = l;
     bool has_normal = false;
-    for (const Vertex v : {a, b, c})
-      if (!m_on_feature[v]) {
-        least = std::min(least, dot(n, m.normals[v]));
+    for (const Vec3d& normal : t.normals)
+      if (!(normal == Vec3d{0, 0, 0})) {
+        least = std::min(least, dot(n, normal));
         has_normal = true;
       }
-    if (!has_normal)
-      least =
-          dot(n, m_projector->nearest((m.point(a) + m.point(b) + m.point(c)) * (1 / 3.)).normal);
+    if (!has_normal) least = dot(n, m_projector->nearest((a + b + c) * (1 / 3.)).normal);
     return least / l;
   }
+  double agreement(Vertex a, Vertex b, Vertex c) const { return agreement(placed(a, b, c)); }
 
   /// The corners of its two triangles: its ends and the two that a flip joins.
   std::array<Vertex, 4> corners(Edge e) const

@@ -205,9 +205,7 @@ private:
   double unroundness_around(const Star& star, const Vec3d& p) const
   {
     constexpr Unroundness unroundness{Improvement_parameters::Rounding::last_badness_weight};
-    double sum = 0;
-    for (const Star::Corner& c : star.corners) sum += unroundness(p, c.a, c.b);
-    return m_terms.unroundness_weight * sum / double(star.corners.size());
+    return m_terms.unroundness_weight * star.sum(p, unroundness) / double(star.corners.size());
   }
 
   // The largest distance of the mesh around `v`, with `v` at `p`, and of the surface there; or any

@@ -136,12 +136,9 @@ private:
     return std::accumulate(each.begin(), each.end(), 0.);
   }
 
-  // Adds the triangles' energies to `sum`, until that is no less than `limit`.
-  static double star_energy(const Star& star, const Vec3d& p, double sum, double limit)
+  static double triangle_energy(const Vec3d& a, const Vec3d& b, const Vec3d& c)
   {
-    for (const Star::Corner& c : star.corners)
-      if (!((sum += triangle_badness(p, c.a, c.b).energy()) < limit)) break;
-    return sum;
+    return triangle_badness(a, b, c).energy();
   }
 
   // The worst triangles first: their sum soon tells that a place is no better.
@@ -149,7 +146,7 @@ private:
   {
     boost::container::small_vector<std::pair<double, Star::Corner>, 12> corners;
     for (const Star::Corner& c : star.corners)
-      corners.emplace_back(-triangle_badness(p, c.a, c.b).energy(), c);
+      corners.emplace_back(-triangle_energy(p, c.a, c.b), c);
     std::stable_sort(corners.begin(), corners.end(),
                      [](const auto& x, const auto& y) { return x.first < y.first; });
     std::transform(corners.begin(), corners.end(), star.corners.begin(),
@@ -251,7 +248,7 @@ private:
                         (scale * scale);
     constexpr double unlimited = std::numeric_limits<double>::infinity();
     const auto energy = [&](const Vec3d& q, double limit) {
-      return star_energy(star, q, pull * squared_length(q - m_anchors[v]), limit);
+      return star.sum(q, triangle_energy, limit, pull * squared_length(q - m_anchors[v]));
     };
     const double start = energy(p, unlimited);
     double least = start;

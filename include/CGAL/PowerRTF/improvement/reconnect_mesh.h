@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -142,19 +143,24 @@ private:
     m.working().add_neighbors(around);
     if (has_hub(around)) return false;
     const Mesh_rounder::Patch was = m_rounder.patch(around);
-    const double least_agreement = std::min(Parameters::min_agreement, m_rounder.agreement(around));
+    const auto were = m_rounder.triangles(around);
     Star_mesh::Checkpoint before(m);
     change(corners, around);
     const double enough = was.sum - least_gain;
+    const auto agrees = [&] {
+      const double agreement = m_rounder.agreement(m_rounder.triangles(around));
+      return agreement >= Parameters::min_agreement || agreement >= m_rounder.agreement(were);
+    };
     Mesh_rounder::Patch now;
     for (int pass = 0; pass <= Parameters::passes; ++pass) {
       m_rounder.move(pass == 0 ? corners : around, Parameters::first_step / std::max(1, pass));
       if (pass > 0) m_rounder.flip_at(corners);
-      now = m_rounder.patch(around);
-      if (pass < int(hopeless.size()) && now.sum > enough + hopeless[pass]) break;
+      const double hope = pass < int(hopeless.size()) ? enough + hopeless[pass]
+                                                      : std::numeric_limits<double>::infinity();
+      now = m_rounder.patch(around, hope);
+      if (now.sum > hope) break;
     }
-    if (now.sum < clearly_less * enough && now.most <= std::max(most, was.most) &&
-        m_rounder.agreement(around) >= least_agreement)
+    if (now.sum < clearly_less * enough && now.most <= std::max(most, was.most) && agrees())
       return true;
     before.rewind();
     return false;

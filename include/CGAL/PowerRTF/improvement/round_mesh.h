@@ -91,25 +91,35 @@ public:
     double sum = 0, most = 0;
   };
 
-  Patch patch(const std::vector<Vertex>& vertices) const
+  /// Its sum ends once it is more than `limit`.
+  Patch patch(const std::vector<Vertex>& vertices,
+              double limit = std::numeric_limits<double>::infinity()) const
   {
     Patch result;
     for (const Face f : m.working().faces_at(vertices)) {
       const double x = unroundness(f);
       result.sum += x;
       result.most = std::max(result.most, x);
+      if (result.sum > limit) break;
     }
     return result;
   }
 
-  /// The least agreement of these faces, which may take a search for each.
-  double agreement(const std::vector<Vertex>& vertices) const
+  std::vector<Star_mesh::Placed_triangle> triangles(const std::vector<Vertex>& vertices) const
   {
-    double least = 1;
+    std::vector<Star_mesh::Placed_triangle> result;
     for (const Face f : m.working().faces_at(vertices)) {
       const auto [a, b, c] = m.working().corners(f);
-      least = std::min(least, m.agreement(a, b, c));
+      result.push_back(m.placed(a, b, c));
     }
+    return result;
+  }
+
+  /// The least agreement, which may take a search for each triangle.
+  double agreement(const std::vector<Star_mesh::Placed_triangle>& triangles) const
+  {
+    double least = 1;
+    for (const auto& t : triangles) least = std::min(least, m.agreement(t));
     return least;
   }
 
@@ -134,29 +144,20 @@ private:
   {
     const Star star = m.star(v);
     const Vec3d p = m.point(v), n = m.normal(v);
-    const double start = sum(star, p, std::numeric_limits<double>::infinity());
+    const double start = star.sum(p, m_unroundness);
     if (start < Parameters::good * double(star.corners.size())) return;
     const double step = first_step * mean_edge(star, p), limit = clearly_less * start;
     double least = start;
     const Vec3d best = search_tangent_plane<Parameters>(
         p, n, step, turn, least,
-        [&](const Vec3d& q, double enough) { return sum(star, q, enough); });
+        [&](const Vec3d& q, double enough) { return star.sum(q, m_unroundness, enough); });
     if (!(least < limit)) return;
     const auto place = m.project(v, best);
-    if (place.facet < 0 || !(sum(star, place.point, limit) < limit)) return;
+    if (place.facet < 0 || !(star.sum(place.point, m_unroundness, limit) < limit)) return;
     if (m.agreement(star, place.point, place.normal) <
         std::min(Parameters::min_agreement, m.agreement(star, p, n)))
       return;
     m.move(v, place);
-  }
-
-  // Of the star with its center at `p`, or what is no less than `limit`.
-  double sum(const Star& star, const Vec3d& p, double limit) const
-  {
-    double sum = 0;
-    for (const Star::Corner& c : star.corners)
-      if (!((sum += m_unroundness(p, c.a, c.b)) < limit)) break;
-    return sum;
   }
 
   Star_mesh& m;

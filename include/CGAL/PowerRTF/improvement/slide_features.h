@@ -40,8 +40,8 @@ public:
     for (const auto f : m.working().mesh.faces()) slide_pair(f);
   }
 
-  /// Slides `v`, if it is on a curve, to where the sum of `energy(a, b, c)` of its triangles is
-  /// less, whether these are bad or not.
+  /// Slides `v`, if it is on a curve, to where the sum of `energy(a, b, c)` of its triangles, none
+  /// negative, is less, whether these are bad or not.
   template <class Energy>
   void slide(Vertex v, const Energy& energy)
   {
@@ -50,11 +50,7 @@ public:
     Path curve = path(v, a, b);
     if (!curve.is_straight())
       curve.longest = std::max(curve.longest_edge(), Parameters::max_spacing * curve.scale);
-    slide(v, m.star(v), curve, [&](const Star& star, const Vec3d& p) {
-      double sum = 0;
-      for (const Star::Corner& c : star.corners) sum += energy(p, c.a, c.b);
-      return sum;
-    });
+    slide(v, m.star(v), curve, energy);
   }
 
   const Feature_segments& curves() const { return m_curves; }
@@ -126,14 +122,11 @@ private:
                              normalized(m.point(b) - m.point(v))) > Parameters::corner_cosine;
   }
 
-  static double energy(const Star& star, const Vec3d& p)
+  // Squared: the worst triangle counts most.
+  static double energy(const Vec3d& a, const Vec3d& b, const Vec3d& c)
   {
-    double sum = 0;
-    for (const Star::Corner& c : star.corners) { // squared: the worst triangle counts most
-      const double e = triangle_badness(p, c.a, c.b).energy();
-      sum += e * e;
-    }
-    return sum;
+    const double e = triangle_badness(a, b, c).energy();
+    return e * e;
   }
 
   void slide(Vertex v)
@@ -151,18 +144,16 @@ private:
   void slide(Vertex v, const Star& star, const Path& curve, const Energy& energy)
   {
     const Vec3d p = m.point(v);
-    const auto is_allowed = [&](const Vec3d& q) {
-      return curve.is_spaced(q) && !folds(star, p, star, q);
-    };
-    double least = energy(star, p), at = 0, step = Parameters::first_step;
+    double least = star.sum(p, energy), at = 0, step = Parameters::first_step;
     Vec3d best = p;
     for (int i = 0, halved = 0; i < Parameters::max_steps && halved < Parameters::max_halvings;
          ++i) {
       bool found = false;
       for (const double s : {at - step, at + step}) {
         const Vec3d q = curve.at(s);
-        const double e = energy(star, q);
-        if (!(e < clearly_less * least) || !is_allowed(q)) continue;
+        if (!curve.is_spaced(q)) continue;
+        const double limit = clearly_less * least, e = star.sum(q, energy, limit);
+        if (!(e < limit) || folds(star, p, star, q)) continue;
         least = e;
         best = q;
         at = s;
