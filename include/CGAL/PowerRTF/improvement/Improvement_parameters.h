@@ -39,7 +39,7 @@ struct Improvement_parameters {
   struct Stars {
     /// A vertex with so many edges (of a needle) has no good triangles, and to look at all of them
     /// for each costs minutes.
-    static constexpr int hub_degree = 60;
+    static constexpr int hub_degree = 24;
   };
 
   /// Surface_projector.h and Distance_tracker.h
