@@ -245,7 +245,9 @@ public:
   };
   Placed_triangle placed(Vertex a, Vertex b, Vertex c) const
   {
-    const auto normal = [this](Vertex v) { return m_on_feature[v] ? Vec3d{0, 0, 0} : m.normals[v]; };
+    const auto normal = [this](Vertex v) {
+      return m_on_feature[v] ? Vec3d{0, 0, 0} : m.normals[v];
+    };
     return {{m.point(a), m.point(b), m.point(c)}, {normal(a), normal(b), normal(c)}};
   }
 
