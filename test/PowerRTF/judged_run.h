@@ -28,6 +28,10 @@ namespace judged_run {
 
 namespace fs = std::filesystem;
 
+/// Seconds of one processor for a run, a guard against programs that hang: real time would also
+/// count what else the machine does.
+constexpr int time_limit = 30;
+
 /// The program's path; empty: none is named.
 inline std::string program()
 {
@@ -82,15 +86,11 @@ struct Settings {
   std::string format = "off"; ///< of input and output
   unsigned seed = 0;
   std::string intersections = "keep";
-  /// Seconds of one processor, a guard against programs that hang: real time would also count what
-  /// else the machine does.
-  int time_limit = 30;
 };
 
 struct Run {
   std::string input, output; ///< files
   std::size_t samples;
-  int time_limit;
   int exit_code;         ///< 128 and the number of the signal that stopped it
   std::string message;   ///< on stderr
   nlohmann::json report; ///< null: none was written
@@ -104,17 +104,16 @@ inline Run run(const Scratch_folder& folder, const std::string& name, const shap
   run.input = folder / (name + '.' + settings.format);
   run.output = folder / (name + ".out." + settings.format);
   run.samples = settings.samples;
-  run.time_limit = settings.time_limit;
   const std::string report = folder / (name + ".json"), messages = folder / (name + ".stderr");
   for (const std::string& file : {run.output, report}) fs::remove(file);
   write(run.input, soup);
   const auto quoted = [](const std::string& text) { return " '" + text + "'"; };
   const std::string command =
-      "ulimit -t " + std::to_string(settings.time_limit) + "; exec" + quoted(program()) +
-      quoted(run.input) + quoted(run.output) + " --quiet --threads 1 --samples " +
-      std::to_string(settings.samples) + " --density " + settings.density + " --seed " +
-      std::to_string(settings.seed) + " --intersections " + settings.intersections + " --report" +
-      quoted(report) + " 2>" + quoted(messages);
+      "ulimit -t " + std::to_string(time_limit) + "; exec" + quoted(program()) + quoted(run.input) +
+      quoted(run.output) + " --quiet --threads 1 --samples " + std::to_string(settings.samples) +
+      " --density " + settings.density + " --seed " + std::to_string(settings.seed) +
+      " --intersections " + settings.intersections + " --report" + quoted(report) + " 2>" +
+      quoted(messages);
   const int status = std::system(command.c_str());
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.message = content(messages);
@@ -198,7 +197,7 @@ inline std::vector<std::string> wrong_figures(const Run& run)
 inline std::string failure(const Run& run)
 {
   if (run.exit_code == 128 + SIGXCPU || run.exit_code == 128 + SIGKILL)
-    return "hangs: stopped after " + std::to_string(run.time_limit) + " s";
+    return "hangs: stopped after " + std::to_string(time_limit) + " s";
   const auto says = [&](const std::string& text) {
     return run.message.find(text) != std::string::npos;
   };
