@@ -77,6 +77,19 @@ std::size_t self_intersections(const Soup& s)
 
 } // namespace
 
+TEST_CASE("triangles are parted where only a plane along an edge of each does")
+{
+  // No plane along one of them parts them, nor does the one half-way between their centers.
+  const auto is_parted = [](double height) {
+    const Vec3d p[3] = {{-1, 0, 0}, {1, 0, 0}, {0, 0.9, -1}},
+                q[3] = {{0, -1, height}, {0, 1, height}, {0.9, 0, 1 + height}};
+    return internal::Parting_plane(p, q).exists();
+  };
+  CHECK(is_parted(0.01));
+  CHECK_FALSE(is_parted(-0.01)); // they meet
+  CHECK_FALSE(is_parted(0));     // in a point
+}
+
 TEST_CASE("self-intersections: pairs")
 {
   const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
