@@ -233,12 +233,6 @@ public:
     return true;
   }
 
-  /// See `star_agreement()`.
-  double agreement(const Star& star, const Vec3d& p, const Vec3d& normal) const
-  {
-    return star_agreement(*this, star, p, normal);
-  }
-
   /// A triangle with the normals of the surface at its corners; 0: on a feature.
   struct Placed_triangle {
     std::array<Vec3d, 3> points, normals;
@@ -249,6 +243,12 @@ public:
       return m_on_feature[v] ? Vec3d{0, 0, 0} : m.normals[v];
     };
     return {{m.point(a), m.point(b), m.point(c)}, {normal(a), normal(b), normal(c)}};
+  }
+
+  /// See `star_agreement()`.
+  double agreement(const Star& star, const Vec3d& p, const Vec3d& normal) const
+  {
+    return star_agreement(*this, star, p, normal);
   }
 
   /// The same for one triangle. Between features alone the surface's nearest facet counts.
