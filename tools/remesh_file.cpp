@@ -23,6 +23,7 @@
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF/transfer/find_corner_sources.h>
+#include <CGAL/PowerRTF/transfer/keep_labels.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <algorithm>
@@ -226,6 +227,7 @@ Sources find_sources(const Input& input, const Normalization& normalization,
   const Polygon_soup& soup = input.source_soup();
   Sources sources = find_sources(soup, normalization, run.report.faces_as_input(), mesh.points,
                                  mesh.triangles, Concurrency());
+  keep_labels(sources, soup, input.source_fields().labels, normalization, mesh, Concurrency());
   if (!input.mesh.properties.texture.empty())
     sources.corners = find_corner_sources(soup, input.source_fields().lines, normalization,
                                           mesh.points, mesh.triangles, sources, Concurrency());

@@ -24,6 +24,7 @@
 #include <CGAL/PowerRTF/samples_within_distance.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF/transfer/find_corner_sources.h>
+#include <CGAL/PowerRTF/transfer/keep_labels.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <nanobind/stl/optional.h>
@@ -159,9 +160,12 @@ Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visito
   run.report = remesher->report();
   const Normalization& normalization = remesher->surface().normalization;
   if (input.wants_patches) result.patches = remesher->patches(result.mesh);
-  if (input.wants_sources() && !run.report.cancelled)
+  if (input.wants_sources() && !run.report.cancelled) {
     result.sources = find_sources(input.source_soup(), normalization, run.report.faces_as_input(),
                                   result.mesh.points, result.mesh.triangles, tools::Concurrency());
+    keep_labels(*result.sources, input.source_soup(), input.source_fields().labels, normalization,
+                result.mesh, tools::Concurrency());
+  }
   if (result.sources && input.has_seams)
     result.sources->corners = find_corner_sources(
         input.source_soup(), input.source_fields().lines, normalization, result.mesh.points,

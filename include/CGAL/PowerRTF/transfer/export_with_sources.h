@@ -14,6 +14,7 @@
 #include <CGAL/PowerRTF/transfer/Mesh_source.h>
 #include <CGAL/PowerRTF/transfer/find_corner_sources.h>
 #include <CGAL/PowerRTF/transfer/find_sources.h>
+#include <CGAL/PowerRTF/transfer/keep_labels.h>
 
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
@@ -137,6 +138,7 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
     const auto soup = soup_of_mesh(input, np_in, concurrency);
     sources = find_sources(soup, normalization, report.faces_as_input(), mesh.points,
                            mesh.triangles, concurrency);
+    keep_labels(sources, soup, face_labels(input, np_in), normalization, mesh, concurrency);
     if constexpr (has_parameter<NamedParametersOut, corner_source_map_t>())
       sources.corners =
           find_corner_sources(soup, constrained_edges(input, np_in).value_or(std::vector<Edge>()),

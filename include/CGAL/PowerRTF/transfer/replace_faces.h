@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/extraction/export_mesh.h>
 #include <CGAL/PowerRTF/transfer/Joined_mesh.h>
 #include <CGAL/PowerRTF/transfer/export_with_sources.h>
+#include <CGAL/PowerRTF/transfer/keep_labels.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -95,9 +96,11 @@ void replace_region(FaceGraph& mesh, const NamedParameters& np, const Polygon_so
   constexpr bool has_labels = has_parameter<NamedParameters, internal_np::face_patch_t>();
   const Soup_region& own = remeshed.own();
   Sources sources;
-  if (has_labels)
+  if (has_labels) {
     sources = find_sources(own.soup, normalization, report.faces_as_input(), part.points,
                            part.triangles, concurrency);
+    keep_labels(sources, own.soup, own.fields.labels, normalization, part, concurrency);
+  }
   remeshed.complete(part, normalization);
   if (has_labels) remeshed.complete_sources(part, normalization, sources);
   const Soup_region& region = remeshed.replaced();

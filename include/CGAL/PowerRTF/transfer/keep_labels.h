@@ -1,0 +1,92 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_TRANSFER_KEEP_LABELS_H
+#define CGAL_POWER_RTF_TRANSFER_KEEP_LABELS_H
+
+#include <CGAL/PowerRTF/extraction/mesh_patches.h>
+#include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/transfer/Source_triangles.h>
+#include <CGAL/PowerRTF/transfer/find_sources.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF {
+namespace internal {
+
+inline double area(const Extracted_mesh& mesh, const Triangle& t)
+{
+  const Vec3d& a = mesh.points[t[0]];
+  return length(cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a)) / 2;
+}
+
+/// The label that most of the area of each part of `mesh` has. \param labels of the triangles
+inline std::vector<int> labels_of_parts(const Extracted_mesh& mesh, const std::vector<int>& parts,
+                                        int count, const std::vector<int>& labels)
+{
+  std::vector<std::map<int, double>> areas(count); // of a part, by label
+  for (std::size_t f = 0; f < parts.size(); ++f)
+    areas[parts[f]].emplace(labels[f], 0).first->second += area(mesh, mesh.triangles[f]);
+  std::vector<int> result;
+  for (const auto& of_part : areas)
+    result.push_back(std::max_element(of_part.begin(), of_part.end(), [](auto& x, auto& y) {
+                       return x.second < y.second;
+                     })->first);
+  return result;
+}
+
+} // namespace internal
+
+/// Makes the triangles on both sides of a line between labels come from the sides that they are on:
+/// where the surface is bent, or an edge cuts a corner off its line, what is nearest to the center
+/// of a triangle may lie beyond. Such a triangle gets the nearest place with the label that most of
+/// its part has, the triangles that no feature edge parts.
+///
+/// \param sources of `mesh` in `input`, as `find_sources()` finds them
+/// \param labels of the polygons of `input`; empty: nothing is done
+/// \param mesh the result, in coordinates of the unit box, with its feature edges
+inline void keep_labels(Sources& sources, const Polygon_soup& input, const std::vector<int>& labels,
+                        const Normalization& normalization, const Extracted_mesh& mesh,
+                        internal::Concurrency concurrency = Sequential_tag())
+{
+  if (labels.empty() || mesh.feature_edges.empty()) return;
+  const std::pair<std::vector<int>, int> numbered = mesh_parts(mesh, concurrency);
+  const std::vector<int>& parts = numbered.first;
+  const std::vector<int> found = values_at(labels, sources.faces),
+                         wanted = internal::labels_of_parts(mesh, parts, numbered.second, found);
+  std::vector<char> is_on_feature(mesh.points.size(), false);
+  for (const auto& [a, b] : mesh.feature_edges) is_on_feature[a] = is_on_feature[b] = true;
+  std::vector<int> beyond;
+  for (std::size_t f = 0; f < parts.size(); ++f) {
+    const auto [a, b, c] = mesh.triangles[f];
+    if (found[f] != wanted[parts[f]] && (is_on_feature[a] || is_on_feature[b] || is_on_feature[c]))
+      beyond.push_back(static_cast<int>(f));
+  }
+  if (beyond.empty()) return;
+  const internal::Source_triangles triangles(input, normalization);
+  std::vector<int> labels_of_triangles;
+  std::map<int, int> some; // triangle of each label
+  for (const int polygon : triangles.polygons) {
+    some.emplace(labels[polygon], static_cast<int>(labels_of_triangles.size()));
+    labels_of_triangles.push_back(labels[polygon]);
+  }
+  const Facet_tree tree(triangles.points, triangles.triangles, labels_of_triangles, concurrency);
+  internal::for_each_index(concurrency, static_cast<int>(beyond.size()), [&](int k) {
+    const int f = beyond[k];
+    const Triangle& t = mesh.triangles[f];
+    const Vec3d center = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) * (1. / 3);
+    const Vec3d normal =
+        cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+    const int with_label = some.at(wanted[parts[f]]);
+    Surface_point<double> nearest = tree.nearest(center, normal, 0, with_label);
+    if (nearest.facet < 0) nearest = tree.nearest(center, with_label);
+    sources.faces[f] = triangles.source(nearest.facet, nearest.point);
+  });
+}
+
+} // namespace CGAL::PowerRTF
+
+#endif // CGAL_POWER_RTF_TRANSFER_KEEP_LABELS_H
