@@ -6,11 +6,14 @@
 #include "shapes.h"
 
 #include <CGAL/PowerRTF/features/Surface_patches.h>
+#include <CGAL/PowerRTF/features/half_surface.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/features/split_bent_facets.h>
 #include <CGAL/PowerRTF/geometry/cut_surface.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
+#include <CGAL/PowerRTF/geometry/halve_edges.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
+#include <CGAL/PowerRTF/geometry/split_at_centers.h>
 #include <CGAL/PowerRTF/quality/topology.h>
 
 #include <doctest/doctest.h>
@@ -152,4 +155,26 @@ TEST_CASE("samples keep the facets of the whole surface")
       CHECK(split.facet_patches[patches.features().sites.facets[k]] ==
             patches.features().sites.patches[k]);
   }
+}
+
+TEST_CASE("pieces of facets have their labels")
+{
+  Surface whole = shapes::make_surface(shapes::plane_patch(8, 5));
+  const double left = whole.points.front().x, width = whole.points.back().x - left;
+  const auto label = [&](const Surface& s, const Triangle& t) {
+    return int(8 * ((s.points[t[0]].x + s.points[t[1]].x + s.points[t[2]].x) / 3 - left) / width);
+  };
+  const auto check = [&](const Surface& s) {
+    REQUIRE(s.facet_labels.size() == s.triangles.size());
+    for (std::size_t f = 0; f < s.triangles.size(); ++f)
+      CHECK(s.facet_labels[f] == label(s, s.triangles[f]));
+  };
+  for (const Triangle& t : whole.triangles) whole.facet_labels.push_back(label(whole, t));
+  check(half_surface(whole, {1, (whole.points.front().y + whole.points.back().y) / 2}));
+  Surface halved = whole, split = whole;
+  halve_edges(halved, {0, 7, 8, 40, 41});
+  CHECK(halved.triangles.size() > whole.triangles.size());
+  check(halved);
+  split_at_centers(split, {3, 30});
+  check(split);
 }

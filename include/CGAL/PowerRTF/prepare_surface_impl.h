@@ -73,12 +73,13 @@ inline std::vector<Edge> line_edges(const Surface& surface, const Polygon_soup& 
   return lines.empty() ? lines : marked_edges(surface, std::move(lines), concurrency);
 }
 
-/// The edges of the surface between facets with different labels.
+/// Gives the facets of the surface their labels, if there are several.
 /// \param soup what the surface has become of
+/// \returns the edges between facets with different labels
 /// \throws Invalid_input_error there are not as many labels as polygons
-inline std::vector<Edge> label_edges(const Surface& surface, const Polygon_soup& soup,
-                                     const Surface_fields& fields, bool is_oriented,
-                                     Concurrency concurrency)
+inline std::vector<Edge> set_labels(Surface& surface, const Polygon_soup& soup,
+                                    const Surface_fields& fields, bool is_oriented,
+                                    Concurrency concurrency)
 {
   if (fields.labels.empty()) return {};
   if (fields.labels.size() + 1 != soup.first.size())
@@ -86,7 +87,10 @@ inline std::vector<Edge> label_edges(const Surface& surface, const Polygon_soup&
                               std::to_string(soup.first.size() - 1) + " facets");
   const Sources sources = find_sources(soup, surface.normalization, is_oriented, surface.points,
                                        surface.triangles, concurrency);
-  return label_boundaries(surface, values_at(fields.labels, sources.faces), concurrency);
+  std::vector<int> labels = values_at(fields.labels, sources.faces);
+  std::vector<Edge> boundaries = label_boundaries(surface, labels, concurrency);
+  if (!boundaries.empty()) surface.facet_labels = std::move(labels);
+  return boundaries;
 }
 
 } // namespace internal
@@ -122,9 +126,8 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
                internal::merged_edges(fields.kept_edges, soup, concurrency));
   }
   const std::vector<Edge> lines = internal::line_edges(surface, soup, fields, concurrency),
-                          label_edges = internal::label_edges(surface, soup, fields,
-                                                              report.faces_as_input(), concurrency);
-  surface.has_labels = !label_edges.empty();
+                          label_edges = internal::set_labels(surface, soup, fields,
+                                                             report.faces_as_input(), concurrency);
   soup = {}; // its memory
   part.next(0.2);
   Remeshing_options with_number = options;

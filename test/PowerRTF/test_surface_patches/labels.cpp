@@ -3,6 +3,7 @@
 //
 // Labels of faces: what they part stays apart, and they come out; numbers of patches.
 #include "../mesh_of_shape.h"
+#include "../odd_shapes.h"
 #include "../shapes.h"
 
 #include <CGAL/PowerRTF/transfer/find_sources.h>
@@ -87,6 +88,16 @@ void remesh(const Labeled& input, std::size_t n, Labeled& output)
   CHECK(output.report.missed_guarantees().empty());
 }
 
+/// Of the area of a label, in parts of it.
+double largest_error(const Labeled& input, const Labeled& output)
+{
+  const auto after = output.areas();
+  double largest = 0;
+  for (const auto& [label, area] : input.areas())
+    largest = std::max(largest, std::abs(after.at(label) / area - 1));
+  return largest;
+}
+
 int sector(const Vec3d& p) { return int(std::floor(2 * std::atan2(p.y, p.x) / shapes::pi)); }
 
 } // namespace
@@ -126,6 +137,39 @@ TEST_CASE("straight lines between labels of a flat surface stay straight: areas 
   for (const auto& [label, area] : after) CHECK(area == Approx(0.25).epsilon(1e-9));
   for (const Face f : output.mesh.faces())
     CHECK(output.labels[f] == checkers(center(output.mesh, f)));
+}
+
+TEST_CASE("labels of a few triangles keep their areas: lines between them move, sides stay apart")
+{
+  struct Case {
+    double radius;
+    std::size_t n;
+  };
+  for (const Case c : {Case{0.04, 900}, Case{0.07, 400}, Case{0.08, 400}}) {
+    CAPTURE(c.radius);
+    const Labeled input(shapes::plane_patch(40, 40), [&](const Vec3d& p) {
+      return int(length(p - Vec3d{0.51, 0.48, 0}) < c.radius);
+    });
+    Labeled output;
+    remesh(input, c.n, output);
+    CHECK(largest_error(input, output) < 0.006);
+  }
+}
+
+TEST_CASE("rings on a wavy surface keep their areas, with triangles as long as a wave is high")
+{
+  const auto wave = [](const Vec3d& p) {
+    return Vec3d{p.x, p.y, 0.15 * std::sin(12 * p.x) * std::sin(9 * p.y + 1)};
+  };
+  const Labeled input(shapes::mapped(shapes::plane_patch(60, 60), wave), [](const Vec3d& p) {
+    return int(5 * length(Vec3d{p.x - 0.5, p.y - 0.5, 0}));
+  });
+  for (const std::size_t n : {300, 600}) {
+    CAPTURE(n);
+    Labeled output;
+    remesh(input, n, output);
+    CHECK(largest_error(input, output) < 0.006);
+  }
 }
 
 TEST_CASE("without labels in the output, or of one kind, nothing else changes")

@@ -34,9 +34,9 @@ public:
     set_heights(mirror, nearness);
     m_half.mirror = mirror;
     m_half.normalization = whole.normalization;
-    m_half.has_labels = whole.has_labels;
     std::vector<int> polygon;
-    for (const Triangle& t : whole.triangles) {
+    for (std::size_t f = 0; f < whole.triangles.size(); ++f) {
+      const Triangle& t = whole.triangles[f];
       const auto [low, high] = std::minmax({m_heights[t[0]], m_heights[t[1]], m_heights[t[2]]});
       m_lies_in_plane |= low == 0 && high == 0;
       if (!(high > 0)) continue;
@@ -47,6 +47,8 @@ public:
         if (is_cut(a, b)) polygon.push_back(crossing(a, b));
       }
       add(polygon);
+      if (!whole.facet_labels.empty())
+        m_half.facet_labels.resize(m_half.triangles.size(), whole.facet_labels[f]);
     }
     m_half.adjacency = facet_adjacency(m_half.triangles, m_half.points.size(), concurrency);
     add_creases();

@@ -115,7 +115,8 @@ struct Surface {
   std::vector<double> vertex_density; ///< #V densities \f$\rho > 0\f$; 1 everywhere: uniform
   std::vector<int> input_vertices;    ///< #V place of each vertex among those of the input
   std::vector<Edge> creases;          ///< edges, smaller vertex first, that the result must keep
-  bool has_labels = false;            ///< creases part labels, whose areas the result keeps
+  std::vector<int> facet_labels;      ///< #F labels, which creases part and whose areas the
+                                      ///< result keeps; empty: none
   std::vector<Edge> seams;            ///< the creases at which the orientations do not
                                       ///< agree or more than two facets meet
   std::vector<int> contacts;          ///< vertices where sheets touch, off seams; sorted

@@ -162,18 +162,20 @@ inline Halved_edges halve_edges(Surface& surface, const std::vector<int>& given,
   internal::exclusive_scan(concurrency, facets + 1, first.data());
   std::vector<Triangle> triangles(first.back());
   result.parents.resize(first.back());
-  std::vector<int> patches(surface.facet_patches.empty() ? 0 : first.back());
   internal::for_each_index(concurrency, facets, [&](int f) {
     internal::split_at_middles(surface.points, surface.triangles[f], middles_of(f),
                                &triangles[first[f]]);
-    for (int k = first[f]; k < first[f + 1]; ++k) {
-      result.parents[k] = f;
-      if (!patches.empty()) patches[k] = surface.facet_patches[f];
-    }
+    for (int k = first[f]; k < first[f + 1]; ++k) result.parents[k] = f;
   });
   surface.topology = {};
   surface.triangles.swap(triangles);
-  surface.facet_patches.swap(patches);
+  for (std::vector<int>* const numbers : {&surface.facet_patches, &surface.facet_labels}) {
+    if (numbers->empty()) continue;
+    std::vector<int> of_pieces(first.back());
+    internal::for_each_index(concurrency, first.back(),
+                             [&](int k) { of_pieces[k] = (*numbers)[result.parents[k]]; });
+    numbers->swap(of_pieces);
+  }
   if (!surface.creases.empty() || !surface.kept_edges.empty()) {
     std::vector<std::pair<Edge, int>> sorted_middles;
     for (int k = 0; k < count; ++k) sorted_middles.emplace_back(result.ends[k], old + k);

@@ -28,6 +28,8 @@ inline void split_at_centers(Surface& surface, const std::vector<int>& facets,
     surface.input_vertices.push_back(surface.input_vertices[a]);
     surface.triangles[f] = {a, b, center};
     surface.triangles.insert(surface.triangles.end(), {{b, c, center}, {c, a, center}});
+    if (!surface.facet_labels.empty())
+      surface.facet_labels.resize(surface.triangles.size(), surface.facet_labels[f]);
   }
   surface.topology = {};
   surface.adjacency = facet_adjacency(surface.triangles, surface.points.size(), concurrency);

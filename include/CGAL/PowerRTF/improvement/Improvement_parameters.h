@@ -117,12 +117,20 @@ struct Improvement_parameters {
 
   /// keep_areas.h
   struct Areas {
-    static constexpr int rounds = 3;
+    static constexpr int rounds = 3, line_rounds = 8;
     /// Of the gradient of the area, that a vertex moves by at once. Chords of length h lose h^2 /
     /// 24 r^2 of a cylinder's area, and at a vertex, with its share sqrt(3) / 2 h^2 of it, that
     /// takes .05; much more would make bumps grow.
     static constexpr double most = 1 / 12.;
+    /// The same across a line: a quarter of an edge of length h at once.
+    static constexpr double most_of_lines = 1 / 2.;
     static constexpr double max_turn_cosine = 0.9; ///< of a triangle by one move
+    /// Part of the area of a label that may be lacking without its lines being moved.
+    static constexpr double tolerance = 0.005;
+    /// That this may bring upon a triangle: Q .51, or 26.7 degrees, or 94.8 degrees.
+    static constexpr double line_badness = 0.3;
+    /// Between what the patches beside a line add up to: it is no crease of more than 18 degrees.
+    static constexpr double smooth_cosine = 0.85;
   };
 
   /// round_mesh.h

@@ -208,7 +208,7 @@ private:
       Distance_keeper(stars, m_prepared->flat, m_settings.max_distance).run(relocator);
       m_tracker.update();
     }
-    if (m_surface.has_labels) {
+    if (!m_surface.facet_labels.empty()) {
       Area_keeper(stars, Triangle_badness::tolerable).run();
       m_tracker.update();
     }
