@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_FEATURE_SEGMENTS_H
 
 #include <CGAL/PowerRTF/geometry/Box_rtree.h>
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 

@@ -6,8 +6,10 @@
 #define CGAL_POWER_RTF_TRANSFER_SOURCE_TRIANGLES_H
 
 #include <CGAL/PowerRTF/geometry/degenerate_facets.h>
+#include <CGAL/PowerRTF/geometry/nearest_facet.h>
+#include <CGAL/PowerRTF/input/Polygon_soup.h>
 #include <CGAL/PowerRTF/input/polygon_triangulation.h>
-#include <CGAL/PowerRTF/transfer/find_sources.h>
+#include <CGAL/PowerRTF/transfer/Sources.h>
 
 #include <algorithm>
 #include <cstddef>

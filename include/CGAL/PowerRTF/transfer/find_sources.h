@@ -10,25 +10,11 @@
 #include <CGAL/PowerRTF/input/Polygon_soup.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
+#include <CGAL/PowerRTF/transfer/Sources.h>
 
-#include <array>
 #include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// A place on a polygon soup.
-struct Source {
-  int face = -1;                          ///< the number of the polygon
-  Triangle vertices{-1, -1, -1};          ///< the corners of a triangle of that polygon
-  std::array<double, 3> weights{0, 0, 0}; ///< barycentric coordinates in it: none negative, sum 1
-};
-
-/// The sources of a mesh.
-struct Sources {
-  std::vector<Source> vertices, faces; ///< those of the faces are the sources of their centers
-  /// By triangle those of its corners, where they are asked for: see `find_corner_sources()`.
-  std::vector<std::array<Source, 3>> corners{};
-};
 
 /// The sources of a mesh: the places of `input` that are nearest to its vertices, which need not
 /// lie on it exactly, and to the centers of its triangles. Where the other side of a thin part is
@@ -44,16 +30,6 @@ Sources find_sources(const Polygon_soup& input, const Normalization& normalizati
                      bool is_oriented, const std::vector<Vec3d>& points,
                      const std::vector<Triangle>& triangles,
                      internal::Concurrency concurrency = Sequential_tag());
-
-/// The values of the polygons that the sources are on.
-template <class T>
-std::vector<T> values_at(const std::vector<T>& of_polygons, const std::vector<Source>& sources)
-{
-  std::vector<T> result;
-  result.reserve(sources.size());
-  for (const Source& s : sources) result.push_back(of_polygons[s.face]);
-  return result;
-}
 
 } // namespace CGAL::PowerRTF
 

@@ -7,7 +7,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/transfer/Source_triangles.h>
-#include <CGAL/PowerRTF/transfer/find_sources.h>
+#include <CGAL/PowerRTF/transfer/Sources.h>
 
 #include <algorithm>
 #include <map>
