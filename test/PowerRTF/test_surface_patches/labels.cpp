@@ -172,6 +172,21 @@ TEST_CASE("rings on a wavy surface keep their areas, with triangles as long as a
   }
 }
 
+TEST_CASE("a symmetric mesh has the lines of one half, but the labels of both")
+{
+  Remeshing_options options;
+  options.symmetry = Symmetry::x;
+  // the half that is remeshed has one label, the other one two
+  const Labeled input(shapes::torus(60, 30, 1, 0.4), [](const Vec3d& p) {
+    return p.x > 0 ? 0 : p.y > 0 ? 1 : 2;
+  });
+  Labeled output;
+  CGAL::power_rtf_remeshing(input.mesh, 1500, output.mesh,
+                            params::remeshing_options(options).face_patch_map(input.labels),
+                            params::face_patch_map(output.labels));
+  CHECK(largest_error(input, output) < 0.01);
+}
+
 TEST_CASE("without labels in the output, or of one kind, nothing else changes")
 {
   const Labeled plain(shapes::torus(40, 20, 1, 0.4), [](const Vec3d&) { return 3; });

@@ -43,7 +43,8 @@ inline std::vector<int> labels_of_parts(const Extracted_mesh& mesh, const std::v
 /// Makes the triangles on both sides of a line between labels come from the sides that they are on:
 /// where the surface is bent, or an edge cuts a corner off its line, what is nearest to the center
 /// of a triangle may lie beyond. Such a triangle gets the nearest place with the label that most of
-/// its part has, the triangles that no feature edge parts.
+/// its part has, the triangles that no feature edge parts; but not where triangles farther inside
+/// have several labels, too, as those of a symmetric mesh may, whose lines are those of one half.
 ///
 /// \param sources of `mesh` in `input`, as `find_sources()` finds them
 /// \param labels of the polygons of `input`; empty: nothing is done
@@ -60,11 +61,18 @@ inline void keep_labels(Sources& sources, const Polygon_soup& input, const std::
   std::vector<char> is_on_feature(mesh.points.size(), false);
   for (const auto& [a, b] : mesh.feature_edges) is_on_feature[a] = is_on_feature[b] = true;
   std::vector<int> beyond;
+  std::vector<char> is_mixed(numbered.second, false);
   for (std::size_t f = 0; f < parts.size(); ++f) {
+    if (found[f] == wanted[parts[f]]) continue;
     const auto [a, b, c] = mesh.triangles[f];
-    if (found[f] != wanted[parts[f]] && (is_on_feature[a] || is_on_feature[b] || is_on_feature[c]))
+    if (is_on_feature[a] || is_on_feature[b] || is_on_feature[c])
       beyond.push_back(static_cast<int>(f));
+    else
+      is_mixed[parts[f]] = true;
   }
+  beyond.erase(
+      std::remove_if(beyond.begin(), beyond.end(), [&](int f) { return is_mixed[parts[f]]; }),
+      beyond.end());
   if (beyond.empty()) return;
   const internal::Source_triangles triangles(input, normalization);
   std::vector<int> labels_of_triangles;
