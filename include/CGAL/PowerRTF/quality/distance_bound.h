@@ -193,12 +193,12 @@ private:
 };
 
 /// An upper bound of the distances of all points of the surface of `from` from that of `to`, at
-/// most 1 % above the largest, but for rounding and where a facet would take too much work.
+/// most `factor` times the largest, but for rounding and where a facet would take too much work.
 /// `known`: the distance of some point.
 inline double distance_bound(const Facet_tree& from, const Facet_tree& to, double known,
-                             Concurrency concurrency)
+                             Concurrency concurrency, double factor = 1.01)
 {
-  constexpr double factor = 1.01, rounding = 1e-12; // in the unit box
+  constexpr double rounding = 1e-12; // in the unit box
   constexpr int all_pieces = 4'000'000, least_pieces = 100;
   const Surface_view<double> view = from.view();
   const int facets = (std::max)(1, view.facet_tree.items);
