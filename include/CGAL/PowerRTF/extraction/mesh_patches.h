@@ -31,6 +31,23 @@ mesh_parts(const Extracted_mesh& mesh, internal::Concurrency concurrency = Seque
   return facet_components(adjacency, concurrency);
 }
 
+namespace internal {
+
+/// The normal of a triangle, twice as long as its area.
+inline Vec3d area_vector(const Extracted_mesh& mesh, int f)
+{
+  const auto [a, b, c] = mesh.triangles[f];
+  return cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+}
+
+inline Vec3d center(const Extracted_mesh& mesh, int f)
+{
+  const auto [a, b, c] = mesh.triangles[f];
+  return (mesh.points[a] + mesh.points[b] + mesh.points[c]) * (1. / 3);
+}
+
+} // namespace internal
+
 /// The patch of each triangle of `mesh`. Triangles that no piece of a crease parts are of the same
 /// patch: that at the center of the largest of them.
 ///
@@ -41,10 +58,7 @@ inline std::vector<int> mesh_patches(const Extracted_mesh& mesh, const Surface& 
   std::vector<int> result(mesh.triangles.size(), 0);
   if (patches.facet_patches.empty()) return result;
   const auto [parts, count] = mesh_parts(mesh, concurrency);
-  const auto area_vector = [&](int f) { // twice as long as the area
-    const Triangle& t = mesh.triangles[f];
-    return cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
-  };
+  const auto area_vector = [&mesh](int f) { return internal::area_vector(mesh, f); };
   std::vector<int> largest(count, -1);
   for (int f = 0; f < static_cast<int>(parts.size()); ++f) {
     int& g = largest[parts[f]];
@@ -53,8 +67,7 @@ inline std::vector<int> mesh_patches(const Extracted_mesh& mesh, const Surface& 
   const Facet_tree tree(patches.points, patches.triangles, {}, concurrency);
   std::vector<int> numbers(count);
   for (int part = 0; part < count; ++part) {
-    const Triangle& t = mesh.triangles[largest[part]];
-    const Vec3d center = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) * (1. / 3);
+    const Vec3d center = internal::center(mesh, largest[part]);
     Surface_point<double> nearest = tree.nearest(center, area_vector(largest[part]), 0, -1);
     if (nearest.facet < 0) nearest = tree.nearest_anywhere(center);
     numbers[part] = patches.facet_patches[nearest.facet];

@@ -17,19 +17,14 @@
 namespace CGAL::PowerRTF {
 namespace internal {
 
-inline double area(const Extracted_mesh& mesh, const Triangle& t)
-{
-  const Vec3d& a = mesh.points[t[0]];
-  return length(cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a)) / 2;
-}
-
 /// The label that most of the area of each part of `mesh` has. \param labels of the triangles
 inline std::vector<int> labels_of_parts(const Extracted_mesh& mesh, const std::vector<int>& parts,
                                         int count, const std::vector<int>& labels)
 {
   std::vector<std::map<int, double>> areas(count); // of a part, by label
   for (std::size_t f = 0; f < parts.size(); ++f)
-    areas[parts[f]].emplace(labels[f], 0).first->second += area(mesh, mesh.triangles[f]);
+    areas[parts[f]].emplace(labels[f], 0).first->second +=
+        length(area_vector(mesh, static_cast<int>(f)));
   std::vector<int> result;
   for (const auto& of_part : areas)
     result.push_back(std::max_element(of_part.begin(), of_part.end(), [](auto& x, auto& y) {
@@ -84,12 +79,10 @@ inline void keep_labels(Sources& sources, const Polygon_soup& input, const std::
   const Facet_tree tree(triangles.points, triangles.triangles, labels_of_triangles, concurrency);
   internal::for_each_index(concurrency, static_cast<int>(beyond.size()), [&](int k) {
     const int f = beyond[k];
-    const Triangle& t = mesh.triangles[f];
-    const Vec3d center = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) * (1. / 3);
-    const Vec3d normal =
-        cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+    const Vec3d center = internal::center(mesh, f);
     const int with_label = some.at(wanted[parts[f]]);
-    Surface_point<double> nearest = tree.nearest(center, normal, 0, with_label);
+    Surface_point<double> nearest =
+        tree.nearest(center, internal::area_vector(mesh, f), 0, with_label);
     if (nearest.facet < 0) nearest = tree.nearest(center, with_label);
     sources.faces[f] = triangles.source(nearest.facet, nearest.point);
   });
