@@ -130,7 +130,7 @@ struct Improvement_parameters {
     /// That this may bring upon a triangle: Q .51, or 26.7 degrees, or 94.8 degrees.
     static constexpr double line_badness = 0.3;
     /// Between what the patches beside a line add up to: it is no crease of more than 18 degrees.
-    static constexpr double smooth_cosine = 0.85;
+    static constexpr double smooth_cosine = 0.95;
   };
 
   /// round_mesh.h

@@ -59,7 +59,8 @@ public:
       for (const Vertex v : m.working().mesh.vertices())
         if (m.is_movable(v)) move(v, factors[patch_of(v)]);
     }
-    for (int round = 0; round < Parameters::line_rounds; ++round) shift_lines();
+    for (int round = 0; round < Parameters::line_rounds; ++round)
+      if (!shift_lines()) break;
   }
 
 private:
@@ -183,7 +184,8 @@ private:
   }
 
   /// Of labels that lack too much, or have, as far as that goes, beginning with the smallest.
-  void shift_lines()
+  /// \returns whether anything has changed.
+  bool shift_lines()
   {
     std::vector<double> lacking(m_wanted_of_labels.size(), 0);
     const std::vector<double> lacking_in_patches = find_lacking();
@@ -195,16 +197,22 @@ private:
     std::vector<int> labels;
     for (int label = 0; label < int(lacking.size()); ++label)
       if (excess(label) != 0) labels.push_back(label);
-    if (labels.empty()) return;
+    if (labels.empty()) return false;
     std::sort(labels.begin(), labels.end(), [this](int k, int l) { return is_smaller(k, l); });
     const std::vector<std::vector<Line_vertex>> lines = find_lines();
+    bool changed = false;
     for (const int label : labels) {
       double squares = 0;
       for (const Line_vertex& at : lines[label]) squares += squared_length(at.gradient);
       const double by = factor(excess(label), squares, Parameters::most_of_lines);
+      if (by == 0) continue; // a smaller one has given it what it lacked
       for (const Line_vertex& at : lines[label])
-        if (shift(at.v, by * at.gradient)) lacking[at.larger] += by * squared_length(at.gradient);
+        if (shift(at.v, by * at.gradient)) {
+          lacking[at.larger] += by * squared_length(at.gradient);
+          changed = true;
+        }
     }
+    return changed;
   }
 
   bool is_smaller(int k, int l) const
