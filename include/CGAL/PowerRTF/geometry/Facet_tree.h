@@ -104,6 +104,28 @@ public:
     return result;
   }
 
+  /// The same, or any point that is no farther from `p` than `enough`.
+  Surface_point<double> near_enough(const Vec3d& p, double enough, int hint) const
+  {
+    const Surface_view<double> all = all_patches();
+    const Facet_query<double> query(all, p, Vec3d{0, 0, 0}, -2.0, -1);
+    Surface_point<double> best;
+    float bound = 3e38f;
+    const auto test = [&](int place) {
+      const Surface_point<double> x = query.onto(place);
+      if (!is_nearer(x, place, best, best.facet)) return;
+      best = x;
+      const bool is_enough = enough > 0 && x.squared_distance <= enough * enough;
+      bound = is_enough ? -1.f : bound_of(x.squared_distance);
+    };
+    test(m_places[hint]);
+    if (bound > 0)
+      visit_near(
+          m_tree, m_nodes.data(), Point_query(p), [&] { return bound; }, test);
+    best.facet = m_order[best.facet];
+    return best;
+  }
+
 private:
   Facet_tree(std::size_t facets, const std::vector<int>& patches, internal::Concurrency concurrency)
       : m_concurrency(concurrency), m_tree(static_cast<int>(facets)), m_facets(facets),

@@ -92,6 +92,7 @@ public:
   void update()
   {
     const std::vector<int> changed = m_changed.take();
+    lose_removed();
     const std::vector<int> near =
         m_changed.are_few(changed) ? points_near_few(changed) : points_near_many(changed);
     for_each_index(m_mesh->concurrency(), int(near.size()),
@@ -113,11 +114,13 @@ public:
   {
     const Faces faces = patch(v, p);
     double farthest = 0;
+    const double step = length(p - m_mesh->point(v)); // no distance grows by more
     for (const Halfedge h : halfedges_around_target(v, topology()))
       if (!topology().is_border(h))
         for (const int i : at_face(topology().face(h))) {
+          if (m_points[i].distance + step < clearly_less * farthest) continue;
           Tracked_point w = m_points[i];
-          search_faces(w, faces, v, p);
+          search_faces(w, faces, v, p, farthest);
           farthest = std::max(farthest, w.distance);
           if (farthest >= limit) return farthest;
         }
@@ -228,8 +231,24 @@ private:
         if (has_changed[topology().source(h)]) is_near[v] = true;
     });
     return select(m_mesh->concurrency(), size(), [&](int i) {
+      if (topology().is_removed(m_points[i].face)) return false;
       const auto [a, b, c] = m_mesh->working().corners(m_points[i].face);
       return is_near[a] || is_near[b] || is_near[c];
+    });
+  }
+
+  // What was nearest to faces that have been removed is looked for in the whole mesh; the halfedges
+  // of others may have gone to other faces.
+  void lose_removed()
+  {
+    const bool had = std::exchange(m_has_removed, topology().number_of_removed_faces() > 0);
+    if (!had && !m_has_removed) return;
+    for_each_index(m_mesh->concurrency(), size(), [&](int i) {
+      Tracked_point& w = m_points[i];
+      if (topology().is_removed(m_face[i]))
+        w.distance = disagreement;
+      else if (topology().is_removed(w.face) || topology().face(w.face) != m_face[i])
+        w.face = topology().halfedge(m_face[i]);
     });
   }
 
@@ -244,7 +263,6 @@ private:
     return far;
   }
 
-  // \pre all faces are there: what has been taken out has been put back elsewhere
   void search_mesh(const std::vector<int>& some)
   {
     const Concurrency concurrency = m_mesh->concurrency();
@@ -255,7 +273,7 @@ private:
       for (const int i : unknown) m_points[i].distance = some_distance(m_points[i]);
     const std::optional<Reaches> reaches = find_reaches(some);
     const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
-      return !reaches || is_in_reach(Face(f), some, *reaches);
+      return !topology().is_removed(Face(f)) && (!reaches || is_in_reach(Face(f), some, *reaches));
     });
     const Facet_tree tree(
         faces.size(), [&](int k) { return m_mesh->points(topology().halfedge(Face(faces[k]))); },
@@ -282,6 +300,7 @@ private:
         m_mesh->concurrency(), (faces + stride - 1) / stride, disagreement,
         [&](double& least, int k) {
           Tracked_point there = w;
+          if (topology().is_removed(Face(k * stride))) return;
           if (try_face(there, topology().halfedge(Face(k * stride)), Vertex(), {}, least))
             least = there.distance;
         },
@@ -433,10 +452,13 @@ private:
     return {at(a), at(b), at(c)};
   }
 
-  void search_faces(Tracked_point& w, const Faces& faces, Vertex v, const Vec3d& p) const
+  // Ends where the point is no farther than `enough`.
+  void search_faces(Tracked_point& w, const Faces& faces, Vertex v, const Vec3d& p,
+                    double enough = 0) const
   {
     try_face(w, w.face, v, p, any);
     for (const Bounded_face& f : faces) {
+      if (w.distance <= enough) return;
       const double reach = clearly_less * length(point(w) - f.center) - f.radius;
       if (reach < w.distance) try_face(w, f.halfedge, v, p, w.distance);
     }
@@ -447,6 +469,7 @@ private:
   static constexpr double any = std::numeric_limits<double>::infinity();
 
   const Star_mesh* m_mesh;
+  bool m_has_removed = false;    // faces, at the last update
   double m_tree_search_distance; // the least distance that is searched for in the whole mesh
   Changed_vertices m_changed;    // since the last update
   Surface_points m_others;       // or none: the surface's vertices are tracked

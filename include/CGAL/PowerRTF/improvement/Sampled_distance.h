@@ -58,6 +58,17 @@ public:
     return farthest;
   }
 
+  /// Where it is; of a face that has a distance larger than `enough`.
+  Vec3d farthest_point(Face f) const
+  {
+    const auto [a, b, c] = m.working().corners(f);
+    double farthest = 0;
+    Vec3d point = m.point(a);
+    any_in_face(m.point(a), m.point(b), m.point(c),
+                No_less{*this, farthest, infinity, m.facet(a), &point});
+    return point;
+  }
+
   /// The same of the star of `v`, with `v` at `p`; or any that is no less than `limit`.
   double around(Vertex v, const Star& star, const Vec3d& p, double limit) const
   {
@@ -79,16 +90,25 @@ private:
     return length(m.projector().nearest(p, hint).point - p);
   }
 
+  double squared_distance(const Vec3d& p, int facet) const
+  {
+    Triangle_part part;
+    return m.projector().descent().onto(facet, p, part).squared_distance;
+  }
+
   // Tells whether the largest distance of all points that it has got is no less than `limit`.
   struct No_less {
     const Sampled_distance& distance;
     double& farthest;
     double limit;
     int hint;
+    Vec3d* farthest_point = nullptr;
 
-    bool operator()(const Vec3d& p) const
+    bool operator()(const Vec3d& p) const { return takes(p, distance.of_point(p, hint)); }
+    bool takes(const Vec3d& p, double d) const
     {
-      farthest = std::max(farthest, distance.of_point(p, hint));
+      if (farthest_point && d > farthest) *farthest_point = p;
+      farthest = std::max(farthest, d);
       return farthest >= limit;
     }
   };
@@ -113,14 +133,23 @@ private:
                     const No_less& is_it) const
   {
     constexpr double tolerance = 0.04;
+    const auto known = [&] { return std::max(m_enough, is_it.farthest); };
+    // The distance from one facet is convex.
+    const auto is_near = [&](int facet) {
+      const double most = (1 + tolerance) * known();
+      return squared_distance(p, facet) <= most * most &&
+             squared_distance(q, facet) <= most * most && squared_distance(r, facet) <= most * most;
+    };
+    if (is_near(hint)) return false;
     const Vec3d middle = (p + q + r) * (1 / 3.);
-    const Surface_projector::Place nearest = m.projector().nearest(middle, hint);
-    const double d = length(nearest.point - middle);
-    is_it.farthest = std::max(is_it.farthest, d);
-    if (d >= is_it.limit) return true;
     const double radius = std::sqrt(std::max(
         {squared_length(p - middle), squared_length(q - middle), squared_length(r - middle)}));
-    if (depth == 0 || d + radius <= (1 + tolerance) * std::max(m_enough, is_it.farthest))
+    const double rest = known() - radius;
+    const Surface_point<double> nearest = m.projector().near_enough(middle, rest, hint);
+    const double d = std::sqrt(nearest.squared_distance);
+    if (d <= rest) return false;
+    if (is_it.takes(middle, d)) return true;
+    if (depth == 0 || d + radius <= (1 + tolerance) * known() || is_near(nearest.facet))
       return false;
     const Vec3d a = 0.5 * (q + r), b = 0.5 * (r + p), c = 0.5 * (p + q);
     const int f = nearest.facet;

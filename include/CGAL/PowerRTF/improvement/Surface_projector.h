@@ -41,6 +41,12 @@ public:
     return m_descent.place(m_tree.nearest_anywhere(p, hint));
   }
 
+  /// A point that is no farther from `p` than `enough`, or the nearest; the facet is the surface's.
+  Surface_point<double> near_enough(const Vec3d& p, double enough, int hint) const
+  {
+    return m_tree.near_enough(p, enough, hint);
+  }
+
   /// The place on `facet` if that is no farther from `p` than `reach`, else the nearest one.
   Place on_facet(const Vec3d& p, int facet, double reach) const
   {
