@@ -214,12 +214,16 @@ struct Improvement_parameters {
     /// goal, has 1.
     static constexpr double unroundness_weight = 0.5;
     static constexpr double worthwhile_share = 0.9; ///< of the distance, that a flip must leave
-    /// Runs of the relocation, and the places at most that are too far for each of those to come.
-    static constexpr int relocations = 16, places_per_relocation = 2;
-    /// What a run looks at, in the farthest, and the badness that it leaves.
-    static constexpr double far_share = 0.5, relocation_badness = 0.13;
-    static constexpr double spare_agreement = 0.7; ///< of stars that can spare their vertex here
-    static constexpr double less = 0.99; ///< of the largest distance, that another one must leave
+    /// The same of the places that get a vertex.
+    static constexpr int max_moves = 40, vertices_per_move = 100;
+    /// Places in vain after which a round ends: so many, and more for each vertex that has moved.
+    static constexpr int max_failures = 10, failures_per_move = 3;
+    /// Passes around a place at which a vertex was taken or put.
+    static constexpr int passes_around = 2;
+    static constexpr double spare_agreement = 0.3; ///< of stars that can spare their vertex here
+    /// What a vertex must gain, in what its place is too far; and what a round must leave at most
+    /// of what all places are too far, for another one.
+    static constexpr double worthwhile_part = 0.5, less = 0.9;
   };
 
   using Fitting = Fitting_parameters;

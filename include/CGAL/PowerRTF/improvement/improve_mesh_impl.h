@@ -201,11 +201,7 @@ private:
       m_tracker.update();
     }
     if (m_settings.max_distance > 0) {
-      m_tracker.update();
-      Vertex_relocator relocator(stars, optimizer, m_tracker,
-                                 Improvement_parameters::Distance_keeping::spare_agreement);
-      Distance_keeper::relocate(relocator, m_settings.max_distance);
-      Distance_keeper(stars, m_prepared->flat, m_settings.max_distance).run(relocator);
+      Distance_keeper(stars, optimizer, m_prepared->flat, m_settings.max_distance).run();
       m_tracker.update();
     }
     if (!m_surface.facet_labels.empty()) {

@@ -2,169 +2,197 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Brings the mesh within a distance of the surface that is asked for, both ways, where few places
-// are farther away: a single one would else ask for more samples everywhere. Vertices are put into
-// such places, from the flattest parts that there are; edges there are flipped; and the vertices
-// around them move, also to where the surface is too far, as long as triangles do not become bad.
-// The mesh is looked at in many points of its edges and faces, the surface at its vertices and
-// along its edges.
+// are farther away: a single one would else ask for more samples everywhere. Edges there are
+// flipped, and the vertices around them move, also to where the surface is too far, as long as
+// triangles do not become bad. Where that does not do, a vertex is put, from where the mesh stays
+// near enough without it; all places together must come nearer with each step.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 #define CGAL_POWER_RTF_IMPROVEMENT_KEEP_DISTANCE_H
 
-#include <CGAL/PowerRTF/improvement/Distance_tracker.h>
+#include <CGAL/PowerRTF/improvement/Changed_vertices.h>
+#include <CGAL/PowerRTF/improvement/Far_places.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
-#include <CGAL/PowerRTF/improvement/Sampled_distance.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/Vertex_mover.h>
 #include <CGAL/PowerRTF/improvement/lower_distances.h>
-#include <CGAL/PowerRTF/improvement/relocate_vertices.h>
-#include <CGAL/PowerRTF/improvement/tracked_points.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
-#include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <utility>
+#include <optional>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
 class Distance_keeper {
 public:
-  /// `distance`: that is asked for. `flat`: of the surface.
-  Distance_keeper(Star_mesh& mesh, const Flat_patches& flat, double distance)
-      : m(mesh), m_goal(Parameters::goal * distance),
-        m_tracker(mesh,
-                  points_of_edges(mesh.projector().surface(), mesh.projector().tree(),
-                                  Parameters::step * distance),
-                  m_goal),
-        m_distance(mesh, m_goal),
-        m_lowerer(mesh, m_tracker, flat,
-                  {m_goal, Parameters::max_badness, Parameters::min_agreement,
-                   Parameters::unroundness_weight})
+  /// `flat`: of the surface. `distance`: that is asked for.
+  Distance_keeper(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, const Flat_patches& flat,
+                  double distance)
+      : m(mesh), m_far(mesh, distance),
+        m_lowerer(mesh, m_far.tracker(), flat,
+                  {m_far.goal(), Parameters::max_badness, Parameters::min_agreement,
+                   Parameters::unroundness_weight}),
+        m_mover(mesh, optimizer, Parameters::spare_agreement)
   {
-    m_lowerer.set_goal(m_goal);
+    m_lowerer.set_goal(m_far.goal());
+    m_mover.tolerate(Parameters::max_badness);
   }
 
-  /// Puts vertices into far places, several at a time or, where that helps no more, into the
-  /// farthest.
-  static void relocate(Vertex_relocator& relocator, double distance)
+  void run()
   {
-    for (int run = 0; run < Parameters::relocations; ++run) {
-      const double farthest = relocator.farthest();
-      if (farthest <= distance) break;
-      const double share = std::max(Parameters::far_share, distance / farthest);
-      if (!relocator.run(share, Parameters::relocation_badness) &&
-          !relocator.run(1, Parameters::relocation_badness))
-        break;
-    }
-  }
-
-  /// Lowers what is farther away. Where few places stay too far, vertices are put there, one by
-  /// one, and all is lowered again.
-  void run(Vertex_relocator& relocator)
-  {
+    m_far.update();
     lower();
-    std::vector<Place> far = find_far();
-    for (int left = Parameters::relocations;
-         !far.empty() && int(far.size()) <= Parameters::places_per_relocation * left; --left) {
-      Star_mesh::Checkpoint before(m);
-      if (!relocator.run_once(Parameters::relocation_badness)) break;
-      m_tracker.update();
+    double before = std::numeric_limits<double>::infinity();
+    while (m_far.excess() < Parameters::less * before) {
+      before = m_far.excess();
+      if (!move_vertices()) break;
       lower();
-      const double then = far.front().distance;
-      far = find_far();
-      if (far.empty() || far.front().distance < Parameters::less * then) continue;
-      before.restore();
-      break;
     }
   }
 
 private:
   using Edge = Star_mesh::Edge;
+  using Vertex = Star_mesh::Vertex;
   using Halfedge = Star_mesh::Halfedge;
   using Face = Working_mesh::Face;
+  using Place = Far_places::Place;
   using Parameters = Improvement_parameters::Distance_keeping;
-
-  // Where mesh and surface are far apart.
-  struct Place {
-    double distance;
-    int index; // of a face, or of a tracked point after the faces
-  };
 
   // As long as the places clearly become fewer.
   void lower()
   {
     double most = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < Parameters::passes; ++pass) {
-      const std::vector<Place> far = find_far();
-      if (is_hopeless(far) || double(far.size()) > most) break;
+      const std::vector<Place> far = m_far.find();
+      if (are_hopeless(far, Parameters::max_places, Parameters::vertices_per_place) ||
+          double(far.size()) > most)
+        break;
       most = Parameters::fewer * double(far.size());
-      bool has_changed = false;
-      for (const Place& place : far) {
-        Cancellation::poll();
-        has_changed |= lower(place);
-      }
-      if (!has_changed) break;
-      m_tracker.update();
+      if (!lower(far)) break;
     }
   }
 
+  // What is around these vertices, as long as all places together are too far.
+  void lower_around(const std::vector<int>& vertices, double most)
+  {
+    const std::vector<Face> faces = faces_around(m, vertices);
+    for (int pass = 0; pass < Parameters::passes_around && m_far.excess() > most; ++pass)
+      if (!lower(m_far.find(faces))) break;
+  }
+
   // Whether the places are too many or too far to be helped.
-  bool is_hopeless(const std::vector<Place>& far) const
+  bool are_hopeless(const std::vector<Place>& far, int max_places, int vertices_per_place) const
   {
-    const std::size_t most = Parameters::max_places + m.size() / Parameters::vertices_per_place;
+    const std::size_t most = max_places + m.size() / vertices_per_place;
     return !far.empty() &&
-           (far.size() > most || far.front().distance > Parameters::hopeless * m_goal);
-  }
-
-  // The farthest first.
-  std::vector<Place> find_far() const
-  {
-    const int faces = int(m.working().mesh.num_faces());
-    Unset_vector<double> distances(faces + m_tracker.size());
-    for_each_index(m.concurrency(), int(distances.size()), [&](int i) {
-      distances[i] = i < faces ? distance(Face(i)) : m_tracker[i - faces].distance;
-    });
-    std::vector<Place> far;
-    for (const int i : select(m.concurrency(), int(distances.size()),
-                              [&](int i) { return distances[i] > m_goal; }))
-      far.push_back({distances[i], i});
-    std::stable_sort(far.begin(), far.end(),
-                     [](const Place& p, const Place& q) { return p.distance > q.distance; });
-    std::vector<char> has_place(faces, false); // one for each face
-    const auto comes_later = [&](const Place& p) {
-      return std::exchange(has_place[p.index < faces ? p.index : face_of(p.index - faces)], true);
-    };
-    far.erase(std::remove_if(far.begin(), far.end(), comes_later), far.end());
-    return far;
-  }
-
-  // The nearest one.
-  int face_of(int tracked) const { return int(m.working().mesh.face(m_tracker[tracked].face)); }
-
-  // Most are near: the middles of the face and its edges tell.
-  double distance(Face f) const
-  {
-    const auto& mesh = m.working().mesh;
-    double farthest = m_distance.middle(f);
-    if (mesh.is_removed(f)) return 0;
-    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
-      farthest = std::max(farthest, m_distance.middle(mesh.edge(h)));
-    return farthest > Parameters::near_share * m_goal ? m_distance(f) : farthest;
+           (far.size() > most || far.front().distance > Parameters::hopeless * m_far.goal());
   }
 
   // \returns whether the mesh has changed.
+  bool lower(const std::vector<Place>& far)
+  {
+    bool has_changed = false;
+    for (const Place& place : far) {
+      Cancellation::poll();
+      has_changed |= lower(place);
+    }
+    if (has_changed) m_far.update();
+    return has_changed;
+  }
   bool lower(const Place& place)
   {
+    if (place.tracked >= 0) return m_lowerer.lower_tracked(place.tracked);
     const auto& mesh = m.working().mesh;
-    const int faces = int(mesh.num_faces());
-    if (place.index >= faces) return m_lowerer.lower_tracked(place.index - faces);
-    const Face f(place.index);
-    if (!(m_distance(f) > m_goal)) return false;
-    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
+    if (!(m_far.sampled()(place.face) > m_far.goal())) return false;
+    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(place.face)))
       if (flip(mesh.edge(h))) return true;
-    return m_lowerer.lower(f);
+    return m_lowerer.lower(place.face);
+  }
+
+  // Puts vertices into far places, the farthest first. \returns whether it has put any.
+  bool move_vertices()
+  {
+    const std::vector<Place> far = m_far.find();
+    if (far.empty() || are_hopeless(far, Parameters::max_moves, Parameters::vertices_per_move))
+      return false;
+    const std::vector<Vertex> spare = m_mover.find_spare();
+    std::size_t next = 0;
+    const auto take_next = [&] {
+      while (next < spare.size())
+        if (take(spare[next++])) return true;
+      return false;
+    };
+    int moved = 0, failed = 0;
+    std::optional<Star_mesh::Checkpoint> before; // a vertex was taken
+    for (const Place& place : far) {
+      if (failed > Parameters::max_failures + Parameters::failures_per_move * moved) break;
+      if (!m_far.is_far(place.face)) continue;
+      if (!before) {
+        before.emplace(m);
+        if (!take_next()) break;
+        if (!m_far.is_far(place.face)) continue; // it was at the vertex
+      }
+      if (!put(place.face)) {
+        ++failed;
+        continue;
+      }
+      ++moved;
+      before.reset();
+    }
+    if (before) undo(*before);
+    return moved > 0;
+  }
+
+  // If the rest is as near without it.
+  bool take(Vertex v)
+  {
+    Cancellation::poll();
+    const Vec3d p = m.point(v);
+    const double most = m_far.excess();
+    Star_mesh::Checkpoint before(m);
+    if (m_mover.remove(v) && !m_mover.intersects_near(p)) {
+      lower_around(m_far.update(), most);
+      if (m_far.excess() <= most && !m_mover.intersects_near(p)) return true;
+    }
+    undo(before);
+    return false;
+  }
+
+  // At once or, where no split does, with the vertices around the best one searching for places.
+  bool put(Face f)
+  {
+    Cancellation::poll();
+    const Missing_vertex place = m_far.missing_at(f);
+    const double most = m_far.excess() - Parameters::worthwhile_part * m_far.excess(f);
+    double least = std::numeric_limits<double>::infinity();
+    int tries = 0, best = -1;
+    Star_mesh::Checkpoint before(m);
+    const auto is_near = [&] {
+      if (m_mover.intersects_near(place.point)) return false;
+      m_far.update();
+      const double excess = m_far.excess();
+      if (excess < least) least = excess, best = tries;
+      ++tries;
+      return excess <= most;
+    };
+    if (m_mover.insert(place, is_near)) return true;
+    undo(before);
+    if (best < 0) return false;
+    tries = 0;
+    m_mover.insert(place, [&] { return !m_mover.intersects_near(place.point) && tries++ == best; });
+    lower_around(m_far.update(), most);
+    if (m_far.excess() <= most && !m_mover.intersects_near(place.point)) return true;
+    undo(before);
+    return false;
+  }
+
+  void undo(Star_mesh::Checkpoint& before)
+  {
+    before.restore();
+    m_far.update();
   }
 
   // Where the other edge is nearer to the surface.
@@ -185,7 +213,7 @@ private:
       now.restore();
       return false;
     }
-    m_tracker.update();
+    m_far.tracker().update();
     return true;
   }
 
@@ -204,16 +232,15 @@ private:
       cost.badness =
           std::max(cost.badness, triangle_badness(m.point(a), m.point(b), m.point(c)).badness);
       cost.agreement = std::min(cost.agreement, m.agreement(a, b, c));
-      cost.distance = std::max(cost.distance, m_distance(f));
+      cost.distance = std::max(cost.distance, m_far.sampled()(f));
     }
     return cost;
   }
 
   Star_mesh& m;
-  double m_goal; // a little less than is asked for, as between the points it may be more
-  Distance_tracker m_tracker;
-  Sampled_distance m_distance;
+  Far_places m_far;
   Distance_lowerer m_lowerer;
+  Vertex_mover m_mover;
 };
 
 } // namespace CGAL::PowerRTF::internal

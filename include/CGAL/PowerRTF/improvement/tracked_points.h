@@ -91,26 +91,37 @@ inline Unset_vector<Tracked_point> tracked_points(const Surface_points& all)
   return points;
 }
 
-/// The vertices, and points of the edges, `step` apart or nearer, but no more than 63 of an edge.
-inline Surface_points points_of_edges(const Surface& surface, const Facet_tree& tree, double step)
+/// The vertices, points of the edges, `step` apart or nearer, but no more than 63 of an edge, and
+/// points inside the facets, twice as far apart, but no more than 21 of a facet.
+inline Surface_points points_of_facets(const Surface& surface, const Facet_tree& tree, double step)
 {
-  constexpr double most = 64;
+  constexpr double most = 64, most_inside = 8;
   Surface_points all;
   const auto add = [&all](const Vec3d& p, int facet) {
     all.points.push_back(p);
     all.facets.push_back(facet);
   };
   std::vector<char> is_there(surface.points.size(), false);
-  for (const int f : tree.order())
+  for (const int f : tree.order()) {
+    const auto& t = surface.triangles[f];
+    const Vec3d &a = surface.points[t[0]], ab = surface.points[t[1]] - a,
+                ac = surface.points[t[2]] - a;
+    double longest = 0;
     for (int h = 3 * f; h < 3 * f + 3; ++h) {
-      const int a = halfedge_source(surface.triangles, h), o = surface.adjacency.opposite[h];
-      const Vec3d &p = surface.points[a],
+      const int v = halfedge_source(surface.triangles, h), o = surface.adjacency.opposite[h];
+      const Vec3d &p = surface.points[v],
                   &q = surface.points[halfedge_target(surface.triangles, h)];
-      if (!std::exchange(is_there[a], true)) add(p, f);
+      longest = std::max(longest, length(q - p));
+      if (!std::exchange(is_there[v], true)) add(p, f);
       if (o > h) continue; // the other facet's turn
       const int parts = int(std::min(most, std::ceil(length(q - p) / step)));
       for (int i = 1; i < parts; ++i) add(p + double(i) / parts * (q - p), f);
     }
+    const int parts = int(std::min(most_inside, std::ceil(longest / (2 * step))));
+    for (int i = 1; i < parts; ++i)
+      for (int j = 1; i + j < parts; ++j)
+        add(a + double(i) / parts * ab + double(j) / parts * ac, f);
+  }
   return all;
 }
 
