@@ -4,16 +4,14 @@
 // Many meshes at a time.
 #include "mesh_of_shape.h"
 #include "remeshed_shape.h"
+#include "with_threads.h"
 
+#include <CGAL/PowerRTF/internal/find_first.h>
 #include <CGAL/PowerRTF/remesh_batch.h>
+#include <CGAL/PowerRTF/sampling/random_source.h>
 #include <CGAL/power_rtf_remeshing.h>
 
 #include <doctest/doctest.h>
-
-#ifdef CGAL_LINKED_WITH_TBB
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-#endif
 
 #include <atomic>
 #include <chrono>
@@ -30,20 +28,6 @@ using shapes::soup_of;
 namespace {
 
 const int all_threads[] = {1, 2, 3, 5};
-
-/// Calls `f()` where loops may use so many threads, whatever the machine has.
-template <class F>
-void with_threads(int threads, const F& f)
-{
-#ifdef CGAL_LINKED_WITH_TBB
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(threads);
-  arena.execute(f);
-#else
-  (void)threads;
-  f();
-#endif
-}
 
 std::vector<Mesh> inputs()
 {
@@ -148,4 +132,61 @@ TEST_CASE("a job that waits in a loop of its own takes up no other one, nor its 
         });
         CHECK(disturbed == 0);
       });
+}
+
+TEST_CASE("the first job that holds is that of a loop, also where others fail or throw")
+{
+  const CGAL::Parallel_if_available_tag parallel;
+  constexpr int n = 20;
+  for (const int threads : all_threads)
+    for (const int most : {1, 2, n})
+      for (int seed = 0; seed < 50; ++seed)
+        with_threads(threads, [&] {
+          const auto random = [seed](int i) { return counted_random(seed, i, 0); };
+          const auto throws = [&](int i) { return random(i) < 0.05; };
+          const auto holds = [&](int i) { return random(i) > 0.9; };
+          int expected = 0;
+          while (expected < n && !throws(expected) && !holds(expected)) ++expected;
+          std::atomic<int> at_once{0}, most_at_once{0}, needed{0};
+          const auto find = [&] {
+            return internal::find_first(parallel, n, most, [&](int i, const auto& is_needed) {
+              const int now = ++at_once;
+              for (int before = most_at_once;
+                   now > before && !most_at_once.compare_exchange_weak(before, now);) {
+              }
+              std::this_thread::sleep_for(std::chrono::microseconds(int(100 * random(n + i))));
+              if (is_needed()) ++needed;
+              --at_once;
+              if (throws(i)) throw i;
+              return holds(i);
+            });
+          };
+          if (expected < n && throws(expected)) {
+            int thrown = -1;
+            try {
+              find();
+            } catch (int i) {
+              thrown = i;
+            }
+            CHECK(thrown == expected);
+          } else {
+            CHECK(find() == expected);
+          }
+          CHECK(needed >= std::min(expected + 1, n));
+          CHECK(most_at_once <= most);
+        });
+}
+
+TEST_CASE("jobs after one that holds are told that they are not needed")
+{
+  for (const int threads : all_threads)
+    with_threads(threads, [&] {
+      const int first = internal::find_first(CGAL::Parallel_if_available_tag(), 8, 8,
+                                             [](int i, const auto& is_needed) {
+                                               while (i > 0 && is_needed()) {
+                                               }
+                                               return i == 0;
+                                             });
+      CHECK(first == 0);
+    });
 }

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -32,32 +33,36 @@ inline int usable_threads(Concurrency concurrency)
   return 1;
 }
 
-/// Calls `f(i)` for i in [0, n), begun in this order, on as many threads as loops may use. While
-/// more jobs wait than there are threads, each has one thread, which loses no time to the others;
-/// the last ones share those that are free. `f` does not throw.
+/// Calls `f(i)` for i in [0, n), begun in this order, on as many threads as loops may use, but at
+/// most `most` at once. While more jobs wait than there are threads, each has one thread, which
+/// loses no time to the others; the last ones share those that are free. `f` does not throw.
 template <class F>
-void for_each_job(Concurrency concurrency, int n, F&& f)
+void for_each_job(Concurrency concurrency, int n, int most, F&& f)
 {
 #ifdef CGAL_LINKED_WITH_TBB
   const int threads = usable_threads(concurrency);
-  if (threads > 1) {
+  if (threads > 1 && most > 1) {
     std::atomic<int> begun{0};
     const auto work = [&] {
       for (int i = begun++; i < n; i = begun++) {
-        tbb::task_arena own(n - i > threads ? 1 : threads);
+        tbb::task_arena own(n - i > threads && most >= threads ? 1 : threads);
         own.execute([&] { f(i); });
       }
     };
     using Work = decltype(work);
     for_each_task(
-        concurrency, std::min(n, threads), [](const void* w, int) { (*static_cast<Work*>(w))(); },
-        &work);
+        concurrency, std::min({n, threads, most}),
+        [](const void* w, int) { (*static_cast<Work*>(w))(); }, &work);
     return;
   }
-#else
-  (void)concurrency;
 #endif
+  (void)concurrency, (void)most;
   for (int i = 0; i < n; ++i) f(i);
+}
+template <class F>
+void for_each_job(Concurrency concurrency, int n, F&& f)
+{
+  for_each_job(concurrency, n, n, std::forward<F>(f));
 }
 
 } // namespace CGAL::PowerRTF::internal
