@@ -8,11 +8,10 @@
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 #define CGAL_POWER_RTF_IMPROVEMENT_DISTANCE_TRACKER_H
 
-#include <CGAL/PowerRTF/geometry/Cell_marks.h>
-#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/nearest_faces.h>
 #include <CGAL/PowerRTF/improvement/tracked_points.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
@@ -41,7 +40,9 @@ public:
 
   /// Of the surface's vertices. \pre `mesh` has a face
   Distance_tracker(const Star_mesh& mesh, Unset_vector<Tracked_point>&& points)
-      : Distance_tracker(mesh, {}, std::move(points), std::numeric_limits<double>::infinity())
+      : Distance_tracker(mesh, {}, std::move(points),
+                         Parameters::tree_search_distance *
+                             std::sqrt(mesh.projector().surface().area / double(mesh.size())))
   {}
 
   /// Of `others` instead; any face may be nearest to them. From `exact` on distances are.
@@ -84,6 +85,7 @@ public:
   /// The points that are farther away, in order.
   std::vector<int> farther_than(double distance) const
   {
+    if (distance >= m_tree_search_distance) return farther_than(distance, m_far);
     return select(m_mesh->concurrency(), size(),
                   [&](int i) { return m_points[i].distance > distance; });
   }
@@ -92,11 +94,15 @@ public:
   void update()
   {
     const std::vector<int> changed = m_changed.take();
-    lose_removed();
-    const std::vector<int> near =
-        m_changed.are_few(changed) ? points_near_few(changed) : points_near_many(changed);
-    for_each_index(m_mesh->concurrency(), int(near.size()),
-                   [&](int k) { descend(m_points[near[k]]); });
+    const std::vector<int> near = m_changed.are_few(changed, m_vertices_per_change)
+                                      ? points_near_few(changed)
+                                      : points_near_many(changed);
+    for_each_index(m_mesh->concurrency(), int(near.size()), [&](int k) {
+      Tracked_point& w = m_points[near[k]];
+      if (topology().is_removed(w.face)) w.face = halfedge_near(point(w), changed);
+      descend(w);
+    });
+    add_far(near);
     const std::vector<int> far = find_far();
     constexpr std::size_t points_per_change = 8; // where it pays to go through those alone
     if (points_per_change * (near.size() + far.size()) > m_points.size()) {
@@ -107,24 +113,33 @@ public:
     }
   }
 
-  /// The largest distance of what is nearest to the star of `v`, with `v` at `p`; or any that is no
-  /// less than `limit`.
+  /// The largest distance of what is nearest to the star of `v`, with `v` at `p`, but no less than
+  /// `enough`; or any that is no less than `limit`. `at`: the point that has been farthest, or -1,
+  /// is looked at first.
+  double farthest_around(Vertex v, const Vec3d& p, double limit, double enough, int& at) const
+  {
+    const Faces faces = patch(v, p);
+    double farthest = enough;
+    const double step = length(p - m_mesh->point(v)); // no distance grows by more
+    const auto reaches_limit = [&](int i) {
+      if (m_points[i].distance + step < clearly_less * farthest) return false;
+      Tracked_point w = m_points[i];
+      search_faces(w, faces, v, p, farthest);
+      if (w.distance > farthest) farthest = w.distance, at = i;
+      return farthest >= limit;
+    };
+    if (at >= 0 && reaches_limit(at)) return farthest;
+    for (const Halfedge h : halfedges_around_target(v, topology()))
+      if (!topology().is_border(h))
+        for (const int i : at_face(topology().face(h)))
+          if (reaches_limit(i)) return farthest;
+    return farthest;
+  }
   double farthest_around(Vertex v, const Vec3d& p,
                          double limit = std::numeric_limits<double>::infinity()) const
   {
-    const Faces faces = patch(v, p);
-    double farthest = 0;
-    const double step = length(p - m_mesh->point(v)); // no distance grows by more
-    for (const Halfedge h : halfedges_around_target(v, topology()))
-      if (!topology().is_border(h))
-        for (const int i : at_face(topology().face(h))) {
-          if (m_points[i].distance + step < clearly_less * farthest) continue;
-          Tracked_point w = m_points[i];
-          search_faces(w, faces, v, p, farthest);
-          farthest = std::max(farthest, w.distance);
-          if (farthest >= limit) return farthest;
-        }
-    return farthest;
+    int at = -1;
+    return farthest_around(v, p, limit, 0, at);
   }
 
   /// After `v` has moved.
@@ -141,17 +156,17 @@ public:
       search_faces(m_points[i], faces, v, m_mesh->point(v));
       reassign(i);
     }
+    add_far(tracked);
   }
 
 private:
   Distance_tracker(const Star_mesh& mesh, Surface_points&& others,
                    Unset_vector<Tracked_point>&& points, double exact)
-      : m_mesh(&mesh),
-        m_tree_search_distance(
-            std::min(exact, Parameters::tree_search_distance *
-                                std::sqrt(mesh.projector().surface().area / double(mesh.size())))),
-        m_changed(mesh), m_others(std::move(others)), m_points(std::move(points))
+      : m_mesh(&mesh), m_tree_search_distance(exact), m_changed(mesh), m_others(std::move(others)),
+        m_points(std::move(points))
   {
+    if (!are_vertices()) m_vertices_per_change = 2; // the points are far more than the vertices
+    m_far = select(mesh.concurrency(), size(), [](int) { return true; });
     find_far();
     assign();
   }
@@ -207,14 +222,23 @@ private:
     });
   }
 
-  // The points at faces near vertices that have changed: next to these, or next to a neighbor.
+  // The points at faces that have been removed and at those near vertices that have changed: next
+  // to these, or next to a neighbor. What is not far has to be known no better where its face is as
+  // it was.
   std::vector<int> points_near_few(const std::vector<int>& changed) const
   {
     std::vector<int> points;
-    for (const Face f : faces_around(*m_mesh, vertices_around(*m_mesh, changed))) {
+    const auto add_at = [&](Face f) {
       const auto here = at_face(f);
       points.insert(points.end(), here.begin(), here.end());
-    }
+    };
+    const auto add_around = [&](const auto& vertices) {
+      for (const Face f : faces_around(*m_mesh, vertices)) add_at(f);
+    };
+    are_vertices() ? add_around(vertices_around(*m_mesh, changed)) : add_around(changed);
+    if (topology().number_of_removed_faces() > 0)
+      for (int f = 0; f < int(topology().num_faces()); ++f)
+        if (topology().is_removed(Face(f))) add_at(Face(f));
     return points;
   }
 
@@ -231,124 +255,69 @@ private:
         if (has_changed[topology().source(h)]) is_near[v] = true;
     });
     return select(m_mesh->concurrency(), size(), [&](int i) {
-      if (topology().is_removed(m_points[i].face)) return false;
+      if (topology().is_removed(m_points[i].face) || topology().is_removed(m_face[i])) return true;
       const auto [a, b, c] = m_mesh->working().corners(m_points[i].face);
       return is_near[a] || is_near[b] || is_near[c];
     });
   }
 
-  // What was nearest to faces that have been removed is looked for in the whole mesh; the halfedges
-  // of others may have gone to other faces.
-  void lose_removed()
+  // Of a face at the nearest of these vertices.
+  Halfedge halfedge_near(const Vec3d& p, const std::vector<int>& vertices) const
   {
-    const bool had = std::exchange(m_has_removed, topology().number_of_removed_faces() > 0);
-    if (!had && !m_has_removed) return;
-    for_each_index(m_mesh->concurrency(), size(), [&](int i) {
-      Tracked_point& w = m_points[i];
-      if (topology().is_removed(m_face[i]))
-        w.distance = disagreement;
-      else if (topology().is_removed(w.face) || topology().face(w.face) != m_face[i])
-        w.face = topology().halfedge(m_face[i]);
-    });
+    double least = any;
+    Halfedge nearest;
+    for (const int v : vertices) {
+      if (topology().is_isolated(Vertex(v))) continue;
+      const double d = squared_length(m_mesh->point(Vertex(v)) - p);
+      if (d >= least) continue;
+      least = d;
+      nearest = topology().halfedge(Vertex(v));
+    }
+    return topology().is_border(nearest) ? topology().opposite(nearest) : nearest;
+  }
+
+  // Those of them that are farther away, in order.
+  std::vector<int> farther_than(double distance, const std::vector<int>& some) const
+  {
+    std::vector<int> far;
+    for (const int k : select(m_mesh->concurrency(), int(some.size()),
+                              [&](int k) { return m_points[some[k]].distance > distance; }))
+      far.push_back(some[k]);
+    std::sort(far.begin(), far.end());
+    far.erase(std::unique(far.begin(), far.end()), far.end());
+    return far;
+  }
+
+  // After their distances have changed.
+  template <class Points>
+  void add_far(const Points& points)
+  {
+    for (const int i : points)
+      if (m_points[i].distance > m_tree_search_distance) m_far.push_back(i);
   }
 
   // Those that seem to be far are searched for in the whole mesh. Returns them.
   std::vector<int> find_far()
   {
     const std::vector<int> far = farther_than(m_tree_search_distance);
+    m_far = far;
     if (far.empty()) return far;
-    descend_from_carriers(far);
-    const std::vector<int> still_far = farther_than(m_tree_search_distance);
-    if (!still_far.empty()) search_mesh(still_far);
+    if (are_vertices()) descend_from_carriers(far);
+    m_far = farther_than(m_tree_search_distance);
+    if (!m_far.empty()) search_mesh(m_far);
+    m_far = farther_than(m_tree_search_distance);
     return far;
   }
 
   void search_mesh(const std::vector<int>& some)
   {
-    const Concurrency concurrency = m_mesh->concurrency();
-    std::vector<int> unknown;
+    std::vector<Far_point> far;
     for (const int i : some)
-      if (m_points[i].distance == disagreement) unknown.push_back(i);
-    if (unknown.size() <= few)
-      for (const int i : unknown) m_points[i].distance = some_distance(m_points[i]);
-    const std::optional<Reaches> reaches = find_reaches(some);
-    const std::vector<int> faces = select(concurrency, int(topology().num_faces()), [&](int f) {
-      return !topology().is_removed(Face(f)) && (!reaches || is_in_reach(Face(f), some, *reaches));
+      far.push_back({point(i), m_points[i].distance, are_vertices() ? &normal(i) : nullptr});
+    const std::vector<Face> faces = nearest_faces(*m_mesh, far);
+    for_each_index(m_mesh->concurrency(), int(some.size()), [&](int k) {
+      try_face(m_points[some[k]], topology().halfedge(faces[k]), Vertex(), {}, any);
     });
-    const Facet_tree tree(
-        faces.size(), [&](int k) { return m_mesh->points(topology().halfedge(Face(faces[k]))); },
-        {}, concurrency);
-    for_each_chunk(concurrency, int(some.size()), 16, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) {
-        Tracked_point& w = m_points[some[k]];
-        const Vec3d& p = point(some[k]);
-        int f = -1;
-        if (are_vertices())
-          f = tree.nearest(p, normal(some[k]), Projection::min_normal_cosine, -1).facet;
-        if (f < 0) f = tree.nearest(p).facet; // none agrees: any
-        try_face(w, topology().halfedge(Face(faces[f])), Vertex(), {}, any);
-      }
-    });
-  }
-
-  // To the nearest of some faces, of those that agree: that to all is no larger.
-  double some_distance(const Tracked_point& w) const
-  {
-    constexpr int stride = 16;
-    const int faces = int(topology().num_faces());
-    return reduce(
-        m_mesh->concurrency(), (faces + stride - 1) / stride, disagreement,
-        [&](double& least, int k) {
-          Tracked_point there = w;
-          if (topology().is_removed(Face(k * stride))) return;
-          if (try_face(there, topology().halfedge(Face(k * stride)), Vertex(), {}, least))
-            least = there.distance;
-        },
-        [](double& least, double part) { least = std::min(least, part); });
-  }
-
-  // Cubes around points, up to where their nearest faces are.
-  struct Reaches {
-    Packed_tree_layout tree;
-    std::vector<Child_boxes> nodes;
-    Cell_marks cells;
-  };
-
-  // None where not all have an end: all faces count.
-  std::optional<Reaches> find_reaches(const std::vector<int>& some) const
-  {
-    const auto is_known = [this](int i) { return m_points[i].distance < disagreement; };
-    if (!std::all_of(some.begin(), some.end(), is_known)) return {};
-    constexpr double rounding = 1e-6; // to single precision
-    const int size = static_cast<int>(some.size());
-    std::vector<Box3<double>> boxes(size);
-    for_each_index(m_mesh->concurrency(), size, [&](int k) {
-      const double r = (1 + rounding) * m_points[some[k]].distance + rounding;
-      const Vec3d p = point(some[k]), reach{r, r, r};
-      boxes[k] = {p - reach, p + reach};
-    });
-    const Packed_tree_layout tree(size);
-    Cell_marks cells(box_around(m_mesh->concurrency(), size, boxes));
-    for (const Box3<double>& box : boxes) cells.add(box);
-    return Reaches{tree, child_boxes(tree, [&](int k) { return boxes[k]; }), std::move(cells)};
-  }
-
-  // Whether the face may be nearer to one of the points than what was found.
-  bool is_in_reach(Face f, const std::vector<int>& some, const Reaches& reaches) const
-  {
-    const auto [a, b, c] = m_mesh->points(topology().halfedge(f));
-    Box3<double> box{a, a};
-    box.add(b);
-    box.add(c);
-    if (!reaches.cells.touches(box)) return false;
-    bool is_near = false;
-    visit_near(
-        reaches.tree, reaches.nodes.data(), Box_query(box), [&] { return is_near ? -1.f : 0.f; },
-        [&](int k) {
-          const double reach = m_points[some[k]].distance;
-          is_near = clearly_less * squared_distance(box, point(some[k])) <= reach * reach;
-        });
-    return is_near;
   }
 
   void assign()
@@ -378,9 +347,7 @@ private:
 
   bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c) const
   {
-    if (!are_vertices()) return true;
-    const Vec3d n = cross(b - a, c - a);
-    return dot(n, surface().vertex_normals[w.vertex]) > Projection::min_normal_cosine * length(n);
+    return !are_vertices() || internal::agrees(surface().vertex_normals[w.vertex], a, b, c);
   }
 
   // Assigns the face of `h` to the point if it is nearer than `distance` and agrees, or if
@@ -406,7 +373,7 @@ private:
     const auto& mesh = topology();
     Triangle_part part = *try_face(w, w.face, Vertex(), {}, any);
     if (const auto [a, b, c] = m_mesh->points(w.face); !agrees(w, a, b, c))
-      w.distance = disagreement; // worse than all that agree
+      w.distance = unknown_distance; // worse than all that agree
     for (int step = 0; step < Projection::max_downhill_steps; ++step) {
       if (part.kind == Triangle_part::inside) return;
       const std::array<Halfedge, 3> around{w.face, mesh.next(w.face), mesh.prev(w.face)};
@@ -464,18 +431,17 @@ private:
     }
   }
 
-  static constexpr double disagreement = std::numeric_limits<double>::max();
-  static constexpr std::size_t few = 64; // points: each is compared with many faces
   static constexpr double any = std::numeric_limits<double>::infinity();
 
   const Star_mesh* m_mesh;
-  bool m_has_removed = false;    // faces, at the last update
   double m_tree_search_distance; // the least distance that is searched for in the whole mesh
   Changed_vertices m_changed;    // since the last update
-  Surface_points m_others;       // or none: the surface's vertices are tracked
+  std::size_t m_vertices_per_change = 32; // where it pays to look at what is near those alone
+  Surface_points m_others;                // or none: the surface's vertices are tracked
   Unset_vector<Tracked_point> m_points;
-  Unset_vector<Face> m_face;                          // by point: as it was assigned
-  std::optional<Buckets<int>> m_at_face;              // the points by face
+  std::vector<int> m_far;                // all that are farther than is searched for, and others
+  Unset_vector<Face> m_face;             // by point: as it was assigned
+  std::optional<Buckets<int>> m_at_face; // the points by face
   std::unordered_map<Face, std::vector<int>> m_moved; // since then: all points of such faces
 };
 

@@ -203,9 +203,9 @@ struct Improvement_parameters {
     static constexpr double near_share = 0.3;
     static constexpr int passes = 4;
     static constexpr double fewer = 0.7; ///< of the places, that a pass must leave for another one
-    /// Places at most: so many, and one more for each so many vertices of the mesh.
-    static constexpr int max_places = 40;
-    static constexpr int vertices_per_place = 20;
+    /// Places at most: so many, of small meshes one for each so many vertices, and of all one more
+    /// for each so many.
+    static constexpr int max_places = 40, min_vertices_per_place = 5, vertices_per_place = 20;
     static constexpr double hopeless = 3; ///< distance, in the goal
     /// Badness that a change may bring upon a triangle: Q .6, or 32 degrees, or 91 degrees.
     static constexpr double max_badness = 0.13;
@@ -216,7 +216,8 @@ struct Improvement_parameters {
     static constexpr double worthwhile_share = 0.9; ///< of the distance, that a flip must leave
     /// The same of the places that get a vertex.
     static constexpr int max_moves = 40, vertices_per_move = 100;
-    /// Places in vain after which a round ends: so many, and more for each vertex that has moved.
+    /// Places in vain, or spare vertices, after which a round ends: so many, and more for each
+    /// vertex that has moved.
     static constexpr int max_failures = 10, failures_per_move = 3;
     /// Passes around a place at which a vertex was taken or put.
     static constexpr int passes_around = 2;

@@ -69,14 +69,35 @@ public:
     return point;
   }
 
-  /// The same of the star of `v`, with `v` at `p`; or any that is no less than `limit`.
-  double around(Vertex v, const Star& star, const Vec3d& p, double limit) const
+  /// A point of a star: in the face at a corner, its weights for the corners `a` and `b` of that.
+  struct Star_point {
+    int corner = -1; ///< none
+    double a = 0, b = 0;
+  };
+
+  /// The same of the star of `v`, with `v` at `p`; or any that is no less than `limit`. `at`: where
+  /// it has been farthest is looked at first.
+  double around(Vertex v, const Star& star, const Vec3d& p, double limit, Star_point& at) const
   {
     double farthest = 0;
-    const No_less reaches_limit{*this, farthest, limit, m.facet(v)};
+    Vec3d point = p;
+    const No_less reaches_limit{*this, farthest, limit, m.facet(v), &point};
+    if (at.corner >= 0 && m_enough > 0) {
+      const Star::Corner& c = star.corners[at.corner];
+      if (reaches_limit(p + at.a * (c.a - p) + at.b * (c.b - p))) return farthest;
+    }
     if (reaches_limit(p)) return farthest;
-    for (const Star::Corner& c : star.corners)
-      if (any_on_edge(p, c.a, reaches_limit) || any_in_face(p, c.a, c.b, reaches_limit)) break;
+    for (int k = 0; k < int(star.corners.size()); ++k) {
+      const Star::Corner& c = star.corners[k];
+      const double before = farthest;
+      const bool ends =
+          any_on_edge(p, c.a, reaches_limit) || any_in_face(p, c.a, c.b, reaches_limit);
+      if (farthest > before) {
+        at.corner = k;
+        barycentric_coordinates(point, p, c.a, c.b, at.a, at.b);
+      }
+      if (ends) break;
+    }
     return farthest;
   }
 

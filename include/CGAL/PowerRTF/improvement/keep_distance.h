@@ -65,51 +65,54 @@ private:
   void lower()
   {
     double most = std::numeric_limits<double>::infinity();
-    for (int pass = 0; pass < Parameters::passes; ++pass) {
-      const std::vector<Place> far = m_far.find();
-      if (are_hopeless(far, Parameters::max_places, Parameters::vertices_per_place) ||
-          double(far.size()) > most)
+    std::vector<Place> far = m_far.find();
+    for (int pass = 0; pass < Parameters::passes && !far.empty(); ++pass) {
+      const std::vector<Place> all = m_far.find();
+      if (are_hopeless(all, Parameters::max_places, Parameters::vertices_per_place) ||
+          double(all.size()) > most)
         break;
-      most = Parameters::fewer * double(far.size());
-      if (!lower(far)) break;
+      most = Parameters::fewer * double(all.size());
+      far = lower(far);
     }
   }
 
   // What is around these vertices, as long as all places together are too far.
   void lower_around(const std::vector<int>& vertices, double most)
   {
-    const std::vector<Face> faces = faces_around(m, vertices);
+    std::vector<Place> far = m_far.find(faces_around(m, vertices));
     for (int pass = 0; pass < Parameters::passes_around && m_far.excess() > most; ++pass)
-      if (!lower(m_far.find(faces))) break;
+      far = lower(far);
   }
 
   // Whether the places are too many or too far to be helped.
   bool are_hopeless(const std::vector<Place>& far, int max_places, int vertices_per_place) const
   {
-    const std::size_t most = max_places + m.size() / vertices_per_place;
+    const std::size_t small = m.size() / Parameters::min_vertices_per_place,
+                      large = m.size() / vertices_per_place,
+                      most = std::min<std::size_t>(max_places, small) + large;
     return !far.empty() &&
            (far.size() > most || far.front().distance > Parameters::hopeless * m_far.goal());
   }
 
-  // \returns whether the mesh has changed.
-  bool lower(const std::vector<Place>& far)
+  // \returns those that are far at the vertices that have changed: elsewhere, all is as before.
+  std::vector<Place> lower(const std::vector<Place>& far)
   {
-    bool has_changed = false;
     for (const Place& place : far) {
       Cancellation::poll();
-      has_changed |= lower(place);
+      lower(place);
     }
-    if (has_changed) m_far.update();
-    return has_changed;
+    return m_far.find(faces_around(m, m_far.update()));
   }
-  bool lower(const Place& place)
+  void lower(const Place& place)
   {
-    if (place.tracked >= 0) return m_lowerer.lower_tracked(place.tracked);
     const auto& mesh = m.working().mesh;
-    if (!(m_far.sampled()(place.face) > m_far.goal())) return false;
-    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(place.face)))
-      if (flip(mesh.edge(h))) return true;
-    return m_lowerer.lower(place.face);
+    if (place.tracked >= 0) {
+      m_lowerer.lower_tracked(place.tracked);
+    } else if (m_far.sampled()(place.face) > m_far.goal()) {
+      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(place.face)))
+        if (flip(mesh.edge(h))) return;
+      m_lowerer.lower(place.face);
+    }
   }
 
   // Puts vertices into far places, the farthest first. \returns whether it has put any.
@@ -119,16 +122,19 @@ private:
     if (far.empty() || are_hopeless(far, Parameters::max_moves, Parameters::vertices_per_move))
       return false;
     const std::vector<Vertex> spare = m_mover.find_spare();
+    int moved = 0, failed = 0, not_taken = 0;
+    const auto are_many = [&moved](int failures) {
+      return failures > Parameters::max_failures + Parameters::failures_per_move * moved;
+    };
     std::size_t next = 0;
     const auto take_next = [&] {
-      while (next < spare.size())
+      for (; next < spare.size() && !are_many(not_taken); ++not_taken)
         if (take(spare[next++])) return true;
       return false;
     };
-    int moved = 0, failed = 0;
     std::optional<Star_mesh::Checkpoint> before; // a vertex was taken
     for (const Place& place : far) {
-      if (failed > Parameters::max_failures + Parameters::failures_per_move * moved) break;
+      if (are_many(failed)) break;
       if (!m_far.is_far(place.face)) continue;
       if (!before) {
         before.emplace(m);

@@ -130,12 +130,14 @@ private:
 
   bool search(Vertex v, int tracked)
   {
+    m_farthest = {};
     const Star star = m.star(v);
     const Vec3d p = m.point(v);
     const Limits limits{
         std::max(m_terms.max_badness, Parameters::badness_growth * worst_badness(star, p)),
         std::min(m_terms.min_agreement, m.agreement(star, p, m.normal(v))),
         farthest_around(v, star, p, infinity), lies_flat(m.facet(v))};
+    if (limits.farthest <= m_terms.enough) return false; // since a neighbor has moved
     const double before = unroundness_around(star, p) + std::max(1., limits.farthest / m_goal);
     double least = before;
     const Vec3d start = tracked < 0 ? p : towards(tracked, v, star, limits, least);
@@ -152,7 +154,7 @@ private:
   }
 
   // Where the energy is least of: `v`, and where it may go for the tracked point to be nearer.
-  Vec3d towards(int tracked, Vertex v, const Star& star, const Limits& limits, double& least) const
+  Vec3d towards(int tracked, Vertex v, const Star& star, const Limits& limits, double& least)
   {
     const Vec3d p = m.point(v);
     Vec3d best = p;
@@ -167,7 +169,7 @@ private:
   }
 
   // Searches along the normal.
-  void lift(Vertex v, const Star& star, const Limits& limits, Place& best, double& least) const
+  void lift(Vertex v, const Star& star, const Limits& limits, Place& best, double& least)
   {
     double step = Parameters::first_lift * limits.farthest;
     for (int halved = 0; halved < Parameters::max_halvings; ++halved, step /= 2)
@@ -183,9 +185,14 @@ private:
 
   bool lies_flat(int facet) const { return m_flat.width(facet) > Fitting::flat_width * m_spacing; }
 
+  // What has been farthest around the vertex that searches: mostly, it is so at its next place.
+  struct Farthest {
+    int tracked = -1;
+    Sampled_distance::Star_point point;
+  };
+
   // Infinite where the limits are not kept, or where it is no less than `limit`.
-  double energy(Vertex v, const Star& star, const Place& place, const Limits& limits,
-                double limit) const
+  double energy(Vertex v, const Star& star, const Place& place, const Limits& limits, double limit)
   {
     if (place.facet < 0 || lies_flat(place.facet) != limits.is_flat) return infinity;
     const auto& normals = m.projector().surface().facet_normals;
@@ -210,10 +217,12 @@ private:
 
   // The largest distance of the mesh around `v`, with `v` at `p`, and of the surface there; or any
   // that is no less than `limit`.
-  double farthest_around(Vertex v, const Star& star, const Vec3d& p, double limit) const
+  double farthest_around(Vertex v, const Star& star, const Vec3d& p, double limit)
   {
-    const double farthest = m_tracker.farthest_around(v, p, limit);
-    return farthest >= limit ? farthest : std::max(farthest, m_distance.around(v, star, p, limit));
+    const double farthest =
+        m_tracker.farthest_around(v, p, limit, m_terms.enough, m_farthest.tracked);
+    if (farthest >= limit) return farthest;
+    return std::max(farthest, m_distance.around(v, star, p, limit, m_farthest.point));
   }
 
   static double worst_badness(const Star& star, const Vec3d& p)
@@ -230,6 +239,7 @@ private:
   Lowering_terms m_terms;
   Sampled_distance m_distance;
   double m_spacing, m_goal = 0; // the goal: a distance
+  Farthest m_farthest;
 };
 
 } // namespace CGAL::PowerRTF::internal
