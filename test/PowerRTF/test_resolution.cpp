@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_of_shape.h"
 #include "odd_shapes.h"
+#include "remeshed_shape.h"
 #include "shapes.h"
+#include "with_threads.h"
 
 #include <CGAL/PowerRTF/Resolution.h>
 #include <CGAL/PowerRTF/fields/resolution.h>
@@ -14,11 +16,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
 using namespace CGAL::PowerRTF;
 using doctest::Approx;
+using remeshed_shape::are_equal;
 using shapes::make_mesh;
 using shapes::Mesh;
 using shapes::soup_of;
@@ -94,6 +98,31 @@ void check_max_distance(const shapes::Soup& soup, double distance)
   CHECK(std::max(distance_to(soup), distance_to(result.soup)) ==
         Approx(report.absolute(report.distance.max)));
 }
+
+// With so many samples, uniform, 1 % of the diagonal is kept.
+void check_kept(const shapes::Soup& soup, std::size_t samples)
+{
+  CAPTURE(samples);
+  Remeshing_options options;
+  options.density = Density::uniform;
+  options.relative_max_distance = 0.01;
+  options.number_of_samples = samples;
+  Remeshing_report report;
+  CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<shapes::Kernel>> remesher(
+      prepare_surface(make_mesh(soup), options, params::default_values(), report), options, report);
+  Remeshing_default_visitor visitor;
+  REQUIRE(remesher.optimize(visitor));
+  remesher.extract(visitor);
+  CHECK(remesher.report().missed_guarantees().empty());
+  CHECK(remesher.report().distance.bound <= 1); // in per cent
+}
+
+// Ends a run when it has been asked so many times.
+struct Ending_visitor : Remeshing_default_visitor {
+  explicit Ending_visitor(int times) : left(times) {}
+  bool go_further() { return left-- > 0; }
+  int left;
+};
 
 } // namespace
 
@@ -178,23 +207,53 @@ TEST_CASE("a largest distance is kept by about as few vertices as can be: more" 
   check_max_distance(shapes::torus(60, 30, 1, 0.4), 0.01);
 }
 
+TEST_CASE("the search for a largest distance is that of one thread, and a visitor ends it")
+{
+  const Mesh mesh = make_mesh(shapes::ellipsoid(1, 0.6, 0.4, 3));
+  const auto search = [&mesh](auto tag, auto&& visitor, Mesh& output) {
+    Remeshing_options options;
+    options.density = Density::uniform;
+    return CGAL::power_rtf_remeshing<decltype(tag)>(
+        mesh, Resolution::max_distance(0.05), output,
+        params::remeshing_options(options).visitor(std::ref(visitor)));
+  };
+  Mesh expected;
+  Ending_visitor never{1 << 30};
+  const Remeshing_report report = search(CGAL::Sequential_tag(), never, expected);
+  CHECK(report.missed_guarantees().empty());
+  for (const int threads : {2, 5}) {
+    Mesh output;
+    with_threads(threads, [&] { search(CGAL::Parallel_if_available_tag(), never, output); });
+    CHECK(are_equal(soup_of(output), soup_of(expected)));
+    for (const int asked : {0, 20, 60}) {
+      Mesh none;
+      Ending_visitor visitor{asked};
+      with_threads(threads, [&] {
+        CHECK(search(CGAL::Parallel_if_available_tag(), visitor, none).cancelled);
+      });
+      CHECK(num_vertices(none) == 0);
+    }
+  }
+}
+
 TEST_CASE("where nothing is flat, far places get vertices of bent parts")
 {
+  check_kept(shapes::mapped(shapes::icosphere(5),
+                            [](const Vec3d& p) {
+                              return (1 + 0.15 * std::sin(10 * p.x) * std::sin(10 * p.y + 1) *
+                                              std::sin(10 * p.z + 2)) *
+                                     p;
+                            }),
+             600);
+}
+
+TEST_CASE("spikes get vertices of the sphere that they are on")
+{
   const shapes::Soup soup = shapes::mapped(shapes::icosphere(5), [](const Vec3d& p) {
-    return (1 + 0.15 * std::sin(10 * p.x) * std::sin(10 * p.y + 1) * std::sin(10 * p.z + 2)) * p;
+    const auto spike = [](double cosine) { return 0.3 * std::exp((cosine - 1) / 0.015); };
+    return (1 + spike(p.x) + spike(-p.x) + spike(p.y) + spike(-p.y) + spike(p.z) + spike(-p.z)) * p;
   });
-  Remeshing_options options;
-  options.density = Density::uniform;
-  options.relative_max_distance = 0.01;
-  options.number_of_samples = 600;
-  Remeshing_report report;
-  CGAL::PowerRTF_remesher<CGAL::PowerRTF_traits_3<shapes::Kernel>> remesher(
-      prepare_surface(make_mesh(soup), options, params::default_values(), report), options, report);
-  Remeshing_default_visitor visitor;
-  REQUIRE(remesher.optimize(visitor));
-  remesher.extract(visitor);
-  CHECK(remesher.report().missed_guarantees().empty());
-  CHECK(remesher.report().distance.bound <= 1); // in per cent
+  for (const std::size_t samples : {160, 180}) check_kept(soup, samples);
 }
 
 TEST_CASE("a largest distance that cannot be kept is a guarantee that is missed")
@@ -211,11 +270,22 @@ TEST_CASE("a largest distance that cannot be kept is a guarantee that is missed"
   CHECK(report.absolute(report.distance.bound) > 0.001);
 }
 
+// The search that makes one trial at a time.
+template <class Ratio>
+std::size_t smallest_number(double first, double most, const Ratio& ratio)
+{
+  return internal::smallest_number(
+      first, most, ratio, [&](const std::vector<std::size_t>& numbers) {
+        const auto does = [&](std::size_t n) { return ratio(n) <= 1; };
+        return std::size_t(std::find_if(numbers.begin(), numbers.end(), does) - numbers.begin());
+      });
+}
+
 TEST_CASE("the search for the smallest number")
 {
   int runs = 0;
   const auto search = [&](double first, double most, double needed) {
-    return internal::smallest_number(first, most, [&](std::size_t n) {
+    return smallest_number(first, most, [&](std::size_t n) {
       ++runs;
       return needed / double(n);
     });
@@ -250,7 +320,7 @@ TEST_CASE("the search for the smallest number where what is wanted scatters")
         const double random = counted_random(seed, int(n), 0) + counted_random(seed, int(n), 1);
         return s.needed / double(n) * (s.least + s.width * random);
       };
-      const std::size_t n = internal::smallest_number(3000, 1e8, [&](std::size_t m) {
+      const std::size_t n = smallest_number(3000, 1e8, [&](std::size_t m) {
         work += double(m) / s.needed;
         return ratio(m);
       });

@@ -5,15 +5,20 @@
 #ifndef CGAL_POWER_RTF_SAMPLES_WITHIN_DISTANCE_H
 #define CGAL_POWER_RTF_SAMPLES_WITHIN_DISTANCE_H
 
+#include <CGAL/PowerRTF/Remeshing_visitor.h>
 #include <CGAL/PowerRTF/fields/resolution.h>
-#include <CGAL/PowerRTF/geometry/bounding_box.h>
+#include <CGAL/PowerRTF/internal/Cancellation.h>
+#include <CGAL/PowerRTF/internal/find_first.h>
 #include <CGAL/PowerRTF_remesher.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <thread>
 #include <utility>
+#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -45,25 +50,82 @@ double smallest_of_falling(double first, double most, const Ratio& ratio)
 /// by luck. Of those from 24 to 2 % below, in steps of 2 %, the smallest that does is taken. Then
 /// of those from 24 to 14 % below that, as about the nearer ones have been tried, and so on until
 /// none does. Small numbers scatter more, and take a moment: there, from 36 % below on. `most` if
-/// none at all does.
-template <class Ratio>
-std::size_t smallest_number(double first, double most, const Ratio& ratio)
+/// none at all does. `find(numbers)` returns the place of the first of them with `ratio(n) <= 1`,
+/// or their number.
+template <class Ratio, class Find>
+std::size_t smallest_number(double first, double most, const Ratio& ratio, const Find& find)
 {
   constexpr double step = 0.02, least = 4, small = 2000;
   constexpr int far = 7;
-  const auto farthest = [](double n) { return n < small ? 18 : 12; };
   most = std::floor(most);
   double best = smallest_of_falling(first, most, ratio);
   if (best == infinity) return static_cast<std::size_t>(most);
-  int nearest = 1;
-  for (int k = farthest(best); k >= nearest; --k) {
-    const double n = std::round((1 - step * k) * best);
-    if (n < least || n == best || ratio(static_cast<std::size_t>(n)) > 1) continue;
-    best = n;
-    nearest = far;
-    k = farthest(best) + 1;
+  for (int nearest = 1;; nearest = far) {
+    std::vector<std::size_t> numbers;
+    for (int k = best < small ? 18 : 12; k >= nearest; --k) {
+      const double n = std::round((1 - step * k) * best);
+      if (n >= least && n < best) numbers.push_back(static_cast<std::size_t>(n));
+    }
+    const std::size_t at = find(numbers);
+    if (at == numbers.size()) return static_cast<std::size_t>(best);
+    best = static_cast<double>(numbers[at]);
   }
-  return static_cast<std::size_t>(best);
+}
+
+/// What a trial run tells and asks: on the thread of the search, the visitor; on all, whether the
+/// visitor has stopped the search, and whether the trial's outcome is still needed.
+template <class Visitor, class IsNeeded>
+class Trial_visitor : public Remeshing_default_visitor {
+public:
+  Trial_visitor(Visitor& visitor, std::thread::id thread, std::atomic<bool>& is_stopped,
+                const IsNeeded& is_needed)
+      : m_visitor(std::this_thread::get_id() == thread ? &visitor : nullptr),
+        m_is_stopped(is_stopped), m_is_needed(is_needed)
+  {}
+
+  void on_stage(const char* name)
+  {
+    if (m_visitor) m_visitor->on_stage(name);
+  }
+  void on_progress(double done)
+  {
+    if constexpr (Hears_of_progress<Visitor>::value)
+      if (m_visitor) m_visitor->on_progress(done);
+    (void)done;
+  }
+  void on_iteration(const Iteration_report& iteration, double progress)
+  {
+    if (m_visitor) m_visitor->on_iteration(iteration, progress);
+  }
+  bool go_further()
+  {
+    if (m_visitor && !m_visitor->go_further()) m_is_stopped = true;
+    return !m_is_stopped && m_is_needed();
+  }
+
+private:
+  Visitor* m_visitor; // null on other threads
+  std::atomic<bool>& m_is_stopped;
+  const IsNeeded& m_is_needed;
+};
+
+/// The largest distance of a run with so many samples, in what is asked for; infinite where the
+/// samples are too few, or the visitor stops it.
+template <class Traits, class Prepare, class Visitor>
+double distance_ratio(Remeshing_options options, std::size_t samples, const Prepare& prepare,
+                      Visitor& visitor)
+{
+  options.number_of_samples = samples;
+  Remeshing_report report;
+  Surface surface = prepare(options, report);
+  try {
+    PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
+    if (remesher.optimize(visitor)) remesher.extract(visitor);
+    const Remeshing_report& done = remesher.report();
+    return done.cancelled ? infinity : done.absolute(done.distance.bound) / done.max_distance;
+  } catch (const Invalid_input_error&) { // the samples are too few
+    return infinity;
+  }
 }
 
 } // namespace internal
@@ -73,34 +135,44 @@ std::size_t smallest_number(double first, double most, const Ratio& ratio)
 /// where none does, the largest that was tried: ten times the input's vertices, or as many as are
 /// needed on a sphere.
 ///
-/// \tparam Traits a model of `PowerRTFTraits_3`
-/// \param prepare `prepare(options, report)` returns the surface as `prepare_surface()`
-/// \throws internal::Run_cancelled `visitor` stopped it
+/// \tparam Traits a model of `PowerRTFTraits_3`; several runs are tried at once where it is
+/// parallel \param prepare `prepare(options, report)` returns the surface as `prepare_surface()`,
+/// also on several threads at once \param visitor hears of the trials on this thread \throws
+/// internal::Run_cancelled `visitor` stopped it
 template <class Traits, class Prepare, class Visitor>
-std::size_t samples_within_distance(Remeshing_options options, const Prepare& prepare,
+std::size_t samples_within_distance(const Remeshing_options& options, const Prepare& prepare,
                                     Visitor& visitor)
 {
-  double first, most;
+  double first, most, facets;
   {
     Remeshing_report report;
     const Surface surface = prepare(options, report);
+    facets = double(surface.triangles.size());
     first = samples_of_sphere(surface, report.max_distance);
     most = std::clamp(10 * std::max(first, double(surface.points.size())), 1000., 3e8);
   }
-  return internal::smallest_number(first, most, [&](std::size_t n) {
-    options.number_of_samples = n;
-    Remeshing_report report;
-    Surface surface = prepare(options, report);
+  const std::thread::id thread = std::this_thread::get_id();
+  std::atomic<bool> is_stopped{false};
+  const auto ratio = [&](std::size_t n, const auto& is_needed) {
+    internal::Trial_visitor trial(visitor, thread, is_stopped, is_needed);
+    double r = internal::infinity;
     try {
-      PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
-      if (remesher.optimize(visitor)) remesher.extract(visitor);
-      if (remesher.report().cancelled) throw internal::Run_cancelled();
-      const Remeshing_report& done = remesher.report();
-      return done.absolute(done.distance.bound) / done.max_distance;
-    } catch (const Invalid_input_error&) { // the samples are too few
-      return internal::infinity;
+      r = internal::distance_ratio<Traits>(options, n, prepare, trial);
+    } catch (const internal::Run_cancelled&) { // as the surface was prepared
+      is_stopped = true;
     }
-  });
+    if (is_stopped) throw internal::Run_cancelled();
+    return r;
+  };
+  return internal::smallest_number(
+      first, most, [&](std::size_t n) { return ratio(n, [] { return true; }); },
+      [&](const std::vector<std::size_t>& numbers) {
+        constexpr double most_at_once = 1 << 21; // facets and samples: some GB
+        const int at_once = numbers.empty() ? 1 : int(most_at_once / (facets + double(numbers[0])));
+        return std::size_t(internal::find_first(
+            typename Traits::Concurrency_tag(), int(numbers.size()), at_once,
+            [&](int i, const auto& is_needed) { return ratio(numbers[i], is_needed) <= 1; }));
+      });
 }
 
 } // namespace CGAL::PowerRTF
