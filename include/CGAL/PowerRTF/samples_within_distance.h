@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -135,10 +136,11 @@ double distance_ratio(Remeshing_options options, std::size_t samples, const Prep
 /// where none does, the largest that was tried: ten times the input's vertices, or as many as are
 /// needed on a sphere.
 ///
-/// \tparam Traits a model of `PowerRTFTraits_3`; several runs are tried at once where it is
-/// parallel \param prepare `prepare(options, report)` returns the surface as `prepare_surface()`,
-/// also on several threads at once \param visitor hears of the trials on this thread \throws
-/// internal::Run_cancelled `visitor` stopped it
+/// \tparam Traits a model of `PowerRTFTraits_3`; where it is parallel, several runs go on at once
+/// \param prepare `prepare(options, report)` returns the surface as `prepare_surface()`; called on
+///   several threads, but on one at a time
+/// \param visitor hears of the runs on this thread
+/// \throws internal::Run_cancelled `visitor` stopped it
 template <class Traits, class Prepare, class Visitor>
 std::size_t samples_within_distance(const Remeshing_options& options, const Prepare& prepare,
                                     Visitor& visitor)
@@ -151,13 +153,18 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
     first = samples_of_sphere(surface, report.max_distance);
     most = std::clamp(10 * std::max(first, double(surface.points.size())), 1000., 3e8);
   }
+  std::mutex mutex;
+  const auto prepare_alone = [&](const Remeshing_options& o, Remeshing_report& report) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return prepare(o, report);
+  };
   const std::thread::id thread = std::this_thread::get_id();
   std::atomic<bool> is_stopped{false};
   const auto ratio = [&](std::size_t n, const auto& is_needed) {
     internal::Trial_visitor trial(visitor, thread, is_stopped, is_needed);
     double r = internal::infinity;
     try {
-      r = internal::distance_ratio<Traits>(options, n, prepare, trial);
+      r = internal::distance_ratio<Traits>(options, n, prepare_alone, trial);
     } catch (const internal::Run_cancelled&) { // as the surface was prepared
       is_stopped = true;
     }
