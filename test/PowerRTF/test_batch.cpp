@@ -13,6 +13,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -149,7 +150,7 @@ TEST_CASE("the first job that holds is that of a loop, also where others fail or
           while (expected < n && !throws(expected) && !holds(expected)) ++expected;
           std::atomic<int> at_once{0}, most_at_once{0}, needed{0};
           const auto find = [&] {
-            return internal::find_first(parallel, n, most, [&](int i, const auto& is_needed) {
+            const auto job = [&](int i, const auto& is_needed) {
               const int now = ++at_once;
               for (int before = most_at_once;
                    now > before && !most_at_once.compare_exchange_weak(before, now);) {
@@ -159,7 +160,8 @@ TEST_CASE("the first job that holds is that of a loop, also where others fail or
               --at_once;
               if (throws(i)) throw i;
               return holds(i);
-            });
+            };
+            return internal::find_first(parallel, n, most, job, [] {});
           };
           if (expected < n && throws(expected)) {
             int thrown = -1;
@@ -181,12 +183,30 @@ TEST_CASE("jobs after one that holds are told that they are not needed")
 {
   for (const int threads : all_threads)
     with_threads(threads, [&] {
-      const int first = internal::find_first(CGAL::Parallel_if_available_tag(), 8, 8,
-                                             [](int i, const auto& is_needed) {
-                                               while (i > 0 && is_needed()) {
-                                               }
-                                               return i == 0;
-                                             });
-      CHECK(first == 0);
+      const auto job = [](int i, const auto& is_needed) {
+        while (i > 0 && is_needed()) {
+        }
+        return i == 0;
+      };
+      CHECK(internal::find_first(CGAL::Parallel_if_available_tag(), 8, 8, job, [] {}) == 0);
+    });
+}
+
+TEST_CASE("a thread that waits for the jobs of others is idle")
+{
+  for (const int threads : all_threads)
+    with_threads(threads, [&] {
+      const std::thread::id caller = std::this_thread::get_id();
+      std::atomic<bool> was_idle{false};
+      const auto job = [&](int, const auto&) { // elsewhere, until this thread has no other one
+        while (std::this_thread::get_id() != caller && !was_idle) {
+        }
+        return false;
+      };
+      const auto idle = [&] {
+        CHECK(std::this_thread::get_id() == caller);
+        was_idle = true;
+      };
+      CHECK(internal::find_first(CGAL::Parallel_if_available_tag(), 8, 8, job, idle) == 8);
     });
 }

@@ -160,6 +160,9 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
   };
   const std::thread::id thread = std::this_thread::get_id();
   std::atomic<bool> is_stopped{false};
+  const auto throw_if_stopped = [&] {
+    if (is_stopped) throw internal::Run_cancelled();
+  };
   const auto ratio = [&](std::size_t n, const auto& is_needed) {
     internal::Trial_visitor trial(visitor, thread, is_stopped, is_needed);
     double r = internal::infinity;
@@ -168,7 +171,7 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
     } catch (const internal::Run_cancelled&) { // as the surface was prepared
       is_stopped = true;
     }
-    if (is_stopped) throw internal::Run_cancelled();
+    throw_if_stopped();
     return r;
   };
   return internal::smallest_number(
@@ -176,9 +179,14 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
       [&](const std::vector<std::size_t>& numbers) {
         constexpr double most_at_once = 1 << 21; // facets and samples: some GB
         const int at_once = numbers.empty() ? 1 : int(most_at_once / (facets + double(numbers[0])));
-        return std::size_t(internal::find_first(
+        const int at = internal::find_first(
             typename Traits::Concurrency_tag(), int(numbers.size()), at_once,
-            [&](int i, const auto& is_needed) { return ratio(numbers[i], is_needed) <= 1; }));
+            [&](int i, const auto& is_needed) { return ratio(numbers[i], is_needed) <= 1; },
+            [&] {
+              if (!visitor.go_further()) is_stopped = true;
+            });
+        throw_if_stopped();
+        return std::size_t(at);
       });
 }
 

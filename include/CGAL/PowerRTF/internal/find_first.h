@@ -16,13 +16,13 @@ namespace CGAL::PowerRTF::internal {
 /// The first i in [0, n) of which `holds(i, is_needed)`, or n; at most `most` of them at once. As
 /// soon as `is_needed()` is false, for one of the others holds before it, what it returns does not
 /// matter. What is thrown is thrown by this, unless one before it holds: the outcome is that of a
-/// loop.
-template <class Holds>
-int find_first(Concurrency concurrency, int n, int most, const Holds& holds)
+/// loop. `idle()`: see `for_each_job()`.
+template <class Holds, class Idle>
+int find_first(Concurrency concurrency, int n, int most, const Holds& holds, const Idle& idle)
 {
   std::atomic<int> first{n};
   std::vector<std::exception_ptr> errors(n);
-  for_each_job(concurrency, n, most, [&](int i) {
+  const auto job = [&](int i) {
     const auto is_needed = [&first, i] { return i < first; };
     if (!is_needed()) return;
     try {
@@ -32,7 +32,8 @@ int find_first(Concurrency concurrency, int n, int most, const Holds& holds)
     }
     for (int before = first; i < before && !first.compare_exchange_weak(before, i);) {
     }
-  });
+  };
+  for_each_job(concurrency, n, most, job, idle);
   if (first < n && errors[first]) std::rethrow_exception(errors[first]);
   return first;
 }

@@ -15,6 +15,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace CGAL::PowerRTF::internal {
@@ -35,18 +37,25 @@ inline int usable_threads(Concurrency concurrency)
 
 /// Calls `f(i)` for i in [0, n), begun in this order, on as many threads as loops may use, but at
 /// most `most` at once. While more jobs wait than there are threads, each has one thread, which
-/// loses no time to the others; the last ones share those that are free. `f` does not throw.
-template <class F>
-void for_each_job(Concurrency concurrency, int n, int most, F&& f)
+/// loses no time to the others; the last ones share those that are free. As long as this thread
+/// waits for others, it calls `idle()`, again and again. Neither throws.
+template <class F, class Idle>
+void for_each_job(Concurrency concurrency, int n, int most, F&& f, Idle&& idle)
 {
 #ifdef CGAL_LINKED_WITH_TBB
   const int threads = usable_threads(concurrency);
   if (threads > 1 && most > 1) {
-    std::atomic<int> begun{0};
+    std::atomic<int> begun{0}, ended{0};
+    const std::thread::id caller = std::this_thread::get_id();
     const auto work = [&] {
       for (int i = begun++; i < n; i = begun++) {
         tbb::task_arena own(n - i > threads && most >= threads ? 1 : threads);
         own.execute([&] { f(i); });
+        ++ended;
+      }
+      while (std::this_thread::get_id() == caller && ended < n) {
+        idle();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
       }
     };
     using Work = decltype(work);
@@ -56,13 +65,13 @@ void for_each_job(Concurrency concurrency, int n, int most, F&& f)
     return;
   }
 #endif
-  (void)concurrency, (void)most;
+  (void)concurrency, (void)most, (void)idle;
   for (int i = 0; i < n; ++i) f(i);
 }
 template <class F>
 void for_each_job(Concurrency concurrency, int n, F&& f)
 {
-  for_each_job(concurrency, n, n, std::forward<F>(f));
+  for_each_job(concurrency, n, n, std::forward<F>(f), [] {});
 }
 
 } // namespace CGAL::PowerRTF::internal
