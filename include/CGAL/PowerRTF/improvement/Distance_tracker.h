@@ -94,7 +94,9 @@ public:
   void update()
   {
     const std::vector<int> changed = m_changed.take();
-    const std::vector<int> near = m_changed.are_few(changed, m_vertices_per_change)
+    // Where it pays to look at what is near those alone; others are far more than the vertices.
+    const std::size_t vertices_per_change = are_vertices() ? 32 : 2;
+    const std::vector<int> near = m_changed.are_few(changed, vertices_per_change)
                                       ? points_near_few(changed)
                                       : points_near_many(changed);
     for_each_index(m_mesh->concurrency(), int(near.size()), [&](int k) {
@@ -165,7 +167,6 @@ private:
       : m_mesh(&mesh), m_tree_search_distance(exact), m_changed(mesh), m_others(std::move(others)),
         m_points(std::move(points))
   {
-    if (!are_vertices()) m_vertices_per_change = 2; // the points are far more than the vertices
     m_far = select(mesh.concurrency(), size(), [](int) { return true; });
     find_far();
     assign();
@@ -299,11 +300,13 @@ private:
   // Those that seem to be far are searched for in the whole mesh. Returns them.
   std::vector<int> find_far()
   {
-    const std::vector<int> far = farther_than(m_tree_search_distance);
-    m_far = far;
-    if (far.empty()) return far;
-    if (are_vertices()) descend_from_carriers(far);
     m_far = farther_than(m_tree_search_distance);
+    const std::vector<int> far = m_far;
+    if (far.empty()) return far;
+    if (are_vertices()) {
+      descend_from_carriers(far);
+      m_far = farther_than(m_tree_search_distance);
+    }
     if (!m_far.empty()) search_mesh(m_far);
     m_far = farther_than(m_tree_search_distance);
     return far;
@@ -436,8 +439,7 @@ private:
   const Star_mesh* m_mesh;
   double m_tree_search_distance; // the least distance that is searched for in the whole mesh
   Changed_vertices m_changed;    // since the last update
-  std::size_t m_vertices_per_change = 32; // where it pays to look at what is near those alone
-  Surface_points m_others;                // or none: the surface's vertices are tracked
+  Surface_points m_others;       // or none: the surface's vertices are tracked
   Unset_vector<Tracked_point> m_points;
   std::vector<int> m_far;                // all that are farther than is searched for, and others
   Unset_vector<Face> m_face;             // by point: as it was assigned

@@ -65,14 +65,14 @@ private:
   void lower()
   {
     double most = std::numeric_limits<double>::infinity();
-    std::vector<Place> far = m_far.find();
+    std::vector<Place> all = m_far.find(), far = all;
     for (int pass = 0; pass < Parameters::passes && !far.empty(); ++pass) {
-      const std::vector<Place> all = m_far.find();
       if (are_hopeless(all, Parameters::max_places, Parameters::vertices_per_place) ||
           double(all.size()) > most)
         break;
       most = Parameters::fewer * double(all.size());
       far = lower(far);
+      all = m_far.find();
     }
   }
 
