@@ -6,11 +6,14 @@
 #include "../odd_shapes.h"
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
+#include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
+#include <CGAL/PowerRTF/improvement/Vertex_mover.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/flat_stars.h>
+#include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
@@ -340,6 +343,36 @@ TEST_CASE("what is undone since a checkpoint is as it was, with or without a tra
   start.restore();
   CHECK(state(false) == all);
   CHECK(CGAL::is_valid_polygon_mesh(m));
+}
+
+TEST_CASE("vertices that have been taken out have nothing around them")
+{
+  const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
+  const Facet_tree tree(c.surface.points, c.surface.triangles);
+  const internal::Surface_projector projector(c.surface, tree);
+  internal::Star_mesh mesh(c.raw, projector);
+  using Vertex = internal::Star_mesh::Vertex;
+  const auto& m = mesh.working().mesh;
+  internal::Bad_triangle_optimizer optimizer(mesh);
+  internal::Vertex_mover mover(mesh, optimizer, 0.3);
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<Vertex> spare = mover.find_spare();
+    const auto in_mesh = [&](Vertex v) { return mesh.working().has_edges(v); };
+    REQUIRE(!spare.empty());
+    CHECK(std::all_of(spare.begin(), spare.end(), in_mesh));
+    mover.remove(spare[0]);
+  }
+  REQUIRE(m.number_of_vertices() == mesh.size() - 3);
+  std::vector<int> all(mesh.size());
+  std::iota(all.begin(), all.end(), 0);
+  CHECK(vertices_around(mesh, all).size() == m.number_of_vertices());
+  CHECK(faces_around(mesh, all).size() == m.number_of_faces());
+  for (const int v : all)
+    if (m.is_removed(Vertex(v))) {
+      CHECK(faces_around(mesh, std::vector<int>{v}).empty());
+      CHECK(vertices_around(mesh, std::vector<int>{v}).empty());
+      CHECK(mesh.state_around(Vertex(v)) != 0);
+    }
 }
 
 TEST_CASE("a checkpoint undoes what its thread has done to its mesh")

@@ -128,6 +128,9 @@ struct Working_mesh {
     return {p.x(), p.y(), p.z()};
   }
 
+  /// False for vertices that have been removed, too: those have no halfedge.
+  bool has_edges(Vertex v) const { return !mesh.is_removed(v) && !mesh.is_isolated(v); }
+
   /// The corner of the face at `h` that is not on it.
   Vertex apex(Halfedge h) const { return mesh.target(mesh.next(h)); }
   /// Of the face at `h`: its source, its target, the apex.

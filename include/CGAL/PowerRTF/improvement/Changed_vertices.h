@@ -69,7 +69,7 @@ std::vector<Star_mesh::Vertex> vertices_around(const Star_mesh& m, const Vertice
   const auto& mesh = m.working().mesh;
   return gather_uniquely<Vertex>(m.concurrency(), int(vertices.size()), [&](int k, auto&& add) {
     const Vertex v(vertices[k]);
-    if (mesh.is_isolated(v)) return;
+    if (!m.working().has_edges(v)) return;
     add(v);
     for (const auto h : halfedges_around_target(v, mesh)) add(mesh.source(h));
   });
@@ -84,7 +84,7 @@ std::vector<Working_mesh::Face> faces_around(const Star_mesh& m, const Vertices&
   const auto& mesh = m.working().mesh;
   return gather_uniquely<Face>(m.concurrency(), int(vertices.size()), [&](int k, auto&& add) {
     const Star_mesh::Vertex v(vertices[k]);
-    if (mesh.is_isolated(v)) return;
+    if (!m.working().has_edges(v)) return;
     for (const auto h : halfedges_around_target(v, mesh))
       if (!mesh.is_border(h) && holds(mesh.face(h))) add(mesh.face(h));
   });
@@ -106,7 +106,7 @@ std::vector<Star_mesh::Edge> edges_around(const Star_mesh& m, const Vertices& ve
   const auto& mesh = m.working().mesh;
   return gather_uniquely<Edge>(m.concurrency(), int(vertices.size()), [&](int k, auto&& add) {
     const Star_mesh::Vertex v(vertices[k]);
-    if (mesh.is_isolated(v)) return;
+    if (!m.working().has_edges(v)) return;
     for (const auto h : halfedges_around_target(v, mesh))
       for (const auto side : {h, mesh.prev(h)}) {
         const Edge e(mesh.edge(side).idx()); // whichever halfedge it was found by

@@ -201,7 +201,7 @@ private:
     // By place in the tree: the last vertex that its facet carries.
     Unset_vector<int> at_place = filled(concurrency, places, -1);
     for_each_index(concurrency, int(m_mesh->size()), [&](int v) {
-      if (!topology().is_isolated(Vertex(v)))
+      if (m_mesh->working().has_edges(Vertex(v)))
         atomic_max(&at_place[tree.place(m_mesh->facet(Vertex(v)))], v);
     });
     const auto descend_to = [&](Tracked_point& best) {
@@ -251,7 +251,7 @@ private:
     for_each_index(m_mesh->concurrency(), int(m_mesh->size()), [&](int i) {
       const Vertex v(i);
       is_near[v] = has_changed[v];
-      if (is_near[v] || topology().is_isolated(v)) return;
+      if (is_near[v] || !m_mesh->working().has_edges(v)) return;
       for (const Halfedge h : halfedges_around_target(v, topology()))
         if (has_changed[topology().source(h)]) is_near[v] = true;
     });
@@ -268,7 +268,7 @@ private:
     double least = any;
     Halfedge nearest;
     for (const int v : vertices) {
-      if (topology().is_isolated(Vertex(v))) continue;
+      if (!m_mesh->working().has_edges(Vertex(v))) continue;
       const double d = squared_length(m_mesh->point(Vertex(v)) - p);
       if (d >= least) continue;
       least = d;

@@ -156,7 +156,7 @@ public:
   State state_around(Vertex v) const
   {
     State sum = state(v);
-    if (m.mesh.is_isolated(v)) return sum;
+    if (!m.has_edges(v)) return sum;
     for (const Halfedge h : halfedges_around_target(v, m.mesh)) sum += state(m.mesh.source(h));
     return sum;
   }
@@ -427,7 +427,7 @@ private:
   // On neither feature nor border.
   bool is_interior(Vertex v) const
   {
-    return !m_on_feature[v] && !m.mesh.is_isolated(v) && !m.mesh.is_border(v) && !m.is_on_seam(v);
+    return !m_on_feature[v] && m.has_edges(v) && !m.mesh.is_border(v) && !m.is_on_seam(v);
   }
 
   void restore(const Vertex_state& s)

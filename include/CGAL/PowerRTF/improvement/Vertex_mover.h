@@ -186,7 +186,7 @@ private:
   {
     const auto& mesh = m.working().mesh;
     const std::pair<double, Halfedge> none{infinity, Halfedge()};
-    if (!m.is_movable(v)) return none;
+    if (!m.is_movable(v) || !m.working().has_edges(v)) return none;
     const Star star = m.star(v);
     std::pair<double, Halfedge> best{Parameters::max_collapse_badness, Halfedge()};
     std::size_t at = 0; // the star's corners are in this order

@@ -40,9 +40,9 @@ public:
   std::size_t run()
   {
     for_each_index(m.concurrency(), int(m.size()), [this](int v) {
-      m_degrees[v] = m.working().mesh.is_isolated(Vertex(v))
-                         ? 0
-                         : m.working().degree_up_to(Parameters::irregular_degree, Vertex(v));
+      m_degrees[v] = m.working().has_edges(Vertex(v))
+                         ? m.working().degree_up_to(Parameters::irregular_degree, Vertex(v))
+                         : 0;
     });
     std::vector<Candidate> left;
     for (const int v :
