@@ -188,9 +188,11 @@ private:
     undo(before);
     if (best < 0) return false;
     tries = 0;
-    m_mover.insert(place, [&] { return !m_mover.intersects_near(place.point) && tries++ == best; });
-    lower_around(m_far.update(), most);
-    if (m_far.excess() <= most && !m_mover.intersects_near(place.point)) return true;
+    const auto is_best = [&] { return !m_mover.intersects_near(place.point) && tries++ == best; };
+    if (m_mover.insert(place, is_best)) {
+      lower_around(m_far.update(), most);
+      if (m_far.excess() <= most && !m_mover.intersects_near(place.point)) return true;
+    }
     undo(before);
     return false;
   }
