@@ -39,12 +39,16 @@ public:
     for (const int v : vertices) m_seen[v] = 0;
   }
 
-  /// Those that have changed, or their edges, since this was called last; in order.
+  /// Those that have changed, or their edges, since they were taken last; in order.
+  std::vector<int> find() const
+  {
+    return select(m_mesh->concurrency(), int(m_seen.size()),
+                  [&](int v) { return m_mesh->changes(Vertex(v)) != m_seen[v]; });
+  }
+  /// The same, and takes them.
   std::vector<int> take()
   {
-    std::vector<int> changed = select(m_mesh->concurrency(), int(m_seen.size()), [&](int v) {
-      return m_mesh->changes(Vertex(v)) != m_seen[v];
-    });
+    std::vector<int> changed = find();
     for_each_index(m_mesh->concurrency(), int(changed.size()),
                    [&](int k) { m_seen[changed[k]] = m_mesh->changes(Vertex(changed[k])); });
     return changed;

@@ -93,17 +93,9 @@ public:
   /// After any changes of the mesh.
   void update()
   {
-    const std::vector<int> changed = m_changed.take();
-    // Where it pays to look at what is near those alone; others are far more than the vertices.
-    const std::size_t vertices_per_change = are_vertices() ? 32 : 2;
-    const std::vector<int> near = m_changed.are_few(changed, vertices_per_change)
-                                      ? points_near_few(changed)
-                                      : points_near_many(changed);
-    for_each_index(m_mesh->concurrency(), int(near.size()), [&](int k) {
-      Tracked_point& w = m_points[near[k]];
-      if (topology().is_removed(w.face)) w.face = halfedge_near(point(w), changed);
-      descend(w);
-    });
+    const std::vector<int> changed = m_changed.take(), near = points_near(changed);
+    for_each_index(m_mesh->concurrency(), int(near.size()),
+                   [&](int k) { descend_anew(m_points[near[k]], changed); });
     add_far(near);
     const std::vector<int> far = find_far();
     constexpr std::size_t points_per_change = 8; // where it pays to go through those alone
@@ -114,6 +106,21 @@ public:
       for (const int i : far) reassign(i);
     }
   }
+
+  /// Before an update: whether the points at what has changed are no farther away than `distance`,
+  /// as descents from where they were tell.
+  bool are_within(double distance) const
+  {
+    const std::vector<int> changed = m_changed.find(), near = points_near(changed);
+    return std::all_of(near.begin(), near.end(), [&](int i) {
+      Tracked_point w = m_points[i];
+      descend_anew(w, changed);
+      return w.distance <= distance;
+    });
+  }
+
+  /// Instead of an update, where the mesh is again as it was at the last one.
+  void skip_update() { m_changed.take(); }
 
   /// The largest distance of what is nearest to the star of `v`, with `v` at `p`, but no less than
   /// `enough`; or any that is no less than `limit`. `at`: the point that has been farthest, or -1,
@@ -221,6 +228,14 @@ private:
     for_each_chunk(concurrency, int(some.size()), 64, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) descend_to(m_points[some[k]]);
     });
+  }
+
+  std::vector<int> points_near(const std::vector<int>& changed) const
+  {
+    // Where it pays to look at what is near those alone; others are far more than the vertices.
+    const std::size_t vertices_per_change = are_vertices() ? 32 : 2;
+    return m_changed.are_few(changed, vertices_per_change) ? points_near_few(changed)
+                                                           : points_near_many(changed);
   }
 
   // The points at faces that have been removed and at those near vertices that have changed: next
@@ -368,6 +383,13 @@ private:
     w.nearest = y;
     w.distance = d;
     return part;
+  }
+
+  // If the face has been removed, from one at a vertex that has changed.
+  void descend_anew(Tracked_point& w, const std::vector<int>& changed) const
+  {
+    if (topology().is_removed(w.face)) w.face = halfedge_near(point(w), changed);
+    descend(w);
   }
 
   // Goes from the face on to those at the edge or corner where the nearest point is.

@@ -47,6 +47,7 @@ public:
   /// A little less than is asked for, as between the points it may be more.
   double goal() const { return m_goal; }
   Distance_tracker& tracker() { return m_tracker; }
+  const Distance_tracker& tracker() const { return m_tracker; }
   const Sampled_distance& sampled() const { return m_distance; }
 
   /// After any changes. \returns the vertices that have changed.
@@ -66,6 +67,21 @@ public:
         place.distance = m_tracker[i].distance, place.tracked = i;
     }
     return changed;
+  }
+
+  /// Before an update: whether nothing is far at what has changed; rarely it is not, but is said
+  /// to be.
+  bool are_changes_near() const
+  {
+    const std::vector<Face> faces = faces_around(m, m_changed.find());
+    return std::all_of(faces.begin(), faces.end(), [&](Face f) { return distance(f) <= m_goal; }) &&
+           m_tracker.are_within(m_goal);
+  }
+  /// Instead of an update, where the mesh is again as it was at the last one.
+  void skip_update()
+  {
+    m_tracker.skip_update();
+    m_changed.take();
   }
 
   bool is_far(Face f) const { return m_places[f].distance > m_goal; }

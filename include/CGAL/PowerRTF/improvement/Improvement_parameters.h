@@ -9,6 +9,7 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_IMPROVEMENT_PARAMETERS_H
 
 #include <CGAL/PowerRTF/smoothing/Smoothing_parameters.h>
+#include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <array>
 
@@ -225,6 +226,15 @@ struct Improvement_parameters {
     /// What a vertex must gain, in what its place is too far; and what a round must leave at most
     /// of what all places are too far, for another one.
     static constexpr double worthwhile_part = 0.5, less = 0.9;
+  };
+
+  /// coarsen_mesh_impl.h
+  struct Coarsening {
+    /// Badness that a change may bring upon a triangle.
+    static constexpr double max_badness = Triangle_badness::tolerable;
+    static constexpr double max_collapse_badness = 6; ///< right after a collapse
+    static constexpr double min_agreement = 0.3;      ///< of a star that can spare its vertex
+    static constexpr double hopeless = 1.4;           ///< distance right after that, in the goal
   };
 
   using Fitting = Fitting_parameters;

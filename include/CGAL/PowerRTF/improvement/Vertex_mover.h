@@ -37,9 +37,12 @@ public:
   using Halfedge = Star_mesh::Halfedge;
 
   /// `min_agreement`: of the stars that can spare their vertex; the flattest come first.
-  Vertex_mover(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, double min_agreement)
+  /// `max_badness`: of triangles right after a collapse.
+  Vertex_mover(Star_mesh& mesh, Bad_triangle_optimizer& optimizer, double min_agreement,
+               double max_badness = Parameters::max_collapse_badness)
       : m(mesh), m_optimizer(optimizer), m_spare_changed(mesh),
         m_stride(1 + mesh.size() / Parameters::max_candidates), m_min_agreement(min_agreement),
+        m_max_badness(max_badness),
         m_spacing(std::sqrt(mesh.projector().surface().area / double(mesh.size())))
   {}
 
@@ -77,9 +80,13 @@ public:
   /// Takes a vertex out. \returns whether what is left is good.
   bool remove(Vertex v)
   {
-    const Halfedge h = best_collapse(v).second;
-    return h.is_valid() && is_good_around(m.collapse(h));
+    const Halfedge h = collapse_of(v);
+    return h.is_valid() && remove(h);
   }
+  /// The same by the collapse of `h`.
+  bool remove(Halfedge h) { return is_good_around(m.collapse(h)); }
+  /// The halfedge from `v` by whose collapse it is taken out; invalid if it cannot be spared.
+  Halfedge collapse_of(Vertex v) const { return best_collapse(v).second; }
 
   /// Splits an edge near the place; the new vertex goes there or, if that breaks the triangles,
   /// part of the way. The first split is taken that leaves good triangles and of which `holds()`.
@@ -188,7 +195,7 @@ private:
     const std::pair<double, Halfedge> none{infinity, Halfedge()};
     if (!m.is_movable(v) || !m.working().has_edges(v)) return none;
     const Star star = m.star(v);
-    std::pair<double, Halfedge> best{Parameters::max_collapse_badness, Halfedge()};
+    std::pair<double, Halfedge> best{m_max_badness, Halfedge()};
     std::size_t at = 0; // the star's corners are in this order
     for (const Halfedge h : halfedges_around_target(v, mesh)) {
       const double worst = badness_collapsed(star, at++, best.first);
@@ -238,7 +245,7 @@ private:
   Changed_vertices m_spare_changed;   // since the following was found
   std::size_t m_stride;               // between the vertices that may be spared
   Unset_vector<double> m_spare_costs; // of these: see `best_collapse()`
-  double m_min_agreement, m_spacing, m_tolerable = 0;
+  double m_min_agreement, m_max_badness, m_spacing, m_tolerable = 0;
 };
 
 } // namespace CGAL::PowerRTF::internal
