@@ -19,6 +19,7 @@
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/features/move_off_kept_edges.h>
 #include <CGAL/PowerRTF/features/split_off_image.h>
+#include <CGAL/PowerRTF/improvement/coarsen_mesh.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -81,15 +82,19 @@ public:
   }
 
   /// Triangulates the samples (Algorithm 3, line 22), improves the mesh unless
-  /// `Improvement::no`, and judges the result. Returns an empty mesh, and the report says
-  /// `cancelled`, when `visitor` stopped it.
+  /// `Improvement::no`, and judges the result. Where a largest distance is asked for, but no
+  /// density, and all guarantees are met, it then takes out the vertices that can be spared.
+  /// Returns an empty mesh, and the report says `cancelled`, when `visitor` stopped it.
   template <class Visitor>
   PowerRTF::Extracted_mesh extract(Visitor& visitor)
   {
-    PowerRTF::Extracted_mesh mesh;
-    m_report.cancelled =
-        !PowerRTF::internal::run_unless_cancelled(visitor, [&] { mesh = judged_mesh(); });
-    return mesh;
+    return extract(visitor, PowerRTF::is_coarsened(m_options) && !m_surface.has_own_density);
+  }
+  /// The same, but all samples become vertices.
+  template <class Visitor>
+  PowerRTF::Extracted_mesh extract_all(Visitor& visitor)
+  {
+    return extract(visitor, false);
   }
 
   const PowerRTF::Surface& surface() const { return m_whole ? *m_whole : m_surface; }
@@ -100,8 +105,8 @@ public:
   const Options& options() const { return m_options; }
   const Report& report() const { return m_report; }
   Report& report() { return m_report; }
-  /// The current samples, in the order of the output's vertices: those with cells, then those on
-  /// creases and borders.
+  /// The current samples, in the order of the output's vertices, but for those that were taken out:
+  /// those with cells, then those on creases and borders.
   PowerRTF::Samples samples() const { return with_features(m_engine.samples()); }
   /// The sites of the cells: the samples that have one, then the copies of those on creases and
   /// borders, one for each patch at them.
@@ -215,8 +220,24 @@ private:
     return PowerRTF::joined(m_patches.on_whole(std::move(samples)), m_patches.features().samples);
   }
 
-  /// Algorithm 3, line 22, and its judgment.
-  PowerRTF::Extracted_mesh judged_mesh()
+  template <class Visitor>
+  PowerRTF::Extracted_mesh extract(Visitor& visitor, bool is_coarsened)
+  {
+    PowerRTF::Extracted_mesh result;
+    m_report.cancelled = !PowerRTF::internal::run_unless_cancelled(visitor, [&] {
+      PowerRTF::Extracted_mesh mesh = triangulated_samples();
+      if (is_coarsened) {
+        result = judged(PowerRTF::Extracted_mesh(mesh));
+        coarsen(mesh, result);
+      } else {
+        result = judged(std::move(mesh));
+      }
+    });
+    return result;
+  }
+
+  /// Algorithm 3, line 22; of the half, if that is all that is remeshed.
+  PowerRTF::Extracted_mesh triangulated_samples()
   {
     const PowerRTF::Feature_samples& features = m_patches.features();
     PowerRTF::Samples all = m_engine.samples();
@@ -233,6 +254,38 @@ private:
       mesh = triangulate(opened.surface(), opened.samples(), opened.features(), opened.seams(), {});
       PowerRTF::Opened_surface::sew_up(mesh);
     }
+    return mesh;
+  }
+
+  /// Takes vertices out of `mesh` within the distance that is asked for; the judged `result` stays
+  /// as it is where a guarantee would be missed.
+  void coarsen(const PowerRTF::Extracted_mesh& mesh, PowerRTF::Extracted_mesh& result)
+  {
+    if (!m_report.missed_guarantees().empty()) return;
+    for (const double share : {1.02, 0.95, 0.85}) { // of the distance that points are to keep
+      const Report before = m_report;
+      PowerRTF::Extracted_mesh coarse = mesh;
+      {
+        const Stage stage("improvement", m_report.seconds.improvement);
+        const std::size_t taken =
+            PowerRTF::coarsen_mesh(m_patches.surface(), m_engine.facet_tree(), coarse,
+                                   share * m_report.max_distance * m_surface.normalization.scale,
+                                   typename Traits::Concurrency_tag());
+        if (taken == 0) return;
+        m_report.samples_asked -= m_whole ? 2 * taken : taken;
+      }
+      coarse = judged(std::move(coarse));
+      if (m_report.missed_guarantees().empty()) {
+        result = std::move(coarse);
+        return;
+      }
+      m_report = before;
+    }
+  }
+
+  /// The whole mesh; the report gets its judgment.
+  PowerRTF::Extracted_mesh judged(PowerRTF::Extracted_mesh mesh)
+  {
     const Stage stage("quality", m_report.seconds.quality);
     const typename Traits::Concurrency_tag concurrency;
     if (!m_whole) {

@@ -76,10 +76,12 @@ Result remesh(const shapes::Soup& input, const Resolution& resolution,
   return result;
 }
 
-void check_max_distance(const shapes::Soup& soup, double distance)
+// \returns the number of vertices.
+std::size_t check_max_distance(const shapes::Soup& soup, double distance,
+                               Density density = Density::uniform)
 {
   CAPTURE(distance);
-  const Result result = remesh(soup, Resolution::max_distance(distance));
+  const Result result = remesh(soup, Resolution::max_distance(distance), density);
   const Remeshing_report& report = result.report;
   CHECK(report.missed_guarantees().empty());
   CHECK(report.max_distance == distance);
@@ -97,6 +99,8 @@ void check_max_distance(const shapes::Soup& soup, double distance)
   CHECK(std::min(distance_to(soup), distance_to(result.soup)) < 1e-12);
   CHECK(std::max(distance_to(soup), distance_to(result.soup)) ==
         Approx(report.absolute(report.distance.max)));
+  CHECK(report.samples_asked == result.soup.points.size());
+  return result.soup.points.size();
 }
 
 // With so many samples, uniform, 1 % of the diagonal is kept.
@@ -198,6 +202,14 @@ TEST_CASE("a largest distance is kept by about as few vertices as can be")
 {
   check_max_distance(shapes::ellipsoid(1, 0.6, 0.4, 4), 0.01);
   check_max_distance(shapes::torus(60, 30, 1, 0.4), 0.03);
+}
+
+TEST_CASE("a largest distance alone says where vertices are needed, unless a density does")
+{
+  const shapes::Soup ellipsoid = shapes::ellipsoid(1, 0.6, 0.2, 4);
+  const std::size_t uniform = check_max_distance(ellipsoid, 0.01),
+                    coarse = check_max_distance(ellipsoid, 0.01, Density::curvature);
+  CHECK(double(coarse) < 0.8 * double(uniform));
 }
 
 TEST_CASE("a largest distance is kept by about as few vertices as can be: more" *

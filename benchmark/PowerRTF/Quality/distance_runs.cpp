@@ -31,7 +31,7 @@ Remeshing_report run(const Mesh& mesh, const Remeshing_options& options)
   Surface surface = prepare_surface(mesh, options, CGAL::parameters::default_values(), report);
   CGAL::PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
   Remeshing_default_visitor visitor;
-  if (remesher.optimize(visitor)) remesher.extract(visitor);
+  if (remesher.optimize(visitor)) remesher.extract_all(visitor);
   return remesher.report();
 }
 

@@ -138,7 +138,7 @@ struct Iteration_report {
 
 /// The result of `power_rtf_remeshing()` beside the mesh.
 struct Remeshing_report {
-  std::size_t samples_asked = 0; ///< \f$n\f$
+  std::size_t samples_asked = 0; ///< \f$n\f$, less the vertices that a distance can spare
   double median_edge_length = 0; ///< asked for, in the input's unit of length; 0: none was
   double max_distance = 0;       ///< the same of the distance
   double min_angle = 0;          ///< asked for, in degrees; 0: none was

@@ -38,7 +38,8 @@ public:
   }
 
   /// With as few vertices as keep all points of input and output within this distance from the
-  /// other, in the input's unit. They are looked for by some runs; the distance is verified.
+  /// other, in the input's unit. They are looked for by some runs; the distance is verified. Where
+  /// no density is asked for, vertices that it can spare are taken out.
   static Resolution max_distance(double distance)
   {
     return Resolution(&Remeshing_options::max_distance, distance);

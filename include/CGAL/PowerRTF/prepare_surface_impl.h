@@ -148,6 +148,7 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   if (fields.sizes) set_density_by_fields(); // which gives the number
   set_fields();                              // the density is still uniform, unless by sizes
   if (is_number_of_samples_open(options) && !has_uniform_density(surface)) set_fields();
+  surface.has_own_density = fields.densities.has_value();
   report.max_distance = max_distance(surface, options, concurrency);
   report.samples_asked = number_of_samples(surface, options, concurrency);
   const bool is_refined = options.thin == Thin::refine,

@@ -121,7 +121,7 @@ double distance_ratio(Remeshing_options options, std::size_t samples, const Prep
   Surface surface = prepare(options, report);
   try {
     PowerRTF_remesher<Traits> remesher(std::move(surface), options, report);
-    if (remesher.optimize(visitor)) remesher.extract(visitor);
+    if (remesher.optimize(visitor)) remesher.extract_all(visitor);
     const Remeshing_report& done = remesher.report();
     return done.cancelled ? infinity : done.absolute(done.distance.bound) / done.max_distance;
   } catch (const Invalid_input_error&) { // the samples are too few
@@ -134,7 +134,8 @@ double distance_ratio(Remeshing_options options, std::size_t samples, const Prep
 /// The number of samples of which a run gives a mesh no farther from the input than
 /// `options.max_distance` or `options.relative_max_distance`, about the smallest such number;
 /// where none does, the largest that was tried: ten times the input's vertices, or as many as are
-/// needed on a sphere.
+/// needed on a sphere. Where vertices are taken out afterwards, one that is up to a tenth larger
+/// does: what is left hardly depends on it.
 ///
 /// \tparam Traits a model of `PowerRTFTraits_3`; where it is parallel, several runs go on at once
 /// \param prepare `prepare(options, report)` returns the surface as `prepare_surface()`; called on
@@ -146,10 +147,12 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
                                     Visitor& visitor)
 {
   double first, most, facets;
+  bool is_coarsened;
   {
     Remeshing_report report;
     const Surface surface = prepare(options, report);
     facets = double(surface.triangles.size());
+    is_coarsened = PowerRTF::is_coarsened(options) && !surface.has_own_density;
     first = samples_of_sphere(surface, report.max_distance);
     most = std::clamp(10 * std::max(first, double(surface.points.size())), 1000., 3e8);
   }
@@ -174,9 +177,12 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
     throw_if_stopped();
     return r;
   };
+  const auto needed_ratio = [&](std::size_t n) { return ratio(n, [] { return true; }); };
+  if (is_coarsened)
+    return static_cast<std::size_t>(
+        std::min(internal::smallest_of_falling(first, most, needed_ratio), std::floor(most)));
   return internal::smallest_number(
-      first, most, [&](std::size_t n) { return ratio(n, [] { return true; }); },
-      [&](const std::vector<std::size_t>& numbers) {
+      first, most, needed_ratio, [&](const std::vector<std::size_t>& numbers) {
         constexpr double most_at_once = 1 << 21; // facets and samples: some GB
         const int at_once = numbers.empty() ? 1 : int(most_at_once / (facets + double(numbers[0])));
         const int at = internal::find_first(

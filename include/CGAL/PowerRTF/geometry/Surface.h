@@ -124,6 +124,7 @@ struct Surface {
   /// into; sorted. And their ends, the vertices that the result has, sorted.
   std::vector<Edge> kept_edges;
   std::vector<int> kept_vertices;
+  bool has_own_density = false; ///< of the user's own, which the result has everywhere
   /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
   std::vector<int> facet_patches;
   /// Of the half of a symmetric surface, which is above: its border on the plane is where it goes
