@@ -286,11 +286,13 @@ TEST_CASE("a largest distance that cannot be kept is a guarantee that is missed"
 template <class Ratio>
 std::size_t smallest_number(double first, double most, const Ratio& ratio)
 {
-  return internal::smallest_number(
-      first, most, ratio, [&](const std::vector<std::size_t>& numbers) {
-        const auto does = [&](std::size_t n) { return ratio(n) <= 1; };
-        return std::size_t(std::find_if(numbers.begin(), numbers.end(), does) - numbers.begin());
-      });
+  most = std::floor(most);
+  const double best = internal::smallest_of_falling(first, most, ratio);
+  if (best == internal::infinity) return std::size_t(most);
+  return std::size_t(internal::smallest_by_luck(best, [&](const std::vector<std::size_t>& numbers) {
+    const auto does = [&](std::size_t n) { return ratio(n) <= 1; };
+    return std::size_t(std::find_if(numbers.begin(), numbers.end(), does) - numbers.begin());
+  }));
 }
 
 TEST_CASE("the search for the smallest number")

@@ -47,28 +47,27 @@ double smallest_of_falling(double first, double most, const Ratio& ratio)
   }
 }
 
-/// The same where `ratio` scatters about what it should be, by some tenths: below, a few numbers do
-/// by luck. Of those from 24 to 2 % below, in steps of 2 %, the smallest that does is taken. Then
-/// of those from 24 to 14 % below that, as about the nearer ones have been tried, and so on until
-/// none does. Small numbers scatter more, and take a moment: there, from 36 % below on. `most` if
-/// none at all does. `find(numbers)` returns the place of the first of them with `ratio(n) <= 1`,
-/// or their number.
-template <class Ratio, class Find>
-std::size_t smallest_number(double first, double most, const Ratio& ratio, const Find& find)
+/// Below this, numbers scatter more, and a run takes a moment.
+inline constexpr double small_number = 2000;
+
+/// Where `ratio` scatters by some tenths about what it should be, a few numbers below `best`, which
+/// does, do by luck. Of those from 24 to 2 % below, in steps of 2 %, the smallest that does is
+/// taken. Then of those from 24 to 14 % below that, as about the nearer ones have been tried, and
+/// so on until none does. Of small numbers, from 36 % below on. `find(numbers)` returns the place
+/// of the first of them with `ratio(n) <= 1`, or their number.
+template <class Find>
+double smallest_by_luck(double best, const Find& find)
 {
-  constexpr double step = 0.02, least = 4, small = 2000;
+  constexpr double step = 0.02, least = 4;
   constexpr int far = 7;
-  most = std::floor(most);
-  double best = smallest_of_falling(first, most, ratio);
-  if (best == infinity) return static_cast<std::size_t>(most);
   for (int nearest = 1;; nearest = far) {
     std::vector<std::size_t> numbers;
-    for (int k = best < small ? 18 : 12; k >= nearest; --k) {
+    for (int k = best < small_number ? 18 : 12; k >= nearest; --k) {
       const double n = std::round((1 - step * k) * best);
       if (n >= least && n < best) numbers.push_back(static_cast<std::size_t>(n));
     }
     const std::size_t at = find(numbers);
-    if (at == numbers.size()) return static_cast<std::size_t>(best);
+    if (at == numbers.size()) return best;
     best = static_cast<double>(numbers[at]);
   }
 }
@@ -134,8 +133,8 @@ double distance_ratio(Remeshing_options options, std::size_t samples, const Prep
 /// The number of samples of which a run gives a mesh no farther from the input than
 /// `options.max_distance` or `options.relative_max_distance`, about the smallest such number;
 /// where none does, the largest that was tried: ten times the input's vertices, or as many as are
-/// needed on a sphere. Where vertices are taken out afterwards, one that is up to a tenth larger
-/// does: what is left hardly depends on it.
+/// needed on a sphere. Where vertices are taken out afterwards, a large one may be a tenth larger:
+/// what is left hardly depends on it.
 ///
 /// \tparam Traits a model of `PowerRTFTraits_3`; where it is parallel, several runs go on at once
 /// \param prepare `prepare(options, report)` returns the surface as `prepare_surface()`; called on
@@ -177,12 +176,12 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
     throw_if_stopped();
     return r;
   };
-  const auto needed_ratio = [&](std::size_t n) { return ratio(n, [] { return true; }); };
-  if (is_coarsened)
-    return static_cast<std::size_t>(
-        std::min(internal::smallest_of_falling(first, most, needed_ratio), std::floor(most)));
-  return internal::smallest_number(
-      first, most, needed_ratio, [&](const std::vector<std::size_t>& numbers) {
+  const double best = internal::smallest_of_falling(
+      first, std::floor(most), [&](std::size_t n) { return ratio(n, [] { return true; }); });
+  if (best == internal::infinity) return static_cast<std::size_t>(most);
+  if (is_coarsened && best >= internal::small_number) return static_cast<std::size_t>(best);
+  return static_cast<std::size_t>(
+      internal::smallest_by_luck(best, [&](const std::vector<std::size_t>& numbers) {
         constexpr double most_at_once = 1 << 21; // facets and samples: some GB
         const int at_once = numbers.empty() ? 1 : int(most_at_once / (facets + double(numbers[0])));
         const int at = internal::find_first(
@@ -193,7 +192,7 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
             });
         throw_if_stopped();
         return std::size_t(at);
-      });
+      }));
 }
 
 } // namespace CGAL::PowerRTF
