@@ -6,9 +6,9 @@
 resolution.py FOLDER ...            on the models there of MODELS
 resolution.py --jobs 16 FOLDER ...  16 runs at a time
 
---relative-max-distance: the number of samples that it chooses, against the fewest that do, by runs
+--relative-max-distance: the number of vertices, against the fewest samples that do, by runs
 as those of its search (distance_runs) with a factor of .5 to 1 of that number, in steps of 2 %; the
-distance that the judge finds.
+distance that the judge finds. With --density curvature vertices are taken out after the search.
 --relative-edge-length: the median edge against the length that was asked for. Results:
 resolution.md in the folder --results. The exit code is 1 where a distance is larger than asked, else
 0.
