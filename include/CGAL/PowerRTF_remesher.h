@@ -19,6 +19,7 @@
 #include <CGAL/PowerRTF/features/Surface_patches.h>
 #include <CGAL/PowerRTF/features/move_off_kept_edges.h>
 #include <CGAL/PowerRTF/features/split_off_image.h>
+#include <CGAL/PowerRTF/fields/resolution.h>
 #include <CGAL/PowerRTF/improvement/coarsen_mesh.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/internal/Background_work.h>
@@ -88,7 +89,7 @@ public:
   template <class Visitor>
   PowerRTF::Extracted_mesh extract(Visitor& visitor)
   {
-    return extract(visitor, PowerRTF::is_coarsened(m_options) && !m_surface.has_own_density);
+    return extract(visitor, PowerRTF::is_coarsened(m_options, surface()));
   }
   /// The same, but all samples become vertices.
   template <class Visitor>
@@ -262,7 +263,7 @@ private:
   void coarsen(const PowerRTF::Extracted_mesh& mesh, PowerRTF::Extracted_mesh& result)
   {
     if (!m_report.missed_guarantees().empty()) return;
-    for (const double share : {1.02, 0.95, 0.85}) { // of the distance that points are to keep
+    for (const double share : {1.02, 0.95, 0.85}) { // for the points: they are to keep .93 of it
       const Report before = m_report;
       PowerRTF::Extracted_mesh coarse = mesh;
       {

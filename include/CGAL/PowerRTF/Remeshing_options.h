@@ -231,14 +231,6 @@ inline bool is_distance_asked_for(const Remeshing_options& options)
   return options.max_distance > 0 || options.relative_max_distance > 0;
 }
 
-/// Whether vertices are taken out that the distance asked for can spare: where the user has not
-/// said how dense they are to be.
-inline bool is_coarsened(const Remeshing_options& options)
-{
-  return is_distance_asked_for(options) && options.density == Density::curvature &&
-         options.thin == Thin::keep && options.improvement == Improvement::yes;
-}
-
 /// Cosine of the compatibility angle Theta (degrees); -2 when every pair is compatible. A number of
 /// single precision, so that all engines have the same one.
 inline double compatibility_cosine(double normal_angle)

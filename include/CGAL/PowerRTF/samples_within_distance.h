@@ -133,8 +133,7 @@ double distance_ratio(Remeshing_options options, std::size_t samples, const Prep
 /// The number of samples of which a run gives a mesh no farther from the input than
 /// `options.max_distance` or `options.relative_max_distance`, about the smallest such number;
 /// where none does, the largest that was tried: ten times the input's vertices, or as many as are
-/// needed on a sphere. Where vertices are taken out afterwards, a large one may be a tenth larger:
-/// what is left hardly depends on it.
+/// needed on a sphere. Where vertices are taken out afterwards, a large one may be a tenth larger.
 ///
 /// \tparam Traits a model of `PowerRTFTraits_3`; where it is parallel, several runs go on at once
 /// \param prepare `prepare(options, report)` returns the surface as `prepare_surface()`; called on
@@ -151,7 +150,7 @@ std::size_t samples_within_distance(const Remeshing_options& options, const Prep
     Remeshing_report report;
     const Surface surface = prepare(options, report);
     facets = double(surface.triangles.size());
-    is_coarsened = PowerRTF::is_coarsened(options) && !surface.has_own_density;
+    is_coarsened = PowerRTF::is_coarsened(options, surface);
     first = samples_of_sphere(surface, report.max_distance);
     most = std::clamp(10 * std::max(first, double(surface.points.size())), 1000., 3e8);
   }

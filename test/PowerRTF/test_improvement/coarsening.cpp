@@ -14,7 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -96,29 +96,44 @@ TEST_CASE("what is as near as can be, or no manifold, stays as it is")
   check_same(1);
 }
 
-TEST_CASE("vertices that have to stay, and those on features, are in the coarse mesh")
+TEST_CASE("few and no triangles")
 {
-  Improved mesh(shapes::ellipsoid(1, 0.6, 0.3, 4));
-  const Triangle& t = mesh.c.raw.triangles[100];
-  mesh.c.raw.feature_edges = {{t[0], t[1]}};
-  const int kept = 700;
-  mesh.c.raw.input_points.assign(mesh.c.raw.points.size(), -1);
-  mesh.c.raw.input_points[kept] = 17;
+  Improved mesh(shapes::icosphere(2), 4);
+  CHECK(mesh.coarse(10).second == 0);
+  mesh.c.raw = {};
+  CHECK(mesh.coarse(10).second == 0);
+}
+
+TEST_CASE("vertices on features and borders stay, and are named as before")
+{
+  Improved mesh(shapes::open_cylinder(40, 20, 1, 2));
+  const Extracted_mesh& fine = mesh.c.raw;
+  std::vector<Edge> features; // the corners of many triangles inside
+  for (std::size_t f = 0; f < fine.triangles.size(); f += 20)
+    features.push_back({fine.triangles[f][0], fine.triangles[f][1]});
+  mesh.c.raw.feature_edges = features;
+  mesh.c.raw.input_points.assign(fine.points.size(), -1);
+  for (const Edge& e : features)
+    for (const int v : e) mesh.c.raw.input_points[v] = 7 * v;
   const auto [coarse, taken] = mesh.coarse(1);
   REQUIRE(taken > 100);
   REQUIRE(coarse.input_points.size() == coarse.points.size());
-  const auto at = std::find(coarse.input_points.begin(), coarse.input_points.end(), 17);
-  REQUIRE(at != coarse.input_points.end());
-  CHECK(std::count(coarse.input_points.begin(), coarse.input_points.end(), -1) ==
-        std::ptrdiff_t(coarse.points.size()) - 1);
-  REQUIRE(coarse.feature_edges.size() == 1);
-  const auto [a, b] = coarse.feature_edges[0];
-  CHECK(coarse.points[a] == mesh.c.raw.points[t[0]]);
-  CHECK(coarse.points[b] == mesh.c.raw.points[t[1]]);
-  CHECK(std::any_of(
-      coarse.triangles.begin(), coarse.triangles.end(), [a = a, b = b](const Triangle& f) {
-        return std::count(f.begin(), f.end(), a) + std::count(f.begin(), f.end(), b) == 2;
-      }));
+  REQUIRE(coarse.feature_edges.size() == features.size());
+  for (std::size_t k = 0; k < features.size(); ++k)
+    for (const int end : {0, 1}) {
+      const int v = features[k][end], w = coarse.feature_edges[k][end];
+      CHECK(coarse.points[w] == fine.points[v]);
+      CHECK(coarse.input_points[w] == 7 * v);
+    }
+  const auto edges = [](const Extracted_mesh& m) {
+    std::set<Edge> all;
+    for (const Triangle& t : m.triangles)
+      for (int k = 0; k < 3; ++k) all.insert(sorted_edge(t[k], t[(k + 1) % 3]));
+    return all;
+  };
+  const std::set<Edge> of_coarse = edges(coarse);
+  for (const auto& [a, b] : coarse.feature_edges) CHECK(of_coarse.count(sorted_edge(a, b)) == 1);
+  CHECK(mesh.judged(coarse).topology.border_edges == mesh.judged(fine).topology.border_edges);
 }
 
 TEST_CASE("a coarse mesh is the same with all threads")

@@ -186,6 +186,15 @@ inline std::size_t number_of_samples(const Surface& surface, const Remeshing_opt
       options.relative_edge_length > 0 ? "relative_edge_length" : "edge_length");
 }
 
+/// Whether vertices are taken out that the distance asked for can spare: where the user has not
+/// said how dense they are to be.
+inline bool is_coarsened(const Remeshing_options& options, const Surface& surface)
+{
+  return is_distance_asked_for(options) && options.density == Density::curvature &&
+         !surface.has_own_density && options.thin == Thin::keep &&
+         options.improvement == Improvement::yes;
+}
+
 } // namespace CGAL::PowerRTF
 
 #endif // CGAL_POWER_RTF_FIELDS_RESOLUTION_H

@@ -45,7 +45,7 @@ public:
     std::size_t taken = 0;
     for (std::size_t before = 1; taken != std::exchange(before, taken);)
       for (const Vertex v : m_mover.find_spare())
-        if (m.working().has_edges(v) && !m.is_kept(v) && !m_was_tried[v] && take(v)) ++taken;
+        if (m.working().has_edges(v) && !m_was_tried[v] && take(v)) ++taken;
     return taken;
   }
 
@@ -125,6 +125,7 @@ CGAL_POWER_RTF_INLINE std::size_t coarsen_mesh(const Surface& surface, const Fac
                                                Extracted_mesh& mesh, double distance,
                                                internal::Concurrency concurrency)
 {
+  if (mesh.triangles.empty()) return 0;
   const internal::Surface_projector projector(surface, tree);
   std::size_t taken = 0;
   try {
