@@ -225,8 +225,12 @@ Sources find_sources(const Input& input, const Normalization& normalization,
   if (!has_sources(input.mesh, run.options)) return {};
   const Stage stage("transfer", run.report.seconds.transfer);
   const Polygon_soup& soup = input.source_soup();
+  const std::vector<Mesh_property>& of_faces = input.mesh.properties.faces;
+  const bool has_others = // than labels, which do not change between their lines
+      std::any_of(of_faces.begin(), of_faces.end(),
+                  [&](const Mesh_property& p) { return p.name != run.options.labels; });
   Sources sources = find_sources(soup, normalization, run.report.faces_as_input(), mesh.points,
-                                 mesh.triangles, Concurrency());
+                                 mesh.triangles, Concurrency(), has_others);
   keep_labels(sources, soup, input.source_fields().labels, normalization, mesh, Concurrency());
   if (!input.mesh.properties.texture.empty())
     sources.corners = find_corner_sources(soup, input.source_fields().lines, normalization,

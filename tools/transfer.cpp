@@ -14,10 +14,10 @@
 namespace tools {
 namespace {
 
+using CGAL::PowerRTF::face_values;
 using CGAL::PowerRTF::interpolated;
 using CGAL::PowerRTF::Source;
 using CGAL::PowerRTF::Sources;
-using CGAL::PowerRTF::values_at;
 
 Mesh_property of_vertices(const Mesh_property& property, const std::vector<Source>& sources)
 {
@@ -34,9 +34,9 @@ Mesh_property of_vertices(const Mesh_property& property, const std::vector<Sourc
   return result;
 }
 
-Mesh_property of_faces(const Mesh_property& property, const std::vector<Source>& sources)
+Mesh_property of_faces(const Mesh_property& property, const Sources& sources)
 {
-  return {property.name, property.type, values_at(property.values, sources), property.names};
+  return {property.name, property.type, face_values(property.values, sources), property.names};
 }
 
 /// Corners that come from near the same place have the same coordinates, which for that are rounded
@@ -100,7 +100,7 @@ Mesh_properties transferred(const Polygon_mesh& mesh, const Sources& sources)
   Mesh_properties result;
   for (const Mesh_property& p : input.vertices)
     result.vertices.push_back(of_vertices(p, sources.vertices));
-  for (const Mesh_property& p : input.faces) result.faces.push_back(of_faces(p, sources.faces));
+  for (const Mesh_property& p : input.faces) result.faces.push_back(of_faces(p, sources));
   normalize(result.vertices);
   if (!input.texture.empty()) result.texture = of_corners(input.texture, mesh.soup, sources);
   result.material_files = input.material_files;

@@ -277,8 +277,8 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
  *   \cgalParamNEnd
  *
  *   \cgalParamNBegin{PowerRTF::parameters::face_source_map}
- *     \cgalParamDescription{the same for the centers of the faces of `output`, for
- *                           `PowerRTF::transfer_face_values()`}
+ *     \cgalParamDescription{the same for the centers of the faces of `output`, with the faces under
+ *                           other points of them, for `PowerRTF::transfer_face_values()`}
  *     \cgalParamType{a class model of `WritablePropertyMap` with
  *                    `boost::graph_traits<OutputMesh>::%face_descriptor` as key type and
  *                    `PowerRTF::Mesh_source<InputMesh>` as value type}

@@ -113,7 +113,7 @@ def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_ed
     mesh = Mesh(points, triangles, numbers if patches else None, Report(json.loads(report)), sites, sources,
                 given)
     if face_labels is not None:
-        mesh.labels = mesh.transfer(face_labels, of="faces")
+        mesh.labels = mesh._sources.transfer(face_labels, "faces")  # each on its own side of a line
     if uv is not None:
         mesh.uv = mesh.transfer(uv, of="corners")
     return mesh

@@ -20,7 +20,8 @@ class Sources:
         self.counts = {"vertices": len(points), "faces": len(corners if sizes is None else sizes),
                        "corners": corners.size}
 
-    def transfer(self, values, of):
+    def transfer(self, values, of, face_shares=None):
+        """`face_shares()`: the input's faces under several points of each face; None: the centers count."""
         if of not in self.counts:
             raise InvalidInputError(f"of is {of!r}, but must be one of {'|'.join(self.counts)}")
         if of == "corners" and self.corners is None:
@@ -33,7 +34,7 @@ class Sources:
             raise InvalidInputError(f"values must be a row for each of the input's {self.counts[of]} "
                                     f"{of}, not of the shape {array.shape}")
         if of == "faces":
-            result = array[self.of_faces]
+            result = _most_frequent(array, face_shares()) if face_shares else array[self.of_faces]
         elif of == "corners":
             result = _mixed(array, self.corners, self.corner_weights)
             result = result.reshape(-1, 3, *array.shape[1:])
@@ -47,6 +48,14 @@ def corner_rows(array, faces, corners):
     if array.ndim > 1 and array.shape[0] == faces and faces * array.shape[1] == corners:
         return array.reshape(corners, *array.shape[2:])
     return array
+
+
+def _most_frequent(array, rows):
+    """For each of `rows` the row of `array` that is equal to most of those there; the first of such."""
+    _, values = np.unique(array.reshape(len(array), -1), axis=0, return_inverse=True)
+    found = values.reshape(-1)[rows]
+    equal = (found[:, :, np.newaxis] == found[:, np.newaxis, :]).sum(axis=2)
+    return array[rows[np.arange(len(rows)), equal.argmax(axis=1)]]
 
 
 def _mixed(array, rows, weights):

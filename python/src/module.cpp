@@ -364,6 +364,8 @@ NB_MODULE(_core, m)
         "vertices"_a, "triangles"_a, "sites"_a, "report"_a);
   m.def("read_mesh", &read_mesh, "file"_a);
   m.def("check_output", &check_output, "file"_a);
+  m.def("face_shares", &face_shares<tools::Concurrency>, "points"_a, "faces"_a, "sizes"_a.none(),
+        "vertices"_a, "triangles"_a, "sites"_a);
   m.def("holds_floats", [](const std::string& file, bool ascii) {
     return tools::holds_floats(tools::format_of(file), encoding_of(ascii));
   });

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/transfer/find_sources.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace powerrtf {
@@ -48,29 +49,49 @@ inline nb::tuple to_python(const CGAL::PowerRTF::Sources& sources, const Polygon
                         has_corners ? to_array<double>(std::move(corner_weights)) : nb::none());
 }
 
-/// The sources of a result.
+/// The sources of a result, and what they come from.
 ///
 /// \param sites of the run: they tell the way into the unit box, and whether the surface faces as
 ///   the input does
+template <class Concurrency>
+std::pair<CGAL::PowerRTF::Sources, Polygon_soup>
+found_sources(const Real_array& points, const Index_array& faces,
+              const std::optional<Index_array>& sizes, const Real_array& vertices,
+              const Index_array& triangles, const nb::dict& sites, bool finds_shares)
+{
+  const CGAL::PowerRTF::Normalization normalization = normalization_from_python(sites);
+  const bool faces_as_input = nb::cast<bool>(sites["faces_as_input"]);
+  const nb::gil_scoped_release release;
+  Polygon_soup soup = soup_of_arrays(points, faces, sizes);
+  std::vector<Vec3d> inside = points_of_array(vertices);
+  for (Vec3d& p : inside) p = normalization.to_inside(p);
+  CGAL::PowerRTF::Sources found =
+      find_sources(soup, normalization, faces_as_input, inside, triangles_of_array(triangles),
+                   Concurrency(), finds_shares);
+  return {std::move(found), std::move(soup)};
+}
+
+/// The sources of a result. The parameters are those of `found_sources()`.
 template <class Concurrency>
 nb::tuple sources(const Real_array& points, const Index_array& faces,
                   const std::optional<Index_array>& sizes, const Real_array& vertices,
                   const Index_array& triangles, const nb::dict& sites)
 {
-  using namespace CGAL::PowerRTF;
-  const Normalization normalization = normalization_from_python(sites);
-  const bool faces_as_input = nb::cast<bool>(sites["faces_as_input"]);
-  Sources found;
-  Polygon_soup soup;
-  {
-    const nb::gil_scoped_release release;
-    soup = soup_of_arrays(points, faces, sizes);
-    std::vector<Vec3d> inside = points_of_array(vertices);
-    for (Vec3d& p : inside) p = normalization.to_inside(p);
-    found = find_sources(soup, normalization, faces_as_input, inside, triangles_of_array(triangles),
-                         Concurrency());
-  }
+  const auto [found, soup] =
+      found_sources<Concurrency>(points, faces, sizes, vertices, triangles, sites, false);
   return to_python(found, soup);
+}
+
+/// By face of a result the input's faces under 16 points of it: see `Sources::shares`. The
+/// parameters are those of `sources()`.
+template <class Concurrency>
+nb::object face_shares(const Real_array& points, const Index_array& faces,
+                       const std::optional<Index_array>& sizes, const Real_array& vertices,
+                       const Index_array& triangles, const nb::dict& sites)
+{
+  return to_array<int>(
+      std::move(found_sources<Concurrency>(points, faces, sizes, vertices, triangles, sites, true)
+                    .first.shares));
 }
 
 } // namespace powerrtf

@@ -97,6 +97,18 @@ def test_labels_leave_the_sources_for_a_transfer(monkeypatch):
     assert np.abs(mesh.transfer(POINTS) - mesh.vertices).max() < 0.05
 
 
+def test_faces_have_the_value_of_the_largest_share():
+    points, faces = sphere(60)
+    values = (np.random.default_rng(1).random(len(faces)) < 0.3).astype(np.uint8)
+    mesh = powerrtf.remesh(points, faces, 150)
+    shared = mesh.transfer(values, of="faces")
+    assert shared.dtype == np.uint8 and shared.mean() < 0.15 < values[mesh._sources.of_faces].mean()
+    names = np.array(["even", "odd"])[values]
+    assert (mesh.transfer(names, of="faces") == np.array(["even", "odd"])[shared]).all()
+    rows = np.stack([values, 1 - values], axis=1)
+    assert (mesh.transfer(rows, of="faces")[:, 0] == shared).all()
+
+
 @pytest.mark.parametrize("real", [np.float32, np.float64])
 def test_what_is_no_region_stays_bit_for_bit(real):
     points, faces = sphere(16, real)

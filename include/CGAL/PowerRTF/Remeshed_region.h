@@ -110,10 +110,12 @@ public:
                         Sources& sources) const
   {
     if (!m_own) return;
-    const bool has_corners = !sources.corners.empty();
+    const bool has_corners = !sources.corners.empty(), has_shares = !sources.shares.empty();
     for (std::vector<Source>* of : {&sources.vertices, &sources.faces})
       for (Source& s : *of) renumber(s);
     for (auto& corners : sources.corners)
+    for (auto& polygons : sources.shares)
+      for (int& k : polygons) k = place_in(m_replaced.polygons, m_own->polygons[k]);
       for (Source& s : corners) renumber(s);
     sources.vertices.resize(mesh.points.size());
     const Source_triangles all(m_replaced.soup, normalization);
@@ -133,6 +135,7 @@ public:
       }
       sources.faces.push_back(nearest(all, own, (p[0] + p[1] + p[2]) * (1. / 3)));
       if (has_corners) sources.corners.push_back(corners);
+      if (has_shares) sources.shares.emplace_back().fill(sources.faces.back().face);
     }
   }
 

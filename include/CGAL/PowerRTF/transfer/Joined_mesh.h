@@ -154,11 +154,16 @@ struct Joined_mesh {
       }
       if (!sources.corners.empty()) result.corners.push_back(corners);
       result.faces.push_back({input_polygons[f], t, {1. / 3, 1. / 3, 1. / 3}});
+      if (!sources.shares.empty()) result.shares.emplace_back().fill(input_polygons[f]);
     }
     for (std::size_t v = 0; v < names.size(); ++v)
       if (names[v] >= static_cast<int>(input_points.size()))
         result.vertices[names[v]] = in_whole(sources.vertices[v]);
     for (const Source& s : sources.faces) result.faces.push_back(in_whole(s));
+    for (const auto& polygons : sources.shares) {
+      result.shares.push_back(polygons);
+      for (int& k : result.shares.back()) k = region.polygons[k];
+    }
     for (const auto& [a, b, c] : sources.corners)
       result.corners.push_back({in_whole(a), in_whole(b), in_whole(c)});
     return result;

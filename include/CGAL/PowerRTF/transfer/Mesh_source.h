@@ -6,6 +6,8 @@
 #ifndef CGAL_POWER_RTF_TRANSFER_MESH_SOURCE_H
 #define CGAL_POWER_RTF_TRANSFER_MESH_SOURCE_H
 
+#include <CGAL/PowerRTF/transfer/Sources.h>
+
 #include <CGAL/IO/Color.h>
 #include <CGAL/boost/graph/iterator.h>
 
@@ -16,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
+#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -31,6 +34,9 @@ struct Mesh_source {
   /// The corners of the triangle: those of the face, if that is one.
   std::array<typename Graph_traits::vertex_descriptor, 3> vertices{};
   std::array<double, 3> weights{0, 0, 0}; ///< barycentric coordinates: none negative, sum 1
+  /// Of a face, whose center is that place, the faces under 16 points spread evenly over it; else
+  /// empty.
+  std::vector<typename Graph_traits::face_descriptor> faces{};
 };
 
 /// The linear interpolation of the values at the corners of a triangle: of floating-point numbers,
@@ -88,16 +94,21 @@ void transfer_vertex_values(const OutputMesh& output, const SourceMap& sources, 
   }
 }
 
-/// Gives the faces of a result the values of the input's faces, of any type: each that of the face
-/// at its center.
+/// Gives the faces of a result the values of the input's faces: each that which the largest share
+/// of it comes from, as seen from 16 points of it.
 ///
 /// \param sources readable: from the faces of `output` to `Mesh_source`, as the named parameter
 ///   `face_source_map` has set it
+/// \param from readable: from the input's faces to values that can be compared by `==`
 template <class OutputMesh, class SourceMap, class FromMap, class ToMap>
 void transfer_face_values(const OutputMesh& output, const SourceMap& sources, const FromMap& from,
                           ToMap to)
 {
-  for (const auto f : faces(output)) put(to, f, get(from, get(sources, f).face));
+  for (const auto f : faces(output)) {
+    const auto& source = get(sources, f);
+    const auto value = [&](int k) { return get(from, source.faces[k]); };
+    put(to, f, value(most_frequent(static_cast<int>(source.faces.size()), value)));
+  }
 }
 
 /// Gives the corners of a result's faces the values of the input's corners, interpolated linearly

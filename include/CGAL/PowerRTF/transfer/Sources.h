@@ -18,8 +18,14 @@ struct Source {
 };
 
 /// The sources of a mesh.
+/// How many points of a face tell which share of it comes from where.
+inline constexpr int points_of_face = 16;
+
 struct Sources {
   std::vector<Source> vertices, faces; ///< those of the faces are the sources of their centers
+  /// By face the polygons under `points_of_face` points of it, the first being its center, where
+  /// they are asked for.
+  std::vector<std::array<int, points_of_face>> shares{};
   /// By triangle those of its corners, where they are asked for: see `find_corner_sources()`.
   std::vector<std::array<Source, 3>> corners{};
 };
@@ -31,6 +37,35 @@ std::vector<T> values_at(const std::vector<T>& of_polygons, const std::vector<So
   std::vector<T> result;
   result.reserve(sources.size());
   for (const Source& s : sources) result.push_back(of_polygons[s.face]);
+  return result;
+}
+
+/// The place of the first of `count` values that are equal most often. \param value `value(k)` is
+/// one
+template <class Value>
+int most_frequent(int count, const Value& value)
+{
+  int first = 0, most = 0;
+  for (int k = 0; k < count - most; ++k) {
+    int equal = 0;
+    for (int l = k; l < count; ++l) equal += value(l) == value(k);
+    if (equal > most) first = k, most = equal;
+  }
+  return first;
+}
+
+/// The values of faces: those that the largest shares of them come from, or without shares, their
+/// centers.
+template <class T>
+std::vector<T> face_values(const std::vector<T>& of_polygons, const Sources& sources)
+{
+  if (sources.shares.empty()) return values_at(of_polygons, sources.faces);
+  std::vector<T> result;
+  result.reserve(sources.shares.size());
+  for (const auto& polygons : sources.shares) {
+    const auto value = [&](int k) { return of_polygons[polygons[k]]; };
+    result.push_back(value(most_frequent(points_of_face, value)));
+  }
   return result;
 }
 

@@ -56,7 +56,14 @@ struct Source_elements {
   Mesh_source<FaceGraph> operator()(const Source& s) const
   {
     const Triangle& t = s.vertices;
-    return {faces[s.face], {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, s.weights};
+    return {faces[s.face], {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, s.weights, {}};
+  }
+  /// That of face `f`.
+  Mesh_source<FaceGraph> operator()(const Sources& sources, std::size_t f) const
+  {
+    Mesh_source<FaceGraph> result = (*this)(sources.faces[f]);
+    for (const int k : sources.shares[f]) result.faces.push_back(faces[k]);
+    return result;
   }
 
   std::vector<typename Graph_traits::vertex_descriptor> vertices;
@@ -78,7 +85,7 @@ void put_sources(const Sources& sources, const Source_elements<FaceGraph>& input
   if constexpr (has_parameter<NamedParameters, face_source_map_t>()) {
     const auto map = CGAL::parameters::get_parameter(np, face_source_map_t());
     for (std::size_t f = 0; f < exported.faces.size(); ++f)
-      put(map, exported.faces[f], input(sources.faces[f]));
+      put(map, exported.faces[f], input(sources, f));
   }
   if constexpr (has_parameter<NamedParameters, corner_source_map_t>()) {
     const auto map = CGAL::parameters::get_parameter(np, corner_source_map_t());
@@ -136,8 +143,9 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
     const Stage stage("transfer", report.seconds.transfer);
     elements.emplace(input);
     const auto soup = soup_of_mesh(input, np_in, concurrency);
-    sources = find_sources(soup, normalization, report.faces_as_input(), mesh.points,
-                           mesh.triangles, concurrency);
+    sources =
+        find_sources(soup, normalization, report.faces_as_input(), mesh.points, mesh.triangles,
+                     concurrency, has_parameter<NamedParametersOut, face_source_map_t>());
     keep_labels(sources, soup, face_labels(input, np_in), normalization, mesh, concurrency);
     if constexpr (has_parameter<NamedParametersOut, corner_source_map_t>())
       sources.corners =

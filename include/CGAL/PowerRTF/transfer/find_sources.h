@@ -25,11 +25,13 @@ namespace CGAL::PowerRTF {
 /// \param is_oriented whether that surface is oriented as the soup is; if not, sides are not told
 ///   apart
 /// \param points, triangles the mesh, in coordinates of the unit box
+/// \param finds_shares whether the sources of other points of faces are found, too
 /// \pre `input` has been remeshed: its polygons have finite coordinates, and some have an area
 Sources find_sources(const Polygon_soup& input, const Normalization& normalization,
                      bool is_oriented, const std::vector<Vec3d>& points,
                      const std::vector<Triangle>& triangles,
-                     internal::Concurrency concurrency = Sequential_tag());
+                     internal::Concurrency concurrency = Sequential_tag(),
+                     bool finds_shares = false);
 
 } // namespace CGAL::PowerRTF
 

@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/transfer/Source_triangles.h>
 #include <CGAL/PowerRTF/transfer/find_sources.h>
+#include <CGAL/PowerRTF/transfer/point_of_face.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ CGAL_POWER_RTF_INLINE Sources find_sources(const Polygon_soup& input,
                                            const Normalization& normalization, bool is_oriented,
                                            const std::vector<Vec3d>& points,
                                            const std::vector<Triangle>& triangles,
-                                           internal::Concurrency concurrency)
+                                           internal::Concurrency concurrency, bool finds_shares)
 {
   const internal::Source_search search(input, normalization, is_oriented, concurrency);
   const int vertices = static_cast<int>(points.size()), faces = static_cast<int>(triangles.size());
@@ -77,6 +78,16 @@ CGAL_POWER_RTF_INLINE Sources find_sources(const Polygon_soup& input,
     const Triangle& t = triangles[f];
     const Vec3d center = (points[t[0]] + points[t[1]] + points[t[2]]) * (1. / 3);
     sources.faces[f] = search.source(center, normals[f], reach[f]);
+  });
+  if (!finds_shares) return sources;
+  sources.shares.resize(faces);
+  internal::for_each_index(concurrency, faces, [&](int f) {
+    const Triangle& t = triangles[f];
+    sources.shares[f][0] = sources.faces[f].face;
+    for (int k = 1; k < points_of_face; ++k) {
+      const Vec3d p = internal::point_of_face(k, points[t[0]], points[t[1]], points[t[2]]);
+      sources.shares[f][k] = search.source(p, normals[f], reach[f]).face;
+    }
   });
   return sources;
 }

@@ -10,6 +10,7 @@
 #include <CGAL/PowerRTF/transfer/Sources.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <utility>
 #include <vector>
@@ -33,26 +34,16 @@ inline std::vector<int> labels_of_parts(const Extracted_mesh& mesh, const std::v
   return result;
 }
 
-} // namespace internal
-
-/// Makes the triangles on both sides of a line between labels come from the sides that they are on:
-/// where the surface is bent, or an edge cuts a corner off its line, what is nearest to the center
-/// of a triangle may lie beyond. Such a triangle gets the nearest place with the label that most of
-/// its part has, the triangles that no feature edge parts; but not where triangles farther inside
-/// have several labels, too, as those of a symmetric mesh may, whose lines are those of one half.
-///
-/// \param sources of `mesh` in `input`, as `find_sources()` finds them
-/// \param labels of the polygons of `input`; empty: nothing is done
-/// \param mesh the result, in coordinates of the unit box, with its feature edges
-inline void keep_labels(Sources& sources, const Polygon_soup& input, const std::vector<int>& labels,
-                        const Normalization& normalization, const Extracted_mesh& mesh,
-                        internal::Concurrency concurrency = Sequential_tag())
+/// Moves the sources of triangles beside lines between labels to the sides that they are on, as
+/// `keep_labels()`.
+inline void move_over_lines(Sources& sources, const Polygon_soup& input,
+                            const std::vector<int>& labels, const Normalization& normalization,
+                            const Extracted_mesh& mesh, Concurrency concurrency)
 {
-  if (labels.empty() || mesh.feature_edges.empty()) return;
   const std::pair<std::vector<int>, int> numbered = mesh_parts(mesh, concurrency);
   const std::vector<int>& parts = numbered.first;
   const std::vector<int> found = values_at(labels, sources.faces),
-                         wanted = internal::labels_of_parts(mesh, parts, numbered.second, found);
+                         wanted = labels_of_parts(mesh, parts, numbered.second, found);
   std::vector<char> is_on_feature(mesh.points.size(), false);
   for (const auto& [a, b] : mesh.feature_edges) is_on_feature[a] = is_on_feature[b] = true;
   std::vector<int> beyond;
@@ -69,7 +60,7 @@ inline void keep_labels(Sources& sources, const Polygon_soup& input, const std::
       std::remove_if(beyond.begin(), beyond.end(), [&](int f) { return is_mixed[parts[f]]; }),
       beyond.end());
   if (beyond.empty()) return;
-  const internal::Source_triangles triangles(input, normalization);
+  const Source_triangles triangles(input, normalization);
   std::vector<int> labels_of_triangles;
   std::map<int, int> some; // triangle of each label
   for (const int polygon : triangles.polygons) {
@@ -77,15 +68,39 @@ inline void keep_labels(Sources& sources, const Polygon_soup& input, const std::
     labels_of_triangles.push_back(labels[polygon]);
   }
   const Facet_tree tree(triangles.points, triangles.triangles, labels_of_triangles, concurrency);
-  internal::for_each_index(concurrency, static_cast<int>(beyond.size()), [&](int k) {
+  for_each_index(concurrency, static_cast<int>(beyond.size()), [&](int k) {
     const int f = beyond[k];
-    const Vec3d center = internal::center(mesh, f);
+    const Vec3d middle = center(mesh, f);
     const int with_label = some.at(wanted[parts[f]]);
-    Surface_point<double> nearest =
-        tree.nearest(center, internal::area_vector(mesh, f), 0, with_label);
-    if (nearest.facet < 0) nearest = tree.nearest(center, with_label);
+    Surface_point<double> nearest = tree.nearest(middle, area_vector(mesh, f), 0, with_label);
+    if (nearest.facet < 0) nearest = tree.nearest(middle, with_label);
     sources.faces[f] = triangles.source(nearest.facet, nearest.point);
   });
+}
+
+} // namespace internal
+
+/// Makes the triangles on both sides of a line between labels come from the sides that they are on:
+/// where the surface is bent, or an edge cuts a corner off its line, what is nearest to the center
+/// of a triangle may lie beyond. Such a triangle gets the nearest place with the label that most of
+/// its part has, the triangles that no feature edge parts; but not where triangles farther inside
+/// have several labels, too, as those of a symmetric mesh may, whose lines are those of one half.
+/// Nor do shares of it come from beyond.
+///
+/// \param sources of `mesh` in `input`, as `find_sources()` finds them
+/// \param labels of the polygons of `input`; empty: nothing is done
+/// \param mesh the result, in coordinates of the unit box, with its feature edges
+inline void keep_labels(Sources& sources, const Polygon_soup& input, const std::vector<int>& labels,
+                        const Normalization& normalization, const Extracted_mesh& mesh,
+                        internal::Concurrency concurrency = Sequential_tag())
+{
+  if (labels.empty() || mesh.feature_edges.empty()) return;
+  internal::move_over_lines(sources, input, labels, normalization, mesh, concurrency);
+  for (std::size_t f = 0; f < sources.shares.size(); ++f) {
+    const int own = sources.faces[f].face;
+    for (int& polygon : sources.shares[f])
+      if (labels[polygon] != labels[own]) polygon = own;
+  }
 }
 
 } // namespace CGAL::PowerRTF
