@@ -163,6 +163,15 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
  *                     `input`.}
  *   \cgalParamNEnd
  *
+ *   \cgalParamNBegin{PowerRTF::parameters::sizing_field}
+ *     \cgalParamDescription{the same, instead of `sizing_map`, by an object whose `at(v, input)` is
+ *                           the length at a vertex: of any model of `PMPSizingField` of \cgal 6, as
+ *                           `CGAL::Polygon_mesh_processing::Adaptive_sizing_field`}
+ *     \cgalParamType{a copyable class with such a function, `v` being a
+ *                    `boost::graph_traits<InputMesh>::%vertex_descriptor`}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
+ *
  *   \cgalParamNBegin{PowerRTF::parameters::refinements}
  *     \cgalParamDescription{regions where edges are to be no longer than a given length. If
  *                           `resolution` is an edge length, it is that of the rest; if it is a
@@ -333,10 +342,9 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
                 "chain of named parameters");
   static_assert(
       !PowerRTF::internal::has_input_parameter<NamedParametersOut>(),
-      "density_map, sizing_map, refinements, remeshing_options, repair, symmetry and region_border "
-      "belong into the first chain of named parameters; one that began in CGAL::parameters takes "
-      "them by "
-      "PowerRTF::parameters::combine(chain, density_map(map))");
+      "density_map, sizing_map, sizing_field, refinements, remeshing_options, repair, symmetry and "
+      "region_border belong into the first chain of named parameters; one that began in "
+      "CGAL::parameters takes them by PowerRTF::parameters::combine(chain, density_map(map))");
   using Types = PowerRTF::internal::Run_types<ConcurrencyTag, InputMesh, NamedParametersIn>;
   using Output_map = typename GetVertexPointMap<OutputMesh, NamedParametersOut>::type;
   using Output_point = typename boost::property_traits<Output_map>::value_type;

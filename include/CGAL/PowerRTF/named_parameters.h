@@ -21,6 +21,7 @@ namespace internal {
 
 enum density_map_t { density_map };
 enum sizing_map_t { sizing_map };
+enum sizing_field_t { sizing_field };
 enum refinements_t { refinements };
 enum remeshing_options_t { remeshing_options };
 enum repair_t { repair };
@@ -51,6 +52,11 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
   auto sizing_map(const Map& map) const
   {
     return with<sizing_map_t>(map);
+  }
+  template <class Field>
+  auto sizing_field(const Field& field) const
+  {
+    return with<sizing_field_t>(field);
   }
   auto refinements(const std::vector<Refinement>& regions) const
   {
@@ -135,6 +141,7 @@ constexpr bool has_input_parameter()
          has_parameter<NamedParameters, repair_t>() ||
          has_parameter<NamedParameters, symmetry_t>() ||
          has_parameter<NamedParameters, region_border_t>();
+         has_parameter<NamedParameters, sizing_field_t>() ||
 }
 
 /// Whether a chain has one of our own parameters about the output.
@@ -177,6 +184,14 @@ inline auto refinements(const std::vector<Refinement>& regions)
 {
   return internal::named_parameter<internal::refinements_t>(regions);
 }
+/// The same by a class: a model of `PMPSizingField` of \cgal 6, as `Adaptive_sizing_field`, or any
+/// with `at(v, mesh)`.
+template <class SizingField>
+auto sizing_field(const SizingField& field)
+{
+  return internal::named_parameter<internal::sizing_field_t>(field);
+}
+
 
 /// All parameters of the method, see `Remeshing_options`.
 inline auto remeshing_options(const Remeshing_options& options)

@@ -80,6 +80,24 @@ std::vector<int> face_labels(const FaceGraph& mesh, const NamedParameters& np)
   return labels;
 }
 
+/// The lengths that the named parameter `sizing_map` or `sizing_field` wants, in the order of
+/// `vertices(mesh)`; none if `np` has neither.
+template <class FaceGraph, class NamedParameters>
+std::optional<std::vector<double>> wanted_sizes(const FaceGraph& mesh, const NamedParameters& np)
+{
+  if constexpr (has_parameter<NamedParameters, sizing_field_t>()) {
+    static_assert(!has_parameter<NamedParameters, sizing_map_t>(),
+                  "sizing_map and sizing_field exclude each other");
+    const auto field = CGAL::parameters::get_parameter(np, sizing_field_t());
+    std::vector<double> values;
+    values.reserve(num_vertices(mesh));
+    for (const auto v : vertices(mesh)) values.push_back(CGAL::to_double(field.at(v, mesh)));
+    return values;
+  } else {
+    return vertex_values<sizing_map_t>(mesh, np);
+  }
+}
+
 /// What the named parameters say about places of the mesh.
 template <class FaceGraph, class NamedParameters>
 Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
@@ -87,7 +105,7 @@ Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
   Surface_fields fields;
   fields.creases = constrained_edges(mesh, np);
   fields.densities = vertex_values<density_map_t>(mesh, np);
-  fields.sizes = vertex_values<sizing_map_t>(mesh, np);
+  fields.sizes = wanted_sizes(mesh, np);
   fields.refinements = CGAL::parameters::choose_parameter(
       CGAL::parameters::get_parameter(np, refinements_t()), std::vector<Refinement>());
   fields.labels = face_labels(mesh, np);
@@ -114,9 +132,9 @@ Surface prepare_surface(Polygon_soup&& soup, const Surface_fields& fields,
 /// `import_surface()`, with the creases and the density that `options` or `np` asks for.
 ///
 /// \param np may contain `vertex_point_map` (default: the mesh's own), `edge_is_constrained_map`
-///   (default: what `set_creases()` finds), `density_map` (default: what `set_density()` sets) or
-///   `sizing_map`, `refinements` and
-///   `face_patch_map`, whose values are labels
+///   (default: what `set_creases()` finds), `vertex_is_constrained_map` (default: none),
+///   `density_map` (default: what `set_density()` sets) or `sizing_map` or `sizing_field`,
+///   `refinements` and `face_patch_map`, whose values are labels
 /// \param report gets the repairs, the seconds, and the number of samples that `options` asks for
 /// \param concurrency one of CGAL's concurrency tags; the result is the same with all of them
 /// \param work what is done elsewhere: `PowerRTFEngine::surface_work()`

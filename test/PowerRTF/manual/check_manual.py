@@ -30,8 +30,8 @@ PUBLIC = {
                 "TangentCellTraits_3",
     "Parameters": "density_map remeshing_options repair symmetry vertex_point_map edge_is_constrained_map "
                   "geom_traits visitor random_seed number_of_iterations combine "
-                  "vertex_source_map face_source_map corner_source_map sizing_map refinements "
-                  "face_patch_map",
+                  "vertex_source_map face_source_map corner_source_map sizing_map sizing_field refinements "
+                  "face_patch_map vertex_is_constrained_map",
     "Transfer": "Mesh_source interpolated transfer_vertex_values transfer_face_values "
                 "transfer_corner_values",
     "Options": "Remeshing_options Resolution Refinement Preset Density Sampling Attributes Projection "

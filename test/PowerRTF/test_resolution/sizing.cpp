@@ -34,6 +34,13 @@ struct Result {
   shapes::Soup soup;
 };
 
+Remeshing_options uniform_options()
+{
+  Remeshing_options options;
+  options.density = Density::uniform;
+  return options;
+}
+
 /// \param options besides: uniform density
 Result remesh(const shapes::Soup& input, const Resolution& resolution, const Field& field,
               const std::vector<Refinement>& regions = {}, Remeshing_options options = {})
@@ -101,6 +108,35 @@ TEST_CASE("edges have the lengths of a sizing field")
       CHECK(std::abs(median_ratio(result.soup, field, is_inside) - 1) < 0.05);
     }
   }
+}
+
+namespace {
+
+/// What `PMPSizingField` asks for that matters here.
+struct Sizing_field {
+  double size = 0.1;
+
+  double at(Mesh::Vertex_index v, const Mesh& mesh) const
+  {
+    return size + 0.04 * mesh.point(v).x();
+  }
+};
+
+} // namespace
+
+TEST_CASE("a class with a length for each vertex does as its map")
+{
+  const shapes::Soup soup = shapes::ellipsoid(0.8, 0.6, 0.4, 3);
+  const Mesh mesh = make_mesh(soup);
+  Mesh output;
+  CGAL::power_rtf_remeshing(
+      mesh, Resolution::size_factor(), output,
+      params::sizing_field(Sizing_field()).random_seed(0).remeshing_options(uniform_options()));
+  const auto by_class = soup_of(output);
+  const Result by_map =
+      remesh(soup, Resolution::size_factor(), [](const Vec3d& p) { return 0.1 + 0.04 * p.x; });
+  CHECK(by_class.points == by_map.soup.points);
+  CHECK(by_class.triangles == by_map.soup.triangles);
 }
 
 TEST_CASE("a sizing field is in the input's unit; a factor changes it, a number takes its ratios")
