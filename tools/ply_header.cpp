@@ -17,6 +17,10 @@ Role role_of(const Element& element, const Property& property)
     return Role::corners;
   if (element.is_face() && property.length && is_real(property.type) && name == "texcoord")
     return Role::texture;
+  if (element.name == "edge" && !property.length && !is_real(property.type)) {
+    if (name == "vertex1") return Role::begin;
+    if (name == "vertex2") return Role::end;
+  }
   if (property.length || (!element.is_vertex() && !element.is_face())) return Role::none;
   if (element.is_vertex() && name == "x") return Role::x;
   if (element.is_vertex() && name == "y") return Role::y;
@@ -178,7 +182,7 @@ std::set<std::string> attributes(const Header& header)
   for (const Element& e : header.elements) {
     if (e.count == 0 || e.properties.empty()) continue;
     if (!e.is_vertex() && !e.is_face()) {
-      found.insert("elements " + printable(e.name));
+      found.insert(e.is_edge() ? "lines" : "elements " + printable(e.name));
       continue;
     }
     for (const Property& p : e.properties) {

@@ -18,7 +18,7 @@ namespace tools::ply {
 enum class Body { text, little_endian, big_endian };
 using Type = Number_type;
 /// What a property is read as.
-enum class Role { none, value, corners, texture, x, y, z };
+enum class Role { none, value, corners, texture, begin, end, x, y, z };
 
 struct Property {
   std::string name;
@@ -34,6 +34,7 @@ struct Element {
 
   bool is_vertex() const { return name == "vertex" || name == "vertices"; }
   bool is_face() const { return name == "face" || name == "faces"; }
+  bool is_edge() const { return has(Role::begin) && has(Role::end); }
   bool has(Role role) const
   {
     for (const Property& p : properties)

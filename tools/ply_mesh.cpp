@@ -200,6 +200,7 @@ private:
   {
     constexpr CGAL::Parallel_if_available_tag concurrency;
     constexpr std::size_t most = std::numeric_limits<int>::max();
+    if (element.is_edge()) return false;
     const Layout item = layout_of_first(element);
     const std::size_t sides = item.corners.size(), first = m_soup.corners.size();
     if (element.count > m_values.bytes_left() / item.size || element.count > most ||
@@ -288,6 +289,7 @@ private:
       if (!found) reject("the file is truncated: it ends in", element, item);
     };
     std::array<double, 3> xyz{};
+    CGAL::PowerRTF::Edge ends{};
     std::size_t column = 0;
     for (const Property& p : element.properties) {
       if (p.length) {
@@ -298,6 +300,9 @@ private:
       } else if (p.role == Role::value) {
         expect(m_values.next(p.type));
         properties_of(element)[column++].values.push_back(m_values.value());
+      } else if (p.role == Role::begin || p.role == Role::end) {
+        expect(m_values.next(p.type));
+        ends[p.role == Role::end] = corner(m_values.whole_number());
       } else if (p.role != Role::none) {
         expect(m_values.next(p.type));
         xyz[static_cast<std::size_t>(p.role) - static_cast<std::size_t>(Role::x)] =
@@ -307,6 +312,7 @@ private:
       }
     }
     if (element.is_vertex()) m_soup.points.push_back({xyz[0], xyz[1], xyz[2]});
+    if (element.is_edge()) m_mesh.lines.push_back(ends);
     if (element.is_face() && element.has(Role::texture)) end_texture(item);
   }
 

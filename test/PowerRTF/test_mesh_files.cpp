@@ -197,7 +197,9 @@ TEST_CASE("attributes beside points and facets are told")
   for (const char* const body : bodies) {
     CHECK(of(Format::ply, ply(body, float32, uchar, int32, false)).empty());
     CHECK(of(Format::ply, ply(body, float32, uchar, int32, true)) ==
-          Names{"elements edge", "texture coordinates", "vertex property weights"}); // lists
+          Names{"lines", "texture coordinates", "vertex property weights"}); // lists
+    CHECK(parse_mesh(Format::ply, ply(body, float32, uchar, int32, true)).lines ==
+          std::vector<CGAL::PowerRTF::Edge>{{0, 1}});
   }
 
   const std::vector<Vec3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
