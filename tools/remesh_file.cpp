@@ -277,7 +277,7 @@ void write_results(Remesher& remesher, Extracted_mesh& mesh, const Joined_mesh* 
   });
   Mesh_properties values = transferred(input, sources);
   if (options.writes_patches) set_patches(remesher.patches(mesh), values);
-  for (Vec3d& p : mesh.points) p = normalization.to_outside(p);
+  mesh.points = mesh.outside(normalization, Concurrency());
   const std::vector<Vec3d>& points = joined ? joined->points : mesh.points;
   const std::vector<Triangle>& triangles = joined ? joined->triangles : mesh.triangles;
   if (options.write_mesh)

@@ -107,12 +107,12 @@ public:
   const Report& report() const { return m_report; }
   Report& report() { return m_report; }
   /// The current samples, in the order of the output's vertices, but for those that were taken out:
-  /// those with cells, then those on creases and borders.
+  /// those with cells, then those of `features()`.
   PowerRTF::Samples samples() const { return with_features(m_engine.samples()); }
-  /// The sites of the cells: the samples that have one, then the copies of those on creases and
-  /// borders, one for each patch at them.
+  /// The sites of the cells: the samples that have one, then the copies of those of `features()`,
+  /// one for each patch at them.
   PowerRTF::Samples sites() const { return m_engine.sites(); }
-  /// The samples on creases and borders.
+  /// The samples that do not move: on creases and borders, and at vertices that are to stay.
   const PowerRTF::Feature_samples& features() const { return m_patches.features(); }
   /// The cells of the current samples and weights; their neighbors are numbers of sites.
   std::vector<PowerRTF::Cell_polygon> cells() { return m_engine.cells(); }
@@ -387,12 +387,15 @@ private:
     const std::vector<int>& kept = m_surface.kept_vertices;
     if (kept.empty()) return;
     const std::vector<PowerRTF::Edge_place>& places = m_patches.features().places;
-    mesh.input_points.assign(m_options.number_of_samples, -1);
+    mesh.input_points.assign(m_options.number_of_samples, {});
     const std::size_t first = m_options.number_of_samples - places.size();
-    for (std::size_t k = 0; k < places.size(); ++k)
-      if (places[k].from == places[k].to &&
-          std::binary_search(kept.begin(), kept.end(), places[k].from))
-        mesh.input_points[first + k] = m_surface.input_vertices[places[k].from];
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const int v = places[k].from;
+      const auto found = std::lower_bound(kept.begin(), kept.end(), v);
+      if (places[k].to == v && found != kept.end() && *found == v)
+        mesh.input_points[first + k] = {m_surface.input_vertices[v],
+                                        m_surface.kept_points[found - kept.begin()]};
+    }
   }
 
   PowerRTF::Extracted_mesh triangles(const PowerRTF::Surface& surface,

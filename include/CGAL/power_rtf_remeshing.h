@@ -223,6 +223,17 @@ Remeshing_report run(Remeshing_options options, const Prepare& prepare, Visitor&
  *     \cgalParamExtra{Borders are always kept.}
  *   \cgalParamNEnd
  *
+ *   \cgalParamNBegin{vertex_is_constrained_map}
+ *     \cgalParamDescription{a property map that names vertices that stay: the result has vertices
+ *                           at exactly these points, on creases and borders or off them. They
+ *                           count among those asked for.}
+ *     \cgalParamType{a class model of `ReadablePropertyMap` with
+ *                    `boost::graph_traits<InputMesh>::%vertex_descriptor` as key type and `bool` as
+ *                    value type}
+ *     \cgalParamDefault{none: only corners of creases and borders stay}
+ *     \cgalParamExtra{Not with `symmetry`.}
+ *   \cgalParamNEnd
+ *
  *   \cgalParamNBegin{face_patch_map}
  *     \cgalParamDescription{labels of the faces, of any kind: between different ones the result
  *                           keeps creases, beside those that are found or constrained}

@@ -30,6 +30,7 @@ struct Case {
   std::string name;
   shapes::Soup soup;
   Remeshing_options options;
+  std::vector<int> kept_vertices{};
 };
 
 inline Remeshing_options options_of(bool paper, Density density, std::size_t n)
@@ -50,7 +51,8 @@ inline std::vector<Case> cases()
       {"adaptive, paper", shapes::torus(48, 24, 1, 0.3), options_of(true, Density::curvature, 300)},
       {"two components", shapes::two_spheres(3), options_of(false, Density::uniform, 300)},
       {"creases", shapes::box(8), options_of(false, Density::uniform, 500)},
-      {"borders", shapes::open_cylinder(40, 20, 0.4, 1), options_of(false, Density::uniform, 400)}};
+      {"borders", shapes::open_cylinder(40, 20, 0.4, 1), options_of(false, Density::uniform, 400)},
+      {"vertices that stay", egg, options_of(false, Density::uniform, 400), {7, 8, 300, 1000}}};
 }
 
 /// A surface as the remesher prepares it, and its first samples.
@@ -61,6 +63,7 @@ struct Start {
 
   explicit Start(const Case& c) : surface(shapes::make_surface(c.soup))
   {
+    surface.kept_vertices = c.kept_vertices;
     set_creases(surface, c.options);
     set_density(surface, c.options);
     patches = std::make_unique<Surface_patches>(surface, c.options);

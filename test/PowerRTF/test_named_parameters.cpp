@@ -20,6 +20,9 @@ struct Points {
 struct Creases {
   int id = 2;
 };
+struct Corners {
+  int id = 9;
+};
 struct Densities {
   int id = 3;
 };
@@ -52,6 +55,7 @@ void check_cgal_parameters(const Chain& chain)
   CHECK(value<CGAL::internal_np::visitor_t>(chain).id == 5);
   CHECK(value<CGAL::internal_np::random_seed_t>(chain) == 6);
   CHECK(value<CGAL::internal_np::number_of_iterations_t>(chain) == 7);
+  CHECK(value<CGAL::internal_np::vertex_is_constrained_t>(chain).id == 9);
 }
 
 template <class Chain>
@@ -81,6 +85,7 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
   check(params::vertex_point_map(Points())
             .density_map(Densities())
             .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .geom_traits(Traits())
             .remeshing_options(options)
             .visitor(Visitor())
@@ -88,6 +93,7 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
             .repair(false)
             .number_of_iterations(7));
   check(params::edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .remeshing_options(options)
             .random_seed(6)
             .density_map(Densities())
@@ -102,6 +108,7 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
             .number_of_iterations(7)
             .vertex_point_map(Points())
             .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .density_map(Densities())
             .remeshing_options(options)
             .repair(false));
@@ -112,6 +119,7 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
             .vertex_point_map(Points())
             .density_map(Densities())
             .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .number_of_iterations(7)
             .random_seed(6));
   check(params::random_seed(6)
@@ -122,13 +130,15 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
             .geom_traits(Traits())
             .vertex_point_map(Points())
             .remeshing_options(options)
-            .edge_is_constrained_map(Creases()));
+            .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners()));
   check(params::number_of_iterations(7)
             .density_map(Densities())
             .repair(false)
             .random_seed(6)
             .remeshing_options(options)
             .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .visitor(Visitor())
             .geom_traits(Traits())
             .vertex_point_map(Points()));
@@ -136,6 +146,7 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
             .vertex_point_map(Points())
             .repair(false)
             .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .remeshing_options(options)
             .geom_traits(Traits())
             .visitor(Visitor())
@@ -149,6 +160,7 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
             .visitor(Visitor())
             .geom_traits(Traits())
             .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .vertex_point_map(Points()));
   check(params::repair(false)
             .number_of_iterations(7)
@@ -156,6 +168,7 @@ TEST_CASE("chains take all parameters in any order, and begin with any")
             .visitor(Visitor())
             .geom_traits(Traits())
             .edge_is_constrained_map(Creases())
+            .vertex_is_constrained_map(Corners())
             .vertex_point_map(Points())
             .density_map(Densities())
             .remeshing_options(options));
@@ -186,6 +199,7 @@ TEST_CASE("CGAL's chains are combined with ours, either first")
   namespace cgal = CGAL::parameters;
   const auto theirs = cgal::vertex_point_map(Points())
                           .edge_is_constrained_map(Creases())
+                          .vertex_is_constrained_map(Corners())
                           .geom_traits(Traits())
                           .visitor(Visitor())
                           .random_seed(6)

@@ -218,7 +218,7 @@ TEST_CASE("vertices of the border are as many as before, and do not move")
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     if (!mesh.is_kept(int(v))) continue;
     ++kept;
-    const Vec3d p = region.soup.points[mesh.input_points[v]];
+    const Vec3d p = region.soup.points[mesh.input_points[v].number];
     CHECK(length(normalization.to_outside(mesh.points[v]) - p) < 1e-14);
   }
   CHECK(kept == vertices);
@@ -302,7 +302,7 @@ TEST_CASE("a vertex on an edge that should be kept is told")
   const internal::Soup_region region(soup, {0, 1}, {});
   Extracted_mesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}};
-  mesh.input_points = {0, 1, -1, -1};
+  mesh.input_points = {{0}, {1}, {}, {}};
   const auto judged = [&] {
     Remeshing_report report;
     internal::Joined_mesh(soup, region, mesh, Normalization())
@@ -345,7 +345,8 @@ TEST_CASE("what cannot be")
                        Invalid_input_error);
   const auto faces = faces_where(mesh, is_upper);
   CHECK_THROWS_WITH_AS(CGAL::power_rtf_remeshing(faces, mesh, 30),
-                       doctest::Contains("the borders and creases need"), Invalid_input_error);
+                       doctest::Contains("the borders, creases and vertices that are to stay need"),
+                       Invalid_input_error);
   Remeshing_options merging;
   merging.merge_distance = 0.01;
   CHECK_THROWS_WITH_AS(

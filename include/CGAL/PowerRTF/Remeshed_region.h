@@ -80,12 +80,13 @@ public:
     };
     const auto place = [&](int v) { return v < static_cast<int>(places.size()) ? places[v] : v; };
     std::map<int, int> vertex_at; // by place
-    mesh.input_points.resize(mesh.points.size(), -1);
+    mesh.input_points.resize(mesh.points.size());
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-      if (mesh.input_points[v] < 0) continue;
-      const int old = m_remeshed->points[mesh.input_points[v]];
+      int& number = mesh.input_points[v].number;
+      if (number < 0) continue;
+      const int old = m_remeshed->points[number];
       vertex_at.insert({place(old), static_cast<int>(v)});
-      mesh.input_points[v] = name(old);
+      number = name(old);
     }
     const Polygon_soup& soup = m_changed->soup;
     for (const int k : m_beside) {
@@ -96,7 +97,7 @@ public:
             vertex_at.insert({place(old), static_cast<int>(mesh.points.size())});
         if (is_new) {
           mesh.points.push_back(normalization.to_inside(soup.points[old]));
-          mesh.input_points.push_back(name(old));
+          mesh.input_points.push_back({name(old), soup.points[old]});
         }
         t[i] = at->second;
       }
@@ -113,9 +114,9 @@ public:
     const bool has_corners = !sources.corners.empty(), has_shares = !sources.shares.empty();
     for (std::vector<Source>* of : {&sources.vertices, &sources.faces})
       for (Source& s : *of) renumber(s);
-    for (auto& corners : sources.corners)
     for (auto& polygons : sources.shares)
       for (int& k : polygons) k = place_in(m_replaced.polygons, m_own->polygons[k]);
+    for (auto& corners : sources.corners)
       for (Source& s : corners) renumber(s);
     sources.vertices.resize(mesh.points.size());
     const Source_triangles all(m_replaced.soup, normalization);
@@ -134,8 +135,8 @@ public:
         if (sources.vertices[t[i]].face < 0) sources.vertices[t[i]] = corners[i];
       }
       sources.faces.push_back(nearest(all, own, (p[0] + p[1] + p[2]) * (1. / 3)));
-      if (has_corners) sources.corners.push_back(corners);
       if (has_shares) sources.shares.emplace_back().fill(sources.faces.back().face);
+      if (has_corners) sources.corners.push_back(corners);
     }
   }
 

@@ -147,7 +147,7 @@ struct Remeshing_report {
   std::size_t constructions = 0; ///< of all cells, in all (Algorithm 1)
   std::size_t outer_iterations = 0;
   std::vector<Iteration_report> iterations;
-  std::size_t feature_samples = 0; ///< on creases and borders: they have no cells
+  std::size_t feature_samples = 0; ///< that stay where they are: they have no cells
   /// `Sampling::lattice`: first samples where it does not fit, as in gaps and on small components.
   std::size_t off_lattice_samples = 0;
   /// Samples whose cells' triangles do not fit together or lie badly, so that they were made by
@@ -165,6 +165,8 @@ struct Remeshing_report {
   std::size_t crease_edges = 0;             ///< of the input
   std::size_t feature_edges = 0;            ///< of the output's creases and borders
   std::size_t lost_feature_edges = 0;       ///< of those, how many the output's triangles lack
+  /// Of the input, which the output is to have; and how many it lacks.
+  std::size_t constrained_vertices = 0, lost_constrained_vertices = 0;
   Quality_statistics quality;
   /// None are looked for where all triangles have \f$Q_t \ge 0.6\f$ and no angle below 30 degrees.
   Thin_parts thin;
@@ -224,6 +226,7 @@ inline std::vector<std::string> Remeshing_report::missed_guarantees() const
                         ": the option intersections is about them)"
                   : std::string()));
   same(lost_feature_edges, std::size_t(0), "lost edges of creases and borders");
+  same(lost_constrained_vertices, std::size_t(0), "lost vertices that are to stay");
   same(symmetry.lone_facets, std::size_t(0), "facets without a mirror image");
   const auto bounded = [&expect](bool met, const char* what, double is, double asked) {
     std::ostringstream text;

@@ -24,6 +24,7 @@ struct Surface_fields {
   /// all are the same.
   std::vector<int> labels;
   std::vector<Edge> kept_edges; ///< pairs of points: edges of the border that the result shall have
+  std::vector<int> kept_vertices; ///< points that shall be vertices of the result
 };
 
 } // namespace CGAL::PowerRTF

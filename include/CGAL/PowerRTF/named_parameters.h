@@ -96,6 +96,11 @@ struct Named_parameters : Named_function_parameters<T, Tag, Base> {
     return with<internal_np::edge_is_constrained_t>(map);
   }
   template <class Map>
+  auto vertex_is_constrained_map(const Map& map) const
+  {
+    return with<internal_np::vertex_is_constrained_t>(map);
+  }
+  template <class Map>
   auto face_patch_map(const Map& map) const
   {
     return with<internal_np::face_patch_t>(map);
@@ -136,12 +141,12 @@ constexpr bool has_input_parameter()
 {
   return has_parameter<NamedParameters, density_map_t>() ||
          has_parameter<NamedParameters, sizing_map_t>() ||
+         has_parameter<NamedParameters, sizing_field_t>() ||
          has_parameter<NamedParameters, refinements_t>() ||
          has_parameter<NamedParameters, remeshing_options_t>() ||
          has_parameter<NamedParameters, repair_t>() ||
          has_parameter<NamedParameters, symmetry_t>() ||
          has_parameter<NamedParameters, region_border_t>();
-         has_parameter<NamedParameters, sizing_field_t>() ||
 }
 
 /// Whether a chain has one of our own parameters about the output.
@@ -179,11 +184,6 @@ auto sizing_map(const SizingMap& map)
   return internal::named_parameter<internal::sizing_map_t>(map);
 }
 
-/// Regions where edges shall be shorter.
-inline auto refinements(const std::vector<Refinement>& regions)
-{
-  return internal::named_parameter<internal::refinements_t>(regions);
-}
 /// The same by a class: a model of `PMPSizingField` of \cgal 6, as `Adaptive_sizing_field`, or any
 /// with `at(v, mesh)`.
 template <class SizingField>
@@ -192,6 +192,11 @@ auto sizing_field(const SizingField& field)
   return internal::named_parameter<internal::sizing_field_t>(field);
 }
 
+/// Regions where edges shall be shorter.
+inline auto refinements(const std::vector<Refinement>& regions)
+{
+  return internal::named_parameter<internal::refinements_t>(regions);
+}
 
 /// All parameters of the method, see `Remeshing_options`.
 inline auto remeshing_options(const Remeshing_options& options)
@@ -256,6 +261,13 @@ template <class EdgeIsConstrainedMap>
 auto edge_is_constrained_map(const EdgeIsConstrainedMap& map)
 {
   return internal::named_parameter<internal_np::edge_is_constrained_t>(map);
+}
+
+/// The vertices that stay, as in `CGAL::parameters`.
+template <class VertexIsConstrainedMap>
+auto vertex_is_constrained_map(const VertexIsConstrainedMap& map)
+{
+  return internal::named_parameter<internal_np::vertex_is_constrained_t>(map);
 }
 
 /// Labels of faces, as in `CGAL::parameters`: those of the input, between which creases are kept;

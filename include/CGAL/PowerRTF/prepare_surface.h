@@ -47,6 +47,23 @@ std::optional<std::vector<Edge>> constrained_edges(const FaceGraph& mesh, const 
   }
 }
 
+/// The vertices that the named parameter `vertex_is_constrained_map` marks, as places in
+/// `vertices(mesh)`; none if `np` has no such map.
+template <class FaceGraph, class NamedParameters>
+std::vector<int> constrained_vertices(const FaceGraph& mesh, const NamedParameters& np)
+{
+  std::vector<int> constrained;
+  if constexpr (has_parameter<NamedParameters, internal_np::vertex_is_constrained_t>()) {
+    const auto map = CGAL::parameters::get_parameter(np, internal_np::vertex_is_constrained);
+    int place = 0;
+    for (const auto v : vertices(mesh)) {
+      if (get(map, v)) constrained.push_back(place);
+      ++place;
+    }
+  }
+  return constrained;
+}
+
 /// The values of the named parameter `Tag`, in the order of `vertices(mesh)`; none if `np` has no
 /// such map.
 template <class Tag, class FaceGraph, class NamedParameters>
@@ -61,23 +78,6 @@ std::optional<std::vector<double>> vertex_values(const FaceGraph& mesh, const Na
     for (const auto v : vertices(mesh)) values.push_back(CGAL::to_double(get(map, v)));
     return values;
   }
-}
-
-/// The values of the named parameter `face_patch_map`, numbered, in the order of `faces(mesh)`;
-/// none if `np` has no such map.
-template <class FaceGraph, class NamedParameters>
-std::vector<int> face_labels(const FaceGraph& mesh, const NamedParameters& np)
-{
-  std::vector<int> labels;
-  if constexpr (has_parameter<NamedParameters, internal_np::face_patch_t>()) {
-    const auto map = CGAL::parameters::get_parameter(np, internal_np::face_patch);
-    using Value = typename boost::property_traits<std::decay_t<decltype(map)>>::value_type;
-    std::map<Value, int> numbers;
-    for (const auto f : faces(mesh))
-      labels.push_back(
-          numbers.emplace(get(map, f), static_cast<int>(numbers.size())).first->second);
-  }
-  return labels;
 }
 
 /// The lengths that the named parameter `sizing_map` or `sizing_field` wants, in the order of
@@ -98,6 +98,23 @@ std::optional<std::vector<double>> wanted_sizes(const FaceGraph& mesh, const Nam
   }
 }
 
+/// The values of the named parameter `face_patch_map`, numbered, in the order of `faces(mesh)`;
+/// none if `np` has no such map.
+template <class FaceGraph, class NamedParameters>
+std::vector<int> face_labels(const FaceGraph& mesh, const NamedParameters& np)
+{
+  std::vector<int> labels;
+  if constexpr (has_parameter<NamedParameters, internal_np::face_patch_t>()) {
+    const auto map = CGAL::parameters::get_parameter(np, internal_np::face_patch);
+    using Value = typename boost::property_traits<std::decay_t<decltype(map)>>::value_type;
+    std::map<Value, int> numbers;
+    for (const auto f : faces(mesh))
+      labels.push_back(
+          numbers.emplace(get(map, f), static_cast<int>(numbers.size())).first->second);
+  }
+  return labels;
+}
+
 /// What the named parameters say about places of the mesh.
 template <class FaceGraph, class NamedParameters>
 Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
@@ -109,6 +126,7 @@ Surface_fields surface_fields(const FaceGraph& mesh, const NamedParameters& np)
   fields.refinements = CGAL::parameters::choose_parameter(
       CGAL::parameters::get_parameter(np, refinements_t()), std::vector<Refinement>());
   fields.labels = face_labels(mesh, np);
+  fields.kept_vertices = constrained_vertices(mesh, np);
   return fields;
 }
 

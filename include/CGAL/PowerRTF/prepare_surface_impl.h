@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_PREPARE_SURFACE_IMPL_H
 
 #include <CGAL/PowerRTF/features/kept_edges.h>
+#include <CGAL/PowerRTF/features/kept_vertices.h>
 #include <CGAL/PowerRTF/features/refine_narrow_patches.h>
 #include <CGAL/PowerRTF/features/sample_features.h>
 #include <CGAL/PowerRTF/fields/density.h>
@@ -38,6 +39,9 @@ inline void check_fields(const Remeshing_options& options, const Surface_fields&
     throw Invalid_input_error("size_factor needs a sizing field, but there is none");
   if (options.symmetry != Symmetry::none && !fields.kept_edges.empty())
     throw Invalid_input_error("symmetry is that of a whole: a region has to fit what stays");
+  if (options.symmetry != Symmetry::none && !fields.kept_vertices.empty())
+    throw Invalid_input_error("symmetry and vertices that are to stay exclude each other: the "
+                              "mirror images of these need not be vertices of the input");
   if (is_distance_asked_for(options) && has_wanted_lengths(options, fields))
     throw Invalid_input_error("a largest distance and wanted edge lengths exclude each other");
 }
@@ -46,21 +50,51 @@ inline void check_fields(const Remeshing_options& options, const Surface_fields&
 inline void check_cure(const Remeshing_options& options, const Surface_fields& fields)
 {
   if (fields.creases || fields.densities || fields.sizes || !fields.lines.empty() ||
-      !fields.labels.empty() || !fields.kept_edges.empty())
+      !fields.labels.empty() || !fields.kept_edges.empty() || !fields.kept_vertices.empty())
     throw Invalid_input_error("what is given for vertices and facets is for those of the input; "
                               "intersections = " +
                               to_text(options.intersections) + " makes others");
 }
 
-/// The edges between the vertices that those of `edges` have become where vertices are merged.
+/// What those of `points` have become where vertices are merged.
+inline std::vector<int> merged_points(std::vector<int> points, const Polygon_soup& soup,
+                                      Concurrency concurrency)
+{
+  if (!soup.merges_vertices || points.empty()) return points;
+  const std::vector<int> vertex =
+      merged_vertices(soup, used_points(soup, concurrency), concurrency);
+  for (int& v : points) v = vertex[v];
+  return points;
+}
+
+/// The same of the ends of edges.
 inline std::vector<Edge> merged_edges(std::vector<Edge> edges, const Polygon_soup& soup,
                                       Concurrency concurrency)
 {
-  if (!soup.merges_vertices || edges.empty()) return edges;
-  const std::vector<int> vertex =
-      merged_vertices(soup, used_points(soup, concurrency), concurrency);
-  for (Edge& e : edges) e = sorted_edge(vertex[e[0]], vertex[e[1]]);
+  std::vector<int> ends;
+  for (const Edge& e : edges) ends.insert(ends.end(), e.begin(), e.end());
+  ends = merged_points(std::move(ends), soup, concurrency);
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    edges[k] = sorted_edge(ends[2 * k], ends[2 * k + 1]);
   return edges;
+}
+
+/// Keeps the edges and vertices of `fields`.
+/// \param soup what the surface has become of
+/// \throws Invalid_input_error as `keep_edges()` and `keep_vertices()`
+inline void keep_places(Surface& surface, const Polygon_soup& soup, const Surface_fields& fields,
+                        const Remeshing_options& options, Concurrency concurrency)
+{
+  if (!fields.kept_edges.empty())
+    keep_edges(surface, fields.kept_edges, merged_edges(fields.kept_edges, soup, concurrency));
+  if (!fields.kept_vertices.empty())
+    keep_vertices(surface, fields.kept_vertices,
+                  merged_points(fields.kept_vertices, soup, concurrency), soup.points.size());
+  for (const int v : surface.kept_vertices) {
+    const Vec3d& p = soup.points[surface.input_vertices[v]];
+    const bool is_single = options.coordinates == Coordinates::single_precision;
+    surface.kept_points.push_back(is_single ? to_double(to_real<float>(p)) : p);
+  }
 }
 
 /// The lines of `fields`, as edges of the surface.
@@ -106,10 +140,9 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
   internal::Progress_part part(0.1);
   if (options.merge_distance > 0) {
     if (fields.creases || !fields.lines.empty() || !fields.labels.empty() ||
-        !fields.kept_edges.empty())
-      throw Invalid_input_error(
-          "creases, labels and regions of the user's own are those of edges and facets "
-          "of the input, which merge_distance may join or cut");
+        !fields.kept_edges.empty() || !fields.kept_vertices.empty())
+      throw Invalid_input_error("creases, labels, regions and vertices that are to stay are those "
+                                "of the input, which merge_distance may join or cut");
     internal::merge_near(soup, options.merge_distance, report.repairs, concurrency);
   }
   if (options.intersections != Intersections::keep) {
@@ -122,9 +155,8 @@ CGAL_POWER_RTF_INLINE Surface prepare_surface(Polygon_soup&& soup, const Surface
     if (!report.faces_as_input())
       throw Invalid_input_error("the facets of the region do not all face the same way, so that "
                                 "the new ones could not go on as those around it");
-    keep_edges(surface, fields.kept_edges,
-               internal::merged_edges(fields.kept_edges, soup, concurrency));
   }
+  internal::keep_places(surface, soup, fields, options, concurrency);
   const std::vector<Edge> lines = internal::line_edges(surface, soup, fields, concurrency),
                           label_edges = internal::set_labels(surface, soup, fields,
                                                              report.faces_as_input(), concurrency);

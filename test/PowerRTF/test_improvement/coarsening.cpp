@@ -112,9 +112,9 @@ TEST_CASE("vertices on features and borders stay, and are named as before")
   for (std::size_t f = 0; f < fine.triangles.size(); f += 20)
     features.push_back({fine.triangles[f][0], fine.triangles[f][1]});
   mesh.c.raw.feature_edges = features;
-  mesh.c.raw.input_points.assign(fine.points.size(), -1);
+  mesh.c.raw.input_points.resize(fine.points.size());
   for (const Edge& e : features)
-    for (const int v : e) mesh.c.raw.input_points[v] = 7 * v;
+    for (const int v : e) mesh.c.raw.input_points[v].number = 7 * v;
   const auto [coarse, taken] = mesh.coarse(1);
   REQUIRE(taken > 100);
   REQUIRE(coarse.input_points.size() == coarse.points.size());
@@ -123,7 +123,7 @@ TEST_CASE("vertices on features and borders stay, and are named as before")
     for (const int end : {0, 1}) {
       const int v = features[k][end], w = coarse.feature_edges[k][end];
       CHECK(coarse.points[w] == fine.points[v]);
-      CHECK(coarse.input_points[w] == 7 * v);
+      CHECK(coarse.input_points[w].number == 7 * v);
     }
   const auto edges = [](const Extracted_mesh& m) {
     std::set<Edge> all;

@@ -103,7 +103,7 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
   if (!are_all_free) {
     to.next.assign(sites.size(), -1);
     for (std::size_t k = 0; k < features.next.size(); ++k)
-      to.next[m_size + k] = static_cast<int>(m_size) + features.next[k];
+      if (features.next[k] >= 0) to.next[m_size + k] = static_cast<int>(m_size) + features.next[k];
   }
   m_engine->set_samples(to);
 }

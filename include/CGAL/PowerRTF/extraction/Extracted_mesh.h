@@ -15,6 +15,13 @@
 namespace CGAL::PowerRTF {
 
 /// \ingroup PkgPowerRTFSurface
+/// A point of the input that the result has.
+struct Input_point {
+  int number = -1;            ///< among those of the input; -1: it is none
+  Vec3d coordinates{0, 0, 0}; ///< in the input
+};
+
+/// \ingroup PkgPowerRTFSurface
 /// Triangles on the samples, in the coordinates of the unit box.
 struct Extracted_mesh {
   /// The samples in their order; then the vertices of the surface that the topology does not allow
@@ -25,11 +32,25 @@ struct Extracted_mesh {
   /// Of an `Opened_surface`, by point: its place (see `Seam_places`), whose points will be one
   /// vertex. Empty: all are alone.
   std::vector<int> places{};
-  /// By point, the others have none: that of the input that it is, where it has to stay; or -1.
-  std::vector<int> input_points{};
+  /// By point, the others have none: that of the input that it is, where it has to stay.
+  std::vector<Input_point> input_points{};
 
   /// Whether point `v` has to stay.
-  bool is_kept(int v) const { return v < int(input_points.size()) && input_points[v] >= 0; }
+  bool is_kept(int v) const { return v < int(input_points.size()) && input_points[v].number >= 0; }
+  /// Point `v` in the input's coordinates: exactly as there, if it has to stay.
+  Vec3d outside(int v, const Normalization& normalization) const
+  {
+    return is_kept(v) ? input_points[v].coordinates : normalization.to_outside(points[v]);
+  }
+  /// All points in the input's coordinates.
+  std::vector<Vec3d> outside(const Normalization& normalization,
+                             internal::Concurrency concurrency = Sequential_tag()) const
+  {
+    std::vector<Vec3d> result(points.size());
+    internal::for_each_index(concurrency, int(points.size()),
+                             [&](int v) { result[v] = outside(v, normalization); });
+    return result;
+  }
 
   /// Puts the triangles into an order that depends on nothing but which triangles there are.
   void sort_triangles(internal::Concurrency concurrency = Sequential_tag())

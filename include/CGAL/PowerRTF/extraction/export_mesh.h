@@ -135,8 +135,7 @@ bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalizatio
   const bool is_own = std::is_same<PointMap, typename Mesh::template Property_map<Vertex, Point>>();
   for_each_index(is_own ? concurrency : Sequential_tag(), vertices, [&](int v) {
     exported.vertices[v] = Vertex(v);
-    put(point_map, Vertex(v),
-        from_vec3d<Point>(normalization.to_outside(mesh.points[exported.points[v]])));
+    put(point_map, Vertex(v), from_vec3d<Point>(mesh.outside(exported.points[v], normalization)));
   });
   resize_in_parallel(concurrency, exported.faces, faces);
   for_each_index(concurrency, faces, [&](int f) {
@@ -191,9 +190,7 @@ export_mesh(const Extracted_mesh& mesh, const Normalization& normalization, Outp
   internal::remove_all_elements(output);
   if (internal::add_triangles(mesh, normalization, output, point_map, exported, concurrency, find))
     return exported;
-  std::vector<Vec3d> points;
-  points.reserve(mesh.points.size());
-  for (const Vec3d& p : mesh.points) points.push_back(normalization.to_outside(p));
+  std::vector<Vec3d> points = mesh.outside(normalization, concurrency);
   std::vector<std::array<std::size_t, 3>> polygons;
   polygons.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)

@@ -64,7 +64,7 @@ public:
       const double l = lengths[v] * detour(graph, curve_surface.points, v, lengths[v]);
       curve_surface.vertex_density.push_back(1 / (l * l));
     }
-    mark_corners(curve_surface.contacts);
+    mark_corners(curve_surface.kept_vertices);
     const double mean =
         std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
     // Over a length, so that the teeth of a border along edges of a mesh are no corners.
@@ -150,6 +150,7 @@ private:
       lines.insert(lines.end(), m_fields.creases->begin(), m_fields.creases->end());
     for (const auto& [a, b] : lines)
       if (const Edge e = sorted_edge(m_places[a], m_places[b]); !is_border(e)) mark(e);
+    for (const int v : m_fields.kept_vertices) mark({m_places[v], m_places[v]});
     sort_uniquely(corners);
   }
 

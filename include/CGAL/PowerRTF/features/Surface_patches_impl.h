@@ -34,8 +34,8 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
     require_enough_samples(surface, n, concurrency);
   set_output_grid(surface, options);
   const bool is_one_patch = surface.creases.empty() && surface.contacts.empty() &&
-                            surface.adjacency.border_edges == 0 && surface.topology.value &&
-                            surface.topology.value->size() == 1;
+                            surface.kept_vertices.empty() && surface.adjacency.border_edges == 0 &&
+                            surface.topology.value && surface.topology.value->size() == 1;
   // Means over the nearest vertices would depend on how finely a facet is split.
   const bool splits = options.attributes == Attributes::facet;
   if (is_one_patch && !(splits && has_long_bent_facets(surface, n, concurrency))) {

@@ -18,7 +18,8 @@ namespace CGAL::PowerRTF {
 
 /// A chain of feature edges.
 struct Feature_curve {
-  /// From corner to corner; first = last for a closed one; a single one where sheets touch.
+  /// From corner to corner; first = last for a closed one; a single one where sheets touch,
+  /// or that is kept, off all creases.
   std::vector<int> vertices;
   bool has_corners = true; ///< no: closed, and none of its vertices is a corner
   int parallels = 1;       ///< curves between the same two corners, itself included
@@ -100,8 +101,9 @@ public:
       trace(m_graph[e][0], e);
       curves.back().has_corners = false;
     }
-    for (const int v : m_surface.contacts)
-      if (m_graph.degree(v) == 0) curves.push_back({{v}});
+    for (const std::vector<int>* alone : {&m_surface.contacts, &m_surface.kept_vertices})
+      for (const int v : *alone)
+        if (m_graph.degree(v) == 0) curves.push_back({{v}});
     count_parallels(curves);
     return curves;
   }
@@ -210,7 +212,8 @@ private:
 /// both sides (0: none).
 inline std::vector<Feature_curve> feature_curves(const Surface& surface, double scale)
 {
-  if (surface.creases.empty() && surface.adjacency.border_edges == 0 && surface.contacts.empty())
+  if (surface.creases.empty() && surface.adjacency.border_edges == 0 && surface.contacts.empty() &&
+      surface.kept_vertices.empty())
     return {};
   return internal::Feature_tracer(surface, scale).curves();
 }

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Samples on corners, creases and borders: spaced by the density along each curve, where they stay.
-// To the cells they are sites, one copy for each patch that they bound.
+// Samples on corners, creases and borders, spaced by the density along each curve, and at single
+// vertices: there they stay. To the cells they are sites, one copy for each patch that they are on.
 #ifndef CGAL_POWER_RTF_FEATURES_SAMPLE_FEATURES_H
 #define CGAL_POWER_RTF_FEATURES_SAMPLE_FEATURES_H
 
@@ -106,7 +106,21 @@ private:
       for (std::size_t s = first; s < last; ++s)
         m_result.next.push_back(static_cast<int>(s + 1 < last ? s + 1 : first));
     }
+    add_sites_inside(at_vertex, std::move(outgoing));
     finish_samples();
+  }
+
+  /// Those of samples at vertices that are on no border. \param outgoing >= 0: it is on a border
+  void add_sites_inside(const std::vector<int>& at_vertex, std::vector<int> outgoing)
+  {
+    const auto& triangles = m_cut.surface.triangles;
+    for (int h = 0; h < static_cast<int>(3 * triangles.size()); ++h) {
+      const int v = halfedge_source(triangles, h), sample = at_vertex[m_cut.originals[v]];
+      if (sample < 0 || outgoing[v] >= 0) continue;
+      outgoing[v] = h;
+      add_site(sample, h, 0);
+      m_result.next.push_back(-1);
+    }
   }
 
   void add_site(int sample, int h, double at)
@@ -183,11 +197,13 @@ inline double equivalent_cells(const Surface& cut, std::size_t n, const Feature_
   const double facets = static_cast<double>(cut.triangles.size()),
                border = static_cast<double>(cut.adjacency.border_edges);
   const double characteristic = static_cast<double>(cut.points.size()) - (facets + border) / 2;
-  const double inside = static_cast<double>(n) - static_cast<double>(features.size());
+  const double inside = static_cast<double>(n) - static_cast<double>(features.size()) +
+                        static_cast<double>(features.sites_inside()) / 2;
   return (std::max)(1., inside + static_cast<double>(features.sites.size()) / 2 - characteristic);
 }
 
-/// Samples on the corners, creases and borders of `surface`, spaced like `n` samples in all.
+/// Samples on the corners, creases, borders and single vertices of `surface` that are to stay,
+/// spaced like `n` samples in all.
 /// \param cut `surface`, cut along its creases
 /// \throws Invalid_input_error when `n` samples are too few
 inline Feature_samples sample_features(const Surface& surface, const Cut_surface& cut,
@@ -208,7 +224,8 @@ inline Feature_samples sample_features(const Surface& surface, const Cut_surface
   if (2 * count(infinity) > n) curves = feature_curves(surface, 0); // turns are dispensable
   if (count(infinity) > n)
     throw Invalid_input_error(std::to_string(n) +
-                              " samples are too few: the borders and creases need " +
+                              " samples are too few: the borders, creases and vertices that are "
+                              "to stay need " +
                               std::to_string(count(infinity)));
   double spacing = spacing_constant(surface, n);
   while (count(spacing) > 16 * n) spacing *= 1.05; // a density may be large on the curves alone

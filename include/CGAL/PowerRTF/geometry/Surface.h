@@ -121,10 +121,11 @@ struct Surface {
                                       ///< agree or more than two facets meet
   std::vector<int> contacts;          ///< vertices where sheets touch, off seams; sorted
   /// Edges of the border that the result has as they are, or the pieces that they have been halved
-  /// into; sorted. And their ends, the vertices that the result has, sorted.
+  /// into; sorted.
   std::vector<Edge> kept_edges;
-  std::vector<int> kept_vertices;
-  bool has_own_density = false; ///< of the user's own, which the result has everywhere
+  std::vector<int> kept_vertices; ///< their ends, and others that the result has; sorted
+  std::vector<Vec3d> kept_points; ///< where those are in the input's coordinates
+  bool has_own_density = false;   ///< of the user's own, which the result has everywhere
   /// #F patch of each facet: samples live on one patch. Empty: the surface is one patch.
   std::vector<int> facet_patches;
   /// Of the half of a symmetric surface, which is above: its border on the plane is where it goes

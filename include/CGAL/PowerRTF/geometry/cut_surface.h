@@ -59,6 +59,7 @@ inline Cut_surface cut_along_creases(const Surface& surface)
   cut.surface.creases.clear();
   cut.surface.contacts.clear();
   cut.surface.kept_vertices.clear();
+  cut.surface.kept_points.clear();
   for (std::size_t v = 0; v < surface.points.size(); ++v)
     cut.originals.push_back(static_cast<int>(v));
   std::vector<char> taken(surface.points.size(), 0);

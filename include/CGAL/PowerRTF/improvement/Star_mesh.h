@@ -4,8 +4,8 @@
 // The mesh that the improvement works on: the working mesh, the place of each vertex on the
 // surface, which vertices may move, and when each has changed. A move is tried on the star of a
 // vertex and kept only if it folds nothing; a flip that is undone leaves no trace. The ends of
-// feature edges and the vertices on borders never move; features have no normal: what lies beside
-// them is judged by its own side alone.
+// feature edges, kept vertices and those on borders never move; features have no normal: what lies
+// beside them is judged by its own side alone.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_STAR_MESH_H
 #define CGAL_POWER_RTF_IMPROVEMENT_STAR_MESH_H
 
@@ -102,8 +102,9 @@ public:
                                : projector.nearest(p, v > begin ? m_facets[v - 1] : -1);
         m_facets[v] = place.facet;
         m.normals[v] = place.normal;
-        m_movable[v] = is_interior(Vertex(v));
         m_kept[v] = mesh.is_kept(v);
+        if (m_kept[v]) m_on_feature[v] = true;
+        m_movable[v] = is_interior(Vertex(v));
       }
     });
   }

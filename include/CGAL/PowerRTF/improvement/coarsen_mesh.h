@@ -18,7 +18,7 @@ class Facet_tree;
 
 /// Takes vertices out of `mesh` where it stays within `distance` of `surface`, both ways, as far as
 /// points of both tell, no triangle becomes bad and none meets another: until no vertex can be
-/// spared. Those on creases and borders stay, as the topology does.
+/// spared. Those on creases and borders and those that are kept stay, as the topology does.
 ///
 /// \param mesh an oriented 2-manifold; else nothing is done
 /// \param tree of the facets of `surface` and their patches

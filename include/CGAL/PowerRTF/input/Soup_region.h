@@ -106,6 +106,8 @@ private:
     fields.refinements = all.refinements;
     fields.lines = edges(all.lines);
     if (!all.labels.empty()) fields.labels = at(all.labels, polygons);
+    for (const int v : all.kept_vertices)
+      if (m_names[v] >= 0) fields.kept_vertices.push_back(m_names[v]);
   }
 
   void keep_edges(const Polygon_soup& whole)

@@ -18,6 +18,7 @@
 #include <CGAL/PowerRTF/quality/triangle_quality.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <vector>
@@ -52,6 +53,24 @@ inline std::size_t lost_feature_edges(const Extracted_mesh& mesh,
       [](std::size_t& lost, std::size_t part) { lost += part; });
 }
 
+/// How many of the vertices that are to stay are none of the mesh, where they were.
+inline std::size_t lost_kept_vertices(const Surface& surface, const Extracted_mesh& mesh)
+{
+  if (surface.kept_vertices.empty()) return 0;
+  std::vector<char> is_used(mesh.points.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) is_used[v] = 1;
+  const Normalization& normalization = surface.normalization;
+  std::size_t found = 0;
+  for (int v = 0; v < static_cast<int>(mesh.points.size()); ++v) {
+    if (!is_used[v] || !mesh.is_kept(v)) continue;
+    const Vec3d moved = mesh.points[v] - normalization.to_inside(mesh.outside(v, normalization));
+    found += (std::max)({std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)}) <=
+             normalization.grid; // rounded
+  }
+  return surface.kept_vertices.size() - found;
+}
+
 } // namespace internal
 
 CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches,
@@ -67,8 +86,12 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
   part.next(0.4);
-  report.self_intersections =
-      self_intersections(mesh.points, mesh.triangles, concurrency, find_close);
+  report.constrained_vertices = surface.kept_vertices.size();
+  report.lost_constrained_vertices = internal::lost_kept_vertices(surface, mesh);
+  std::vector<Vec3d> outside; // where kept vertices are no places of the grid
+  if (!surface.kept_vertices.empty()) outside = mesh.outside(surface.normalization, concurrency);
+  report.self_intersections = self_intersections(outside.empty() ? mesh.points : outside,
+                                                 mesh.triangles, concurrency, find_close);
   if (report.self_intersections > 0)
     report.input_self_intersections =
         self_intersections(surface.points, surface.triangles, concurrency);

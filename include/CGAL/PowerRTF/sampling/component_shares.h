@@ -79,6 +79,7 @@ inline std::vector<char> narrow_components(const Surface& surface, const Feature
   for (std::size_t f = 0; f < topology.component.size(); ++f)
     shapes[topology.component[f]].area += surface.facet_areas[f];
   for (std::size_t s = 0; s < sites.size(); ++s) {
+    if (features.next[s] < 0) continue;
     shapes[sites.patches[s]].perimeter += length(sites.points[features.next[s]] - sites.points[s]);
     ++counts[sites.patches[s]];
   }
@@ -162,15 +163,18 @@ inline std::vector<Component_share> component_shares(const Surface& surface, std
     for (std::size_t f = 0; f < component.size(); ++f)
       masses[component[f]] += internal::density_mass(surface, static_cast<int>(f));
   const double cell_mass = mass / equivalent_cells(surface, n, features);
-  std::vector<double> sites(components, 0), rooms; // for samples inside
-  for (const int c : features.sites.patches) ++sites[c];
+  std::vector<double> sites(components, 0), inside = sites, rooms; // for samples inside
+  for (std::size_t s = 0; s < features.sites.size(); ++s)
+    ++(features.next[s] < 0 ? inside : sites)[features.sites.patches[s]];
   std::vector<std::size_t> least;
   for (int c = 0; c < components; ++c) {
     const Component_topology& shape = topology.components[c];
-    rooms.push_back(masses[c] / cell_mass);
+    rooms.push_back(masses[c] / cell_mass - inside[c]);
     if (sites[c] > 0) // as equivalent_cells() has it
       rooms.back() += static_cast<double>(shape.euler_characteristic) - sites[c] / 2;
-    least.push_back(sites[c] > 0 ? 0 : shape.least_samples());
+    const auto fixed = static_cast<std::size_t>(inside[c]);
+    least.push_back(
+        sites[c] > 0 ? 0 : shape.least_samples() - (std::min)(shape.least_samples(), fixed));
   }
   internal::empty_small_rooms(internal::narrow_components(surface, features, topology), rooms);
   if (!(*std::max_element(rooms.begin(), rooms.end()) > 0)) rooms = masses;

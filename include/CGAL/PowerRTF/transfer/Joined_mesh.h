@@ -70,7 +70,7 @@ struct Joined_mesh {
     input_polygons = append_triangles(whole, region.others, triangles);
     const std::vector<int> places = places_of_points(whole);
     const auto place_of_kept = [&](std::size_t v) {
-      return places[region.points[mesh.input_points[v]]];
+      return places[region.points[mesh.input_points[v].number]];
     };
     std::vector<char> is_joined(whole.points.size(), 0); // by place
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -99,7 +99,7 @@ struct Joined_mesh {
         names.push_back(first_name[place]);
       } else { // new, or all faces at it are
         names.push_back(static_cast<int>(points.size()));
-        points.push_back(is_kept ? whole.points[place] : normalization.to_outside(mesh.points[v]));
+        points.push_back(mesh.outside(static_cast<int>(v), normalization));
       }
     }
     for (const auto& [a, b] : region.fields.kept_edges)
