@@ -21,6 +21,7 @@ struct Polygon_mesh {
   CGAL::PowerRTF::Polygon_soup soup;
   Mesh_properties properties;
   std::vector<CGAL::PowerRTF::Edge> lines; ///< pairs of points: pieces of the file's lines
+  std::vector<int> dots;                   ///< points that the file lists alone
   std::string texture_error;               ///< why the file's texture coordinates cannot be used
   std::set<std::string> attributes; ///< what else the file had, in words: "texture coordinates"
 };

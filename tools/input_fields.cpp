@@ -26,22 +26,30 @@ using CGAL::PowerRTF::Invalid_input_error;
 using CGAL::PowerRTF::Refinement;
 using CGAL::PowerRTF::Surface_fields;
 
-std::vector<double> numbers_of_file(const std::string& file, std::size_t count)
+/// Calls `read(tokens)` for the lines of a file, at the first token of each, which reads it and all
+/// others there.
+template <class Read>
+void read_lines(const std::string& file, const Read& read)
 {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Invalid_input_error(file + " cannot be read");
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  std::vector<double> values;
   Tokenizer tokens(text);
   try {
     while (tokens.next()) {
-      values.push_back(tokens.number());
-      if (tokens.next_in_line()) tokens.reject("is more than the one number of a line");
+      read(tokens);
+      if (tokens.next_in_line()) tokens.reject("is more than belongs into a line");
       tokens.skip_line();
     }
   } catch (const Invalid_input_error& e) {
     throw Invalid_input_error(file + ": " + e.what());
   }
+}
+
+std::vector<double> numbers_of_file(const std::string& file, std::size_t count)
+{
+  std::vector<double> values;
+  read_lines(file, [&](const Tokenizer& tokens) { values.push_back(tokens.number()); });
   if (values.size() != count)
     throw Invalid_input_error(file + " has " + std::to_string(values.size()) +
                               " numbers, but the input has " + std::to_string(count) + " vertices");
@@ -96,8 +104,20 @@ std::optional<double> value_of(const Mesh_property& property, const std::string&
   return property.type == Number_type::float32 ? static_cast<float>(number) : number;
 }
 
-/// The lines, which run along edges of facets.
-const std::vector<Edge>& checked_lines(const Polygon_mesh& mesh)
+/// Pairs of vertices.
+std::vector<Edge> edges_of_file(const std::string& file)
+{
+  std::vector<Edge> edges;
+  read_lines(file, [&](Tokenizer& tokens) {
+    const int first = corner(tokens.whole_number());
+    if (!tokens.next_in_line()) throw Invalid_input_error(tokens.at() + "it has one number only");
+    edges.push_back({first, corner(tokens.whole_number())});
+  });
+  return edges;
+}
+
+/// \throws Invalid_input_error one of `lines` does not run along an edge of a facet
+void check_lines(const Polygon_mesh& mesh, const std::vector<Edge>& lines, const std::string& what)
 {
   using CGAL::PowerRTF::sorted_edge;
   const auto& [points, corners, first, merges_vertices] = mesh.soup;
@@ -110,14 +130,27 @@ const std::vector<Edge>& checked_lines(const Polygon_mesh& mesh)
     }
   CGAL::PowerRTF::sort_uniquely(edges);
   const int count = static_cast<int>(points.size());
-  for (const auto& [a, b] : mesh.lines) {
+  for (const auto& [a, b] : lines) {
     const bool is_known = 0 <= a && a < count && 0 <= b && b < count;
     if (!is_known ||
         !std::binary_search(edges.begin(), edges.end(), sorted_edge(place[a], place[b])))
-      throw Invalid_input_error("its line from vertex " + std::to_string(a + 1) + " to " +
-                                std::to_string(b + 1) + " runs along no edge of a facet");
+      throw Invalid_input_error(what + " from vertex " + std::to_string(a) + " to " +
+                                std::to_string(b) +
+                                " (numbered from 0) runs along no edge of a facet");
   }
-  return mesh.lines;
+}
+
+/// The points that the file lists, which are vertices of facets.
+const std::vector<int>& checked_dots(const Polygon_mesh& mesh)
+{
+  const std::vector<int> place = CGAL::PowerRTF::first_of_equal_points(mesh.soup.points);
+  std::vector<char> is_used(place.size(), 0);
+  for (const int v : mesh.soup.corners) is_used[place[v]] = 1;
+  for (const int v : mesh.dots)
+    if (v < 0 || v >= static_cast<int>(place.size()) || !is_used[place[v]])
+      throw Invalid_input_error("its point at vertex " + std::to_string(v) +
+                                " (numbered from 0) is no vertex of a facet");
+  return mesh.dots;
 }
 
 /// \throws Invalid_input_error the texture coordinates cannot be used
@@ -129,24 +162,44 @@ std::vector<Edge> seams_of(const Polygon_mesh& mesh)
                        find_property(mesh.properties.faces, "material"));
 }
 
+/// A number for each vertex of `mesh`, and where they are from: its property `name`, or else the
+/// lines of the file `name`.
+std::pair<std::vector<double>, std::string> numbers_of(const Polygon_mesh& mesh,
+                                                       const std::string& name)
+{
+  const std::vector<Mesh_property>& properties = mesh.properties.vertices;
+  if (const Mesh_property* const found = find_property(properties, name))
+    return {found->values, "its property " + printable(name)};
+  if (std::filesystem::is_regular_file(name))
+    return {numbers_of_file(name, mesh.soup.points.size()), name};
+  throw Invalid_input_error("its vertices have no property " + printable(name) +
+                            ", and there is no such file; " + names_of(properties));
+}
+
+/// The vertices whose number is not 0; see `numbers_of()`.
+std::vector<int> corners_of(const Polygon_mesh& mesh, const std::string& name)
+{
+  const auto [values, where] = numbers_of(mesh, name);
+  std::vector<int> corners;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (!std::isfinite(values[v]))
+      throw Invalid_input_error(where + ": the value of vertex " + std::to_string(v) +
+                                " (numbered from 0) is not finite");
+    if (values[v] != 0) corners.push_back(static_cast<int>(v));
+  }
+  return corners;
+}
+
 } // namespace
 
 std::vector<double> vertex_values(const Polygon_mesh& mesh, const std::string& name)
 {
-  const std::vector<Mesh_property>& properties = mesh.properties.vertices;
-  const auto checked = [&](std::vector<double> values, const std::string& where) {
-    for (const int v : mesh.soup.corners)
-      if (!(values[v] > 0) || !std::isfinite(values[v]))
-        throw Invalid_input_error(where + ": the value of vertex " + std::to_string(v) +
-                                  " (numbered from 0) is not a positive, finite number");
-    return values;
-  };
-  if (const Mesh_property* const found = find_property(properties, name))
-    return checked(found->values, "its property " + printable(name));
-  if (std::filesystem::is_regular_file(name))
-    return checked(numbers_of_file(name, mesh.soup.points.size()), name);
-  throw Invalid_input_error("its vertices have no property " + printable(name) +
-                            ", and there is no such file; " + names_of(properties));
+  auto [values, where] = numbers_of(mesh, name);
+  for (const int v : mesh.soup.corners)
+    if (!(values[v] > 0) || !std::isfinite(values[v]))
+      throw Invalid_input_error(where + ": the value of vertex " + std::to_string(v) +
+                                " (numbered from 0) is not a positive, finite number");
+  return std::move(values);
 }
 
 std::vector<Edge> texture_seams(const CGAL::PowerRTF::Polygon_soup& soup, const Texture& texture,
@@ -196,7 +249,18 @@ Surface_fields fields_of(const Program_options& options, const Polygon_mesh& mes
   for (const std::string& region : options.refine)
     fields.refinements.push_back(parse_refinement(region));
   if (!options.labels.empty()) fields.labels = face_labels(mesh, options.labels);
-  if (options.keeps_lines) fields.lines = checked_lines(mesh);
+  const auto add_lines = [&](const std::vector<Edge>& lines, const std::string& what) {
+    check_lines(mesh, lines, what);
+    fields.lines.insert(fields.lines.end(), lines.begin(), lines.end());
+  };
+  if (options.keeps_lines) add_lines(mesh.lines, "its line");
+  if (!options.creases.empty())
+    add_lines(edges_of_file(options.creases), options.creases + ": the edge");
+  if (!options.corners.empty()) fields.kept_vertices = corners_of(mesh, options.corners);
+  if (options.keeps_points) {
+    const std::vector<int>& dots = checked_dots(mesh);
+    fields.kept_vertices.insert(fields.kept_vertices.end(), dots.begin(), dots.end());
+  }
   if (options.keeps_texture) {
     const std::vector<Edge> seams = seams_of(mesh);
     fields.lines.insert(fields.lines.end(), seams.begin(), seams.end());
@@ -220,6 +284,7 @@ std::vector<char> region_of(const Program_options& options, const Polygon_mesh& 
 void choose_names(const Program_options& options, Polygon_mesh& mesh)
 {
   if (options.keeps_lines) mesh.attributes.erase("lines");
+  if (options.keeps_points) mesh.attributes.erase("points");
   std::vector<Mesh_property>& faces = mesh.properties.faces;
   if (options.keeps_texture)
     mesh.attributes.erase("texture coordinates");

@@ -57,6 +57,13 @@ void read_obj_line(Tokenizer& tokens, Polygon_mesh& mesh)
   }
 }
 
+/// Reads the rest of a line: vertices.
+void read_obj_dots(Tokenizer& tokens, Polygon_mesh& mesh)
+{
+  const long long n = static_cast<long long>(mesh.soup.points.size());
+  while (tokens.next_in_line()) mesh.dots.push_back(obj_corner(tokens.whole_number(true), n));
+}
+
 } // namespace
 
 Polygon_mesh parse_obj(std::string_view text)
@@ -103,6 +110,7 @@ Polygon_mesh parse_obj(std::string_view text)
         if (keyword == obj_names[k].keyword) names[k].read(tokens);
       if (keyword == "vt") texture.read(tokens);
       if (keyword == "l") read_obj_line(tokens, mesh);
+      if (keyword == "p") read_obj_dots(tokens, mesh);
       if (keyword == "mtllib") mesh.properties.material_files.push_back(rest_of_line(tokens));
     }
     tokens.skip_line();

@@ -199,7 +199,14 @@ private:
             "(OBJ): "
             "creases are kept between different ones, and the output's faces have them (PLY, VTP, "
             "VTU; names: OBJ; physical groups: MSH)")(
-            "lines", "the lines of an OBJ or VTP input are creases, too")(
+            "lines", "the lines of an OBJ or VTP input, or edges of PLY, are creases, too")(
+            "creases", text("FILE"),
+            "edges that are creases, too: a file with the two vertices of one, numbered from 0, a "
+            "line")(
+            "corners", text("NAME"),
+            "vertices of the input that stay as they are: those whose value of that property, or "
+            "line of that file, is not 0; N counts them, too")(
+            "points", "the points of an OBJ or VTP input stay, too")(
             "texture", "keep the texture coordinates of the input's faces, with their materials; "
                        "the seams of the texture are creases, too (OBJ, glTF)")(
             "patches", "number the output's faces by the patches between creases: their property "
@@ -290,10 +297,12 @@ Remeshing_options remeshing_options(const po::variables_map& values)
 void set_fields(const po::variables_map& values, Program_options& o)
 {
   o.keeps_lines = values.count("lines") > 0;
+  o.keeps_points = values.count("points") > 0;
   o.keeps_texture = values.count("texture") > 0;
   o.writes_patches = values.count("patches") > 0;
   for (const auto& [option, name] :
        {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field},
+        std::pair{"creases", &o.creases}, std::pair{"corners", &o.corners},
         std::pair{"labels", &o.labels}}) {
     if (!values.count(option)) continue;
     *name = values[option].as<std::string>();

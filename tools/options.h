@@ -27,12 +27,14 @@ struct Program_options {
   std::string report_file, html_file, cells_file, samples_file, fields_file,
       provenance_file; ///< empty: not asked for
   CGAL::PowerRTF::Remeshing_options remeshing;
-  std::string size_field, density_field; ///< names of properties or files; empty: none
-  std::vector<std::string> refine;       ///< regions, see `parse_refinement()`
-  std::string labels;                    ///< name of a property of the faces; empty: none
+  std::string size_field, density_field, corners; ///< names of properties or files; empty: none
+  std::vector<std::string> refine;                ///< regions, see `parse_refinement()`
+  std::string labels;                             ///< name of a property of the faces; empty: none
   /// Only faces with that value of that property are remeshed. No name: all are.
   std::string region_name, region_value;
+  std::string creases;         ///< name of a file with pairs of vertices; empty: none
   bool keeps_lines = false;    ///< of the input's file
+  bool keeps_points = false;   ///< of the input's file
   bool keeps_texture = false;  ///< of the input's file
   bool writes_patches = false; ///< as a property of the output's faces
   std::string traits;  ///< "cpu", "exact", "cuda", or "auto": the faster of "cpu" and "cuda"

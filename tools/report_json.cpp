@@ -159,6 +159,8 @@ void add_mesh(Json& json, const Run& run)
   json["crease_edges"] = r.crease_edges;
   json["feature_edges"] = r.feature_edges;
   json["lost_feature_edges"] = r.lost_feature_edges;
+  json["constrained_vertices"] = r.constrained_vertices;
+  json["lost_constrained_vertices"] = r.lost_constrained_vertices;
   json["input_self_intersections"] = r.input_self_intersections;
   json["input_vertices"] = r.input_topology.vertices;
   json["input_faces"] = r.input_topology.faces;
@@ -198,11 +200,13 @@ Json fields(const Program_options& o)
   Json json = Json::object();
   for (const auto& [name, value] :
        {std::pair{"size-field", &o.size_field}, std::pair{"density-field", &o.density_field},
+        std::pair{"creases", &o.creases}, std::pair{"corners", &o.corners},
         std::pair{"labels", &o.labels}})
     if (!value->empty()) json[name] = *value;
   if (!o.region_name.empty()) json["region"] = o.region_name + "=" + o.region_value;
   if (!o.refine.empty()) json["refine"] = o.refine;
   if (o.keeps_lines) json["lines"] = true;
+  if (o.keeps_points) json["points"] = true;
   if (o.keeps_texture) json["texture"] = true;
   return json;
 }

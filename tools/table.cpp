@@ -69,6 +69,10 @@ void print_mesh(std::ostream& out, const Remeshing_report& r)
     row(out, "creases and borders",
         std::to_string(r.feature_edges - r.lost_feature_edges) + " of " +
             std::to_string(r.feature_edges) + " edges kept");
+  if (r.constrained_vertices > 0)
+    row(out, "vertices that stay",
+        std::to_string(r.constrained_vertices - r.lost_constrained_vertices) + " of " +
+            std::to_string(r.constrained_vertices));
   const Quality_statistics& q = r.quality;
   row(out, "triangle quality, least", number(q.q_min, 4));
   row(out, "triangle quality, mean", number(q.q_avg, 4));

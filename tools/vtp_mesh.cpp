@@ -67,6 +67,7 @@ private:
                     polygons = section("Polys");
     if (dots.size() > 0) m_mesh.attributes.insert("points");
     if (lines.size() > 0) m_mesh.attributes.insert("lines");
+    m_mesh.dots.insert(m_mesh.dots.end(), dots.points.begin(), dots.points.end());
     for (std::size_t i = 0; i < lines.size(); ++i)
       for (int k = lines.begin(i); k + 1 < lines.ends[i]; ++k)
         m_mesh.lines.push_back({lines.points[k], lines.points[k + 1]});

@@ -126,6 +126,7 @@ def remesh(
     size_field: Any = None,
     refine: Iterable[str] = (),
     constrained_edges: Any = None,
+    constrained_vertices: Any = None,
     face_labels: Any = None,
     region: Any = None,
     uv: Any = None,

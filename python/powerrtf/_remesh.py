@@ -56,21 +56,22 @@ def _uv(uv, faces, corners):
     return rows
 
 
-def _region(region, count):
-    """The numbers of the faces that a mask or an array of numbers names."""
-    array = to_host(region, "region")
+def _chosen(values, name, count, kind):
+    """The numbers of those faces or vertices, of `count`, that a mask or an array of numbers names."""
+    array = to_host(values, name)
     if array.dtype == bool:
         if array.shape != (count,):
-            raise InvalidInputError(f"region has the shape {array.shape}, but there are {count} faces")
+            raise InvalidInputError(f"{name} has the shape {array.shape}, but there are {count} {kind}")
         return np.flatnonzero(array)
-    array = index_array(array, "region")
+    array = index_array(array, name)
     if len(array) and not 0 <= array.min() <= array.max() < count:
-        raise InvalidInputError(f"region has an entry that is no face's number: there are {count}")
+        raise InvalidInputError(f"{name} has an entry that is none of the numbers of {count} {kind}")
     return array
 
 
-def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_edges=None, face_labels=None,
-         region=None, uv=None, patches=False, threads=0, progress=None, coordinates="double"):
+def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_edges=None,
+         constrained_vertices=None, face_labels=None, region=None, uv=None, patches=False, threads=0,
+         progress=None, coordinates="double"):
     resolutions = [name for name in RESOLUTIONS if name in options and (options[name] or name == "n")]
     if size_field is not None and not resolutions:
         options = {**options, "size_factor": 1.0}
@@ -82,14 +83,17 @@ def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_ed
     if not isinstance(threads, int) or not 0 <= threads <= 4096:
         raise InvalidInputError(f"threads is {threads!r}, but must be a number from 0 to 4096")
     options["coordinates"] = coordinates
-    fields = {"density": None, "sizing": None, "constrained_edges": None, "labels": None, "region": None,
-              "uv": None, "refine": list(refine), "patches": bool(patches)}
+    fields = {"density": None, "sizing": None, "constrained_edges": None, "constrained_vertices": None,
+              "labels": None, "region": None, "uv": None, "refine": list(refine), "patches": bool(patches)}
     if not isinstance(options.get("density", ""), str):
         fields["density"] = _vertex_values(options.pop("density"), "density", len(vertices))
     if size_field is not None:
         fields["sizing"] = _vertex_values(size_field, "size_field", len(vertices))
     if constrained_edges is not None:
         fields["constrained_edges"] = index_array(constrained_edges, "constrained_edges", (2,))
+    if constrained_vertices is not None:
+        fields["constrained_vertices"] = _chosen(constrained_vertices, "constrained_vertices", len(vertices),
+                                                 "vertices")
     corners, sizes = faces
     count = len(corners) if sizes is None else len(sizes)
     if face_labels is not None:
@@ -101,7 +105,7 @@ def _run(vertices, faces, options, *, size_field=None, refine=(), constrained_ed
     if region is not None:
         if patches:
             raise InvalidInputError("patches is about whole meshes: what region leaves has none")
-        fields["region"] = _region(region, count)
+        fields["region"] = _chosen(region, "region", count, "faces")
     elif options.get("region_border", "keep") != "keep":
         raise InvalidInputError("region_border is about the border of a region, but there is none")
     given = (vertices, corners, sizes, fields, options)
@@ -126,16 +130,16 @@ def _warn(mesh):
 
 
 def remesh(vertices, faces=None, n=None, *, size_field=None, refine=(), constrained_edges=None,
-           face_labels=None, region=None, uv=None, patches=False, threads=0, progress=None, options=None,
-           **single):
+           constrained_vertices=None, face_labels=None, region=None, uv=None, patches=False, threads=0,
+           progress=None, options=None, **single):
     if faces is None:
         vertices, faces = unpack_mesh(vertices)
     points = real_array(vertices, "vertices", (3,))
     corners, sizes = face_arrays(faces)
     mesh = _run(points, (corners, sizes), given_options(options, n, single), size_field=size_field,
-                refine=refine, constrained_edges=constrained_edges, face_labels=face_labels, region=region,
-                uv=uv, patches=patches, threads=threads, progress=progress,
-                coordinates=_precision(points.dtype == np.float32))
+                refine=refine, constrained_edges=constrained_edges, constrained_vertices=constrained_vertices,
+                face_labels=face_labels, region=region, uv=uv, patches=patches, threads=threads,
+                progress=progress, coordinates=_precision(points.dtype == np.float32))
     mesh.vertices = like(mesh.vertices, vertices)
     mesh.faces = like(mesh.faces.astype(corners.dtype, copy=False), faces)
     return _warn(mesh)
@@ -187,6 +191,8 @@ what the result lacks, if it does.
 :param refine: regions where edges are to be short: "sphere:x,y,z,r,h" or
     "box:x0,y0,z0,x1,y1,z1,h", with the length h
 :param constrained_edges: (e, 2) vertices: the creases to keep, instead of those by `feature_angle`
+:param constrained_vertices: the vertices that stay exactly where they are, as a mask, (k,) bool, or by number;
+    `n` counts them, too. Not with ``symmetry``
 :param face_labels: (m,) whole numbers, one for each face: creases are kept between different ones, and
     the result has them as ``labels``
 :param region: the faces to be remeshed, as a mask, (m,) bool, or by number: `n` is then the number of

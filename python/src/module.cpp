@@ -65,7 +65,7 @@ struct Input {
 /// What a dictionary of fields has: arrays or None, and regions as the program has them.
 struct Given_fields {
   std::optional<Real_array> density, sizing;
-  std::optional<Index_array> constrained_edges, labels;
+  std::optional<Index_array> constrained_edges, constrained_vertices, labels;
   std::optional<Index_array> region; ///< faces
   std::optional<Real_array> uv;      ///< of all corners
   std::vector<std::string> refine;
@@ -75,6 +75,7 @@ struct Given_fields {
       : density(nb::cast<std::optional<Real_array>>(fields["density"])),
         sizing(nb::cast<std::optional<Real_array>>(fields["sizing"])),
         constrained_edges(nb::cast<std::optional<Index_array>>(fields["constrained_edges"])),
+        constrained_vertices(nb::cast<std::optional<Index_array>>(fields["constrained_vertices"])),
         labels(nb::cast<std::optional<Index_array>>(fields["labels"])),
         region(nb::cast<std::optional<Index_array>>(fields["region"])),
         uv(nb::cast<std::optional<Real_array>>(fields["uv"])),
@@ -93,6 +94,9 @@ Input input_of(const Real_array& points, const Index_array& faces,
   Surface_fields& fields = input.fields;
   if (given.constrained_edges)
     fields.creases = edges_of_array(*given.constrained_edges, input.soup);
+  if (given.constrained_vertices)
+    for_each_index(*given.constrained_vertices,
+                   [&](std::size_t, auto v) { fields.kept_vertices.push_back(int(v)); });
   if (given.density) fields.densities = numbers_of_array(*given.density);
   if (given.sizing) fields.sizes = numbers_of_array(*given.sizing);
   if (given.labels)
@@ -173,7 +177,7 @@ Result remesh_with(tools::Run& run, Input& input, Surface surface, Python_visito
   if (input.region && !run.report.cancelled)
     join(input, normalization, result, run.report);
   else
-    for (Vec3d& p : result.mesh.points) p = normalization.to_outside(p);
+    result.mesh.points = result.mesh.outside(normalization, tools::Concurrency());
   return std::move(result);
 }
 
@@ -360,12 +364,12 @@ NB_MODULE(_core, m)
   m.def("cells", &cells<tools::Concurrency>, "sites"_a);
   m.def("sources", &sources<tools::Concurrency>, "points"_a, "faces"_a, "sizes"_a.none(),
         "vertices"_a, "triangles"_a, "sites"_a);
+  m.def("face_shares", &face_shares<tools::Concurrency>, "points"_a, "faces"_a, "sizes"_a.none(),
+        "vertices"_a, "triangles"_a, "sites"_a);
   m.def("html_page", &html_page, "points"_a, "faces"_a, "sizes"_a.none(), "fields"_a, "options"_a,
         "vertices"_a, "triangles"_a, "sites"_a, "report"_a);
   m.def("read_mesh", &read_mesh, "file"_a);
   m.def("check_output", &check_output, "file"_a);
-  m.def("face_shares", &face_shares<tools::Concurrency>, "points"_a, "faces"_a, "sizes"_a.none(),
-        "vertices"_a, "triangles"_a, "sites"_a);
   m.def("holds_floats", [](const std::string& file, bool ascii) {
     return tools::holds_floats(tools::format_of(file), encoding_of(ascii));
   });

@@ -110,6 +110,28 @@ def test_faces_have_the_value_of_the_largest_share():
 
 
 @pytest.mark.parametrize("real", [np.float32, np.float64])
+def test_constrained_vertices_stay_bit_for_bit(real):
+    points, faces = sphere(16, real)
+    wanted = [3, 50, 77]
+    mesh = powerrtf.remesh(points, faces, 200, constrained_vertices=wanted)
+    assert mesh.missed_guarantees == [] and mesh.report.constrained_vertices == 3
+    assert {tuple(p) for p in points[wanted].tolist()} <= {tuple(p) for p in mesh.vertices.tolist()}
+    mask = np.isin(np.arange(len(points)), wanted)
+    assert (powerrtf.remesh(points, faces, 200, constrained_vertices=mask).vertices == mesh.vertices).all()
+    free = powerrtf.remesh(points, faces, 200, constrained_vertices=[])
+    assert free.report.constrained_vertices == 0
+    assert not {tuple(p) for p in points[wanted].tolist()} & {tuple(p) for p in free.vertices.tolist()}
+
+
+@pytest.mark.parametrize("vertices, message", [
+    ([True, False], "constrained_vertices has the shape"), ([-1], "none of the numbers"),
+    ([10**6], "none of the numbers"), ([0.5], "whole numbers")])
+def test_constrained_vertices_that_cannot_be_are_refused(vertices, message):
+    with pytest.raises(ValueError, match=message):
+        powerrtf.remesh(POINTS, FACES, 100, constrained_vertices=vertices)
+
+
+@pytest.mark.parametrize("real", [np.float32, np.float64])
 def test_what_is_no_region_stays_bit_for_bit(real):
     points, faces = sphere(16, real)
     inside = points[faces].mean(axis=1)[:, 2] > 0.2
@@ -173,7 +195,7 @@ def test_what_is_not_symmetric_is_refused():
 
 @pytest.mark.parametrize("region, message", [
     ([], "no facet is in the region"), ([True, False], "region has the shape"),
-    ([-1], "no face's number"), ([10**6], "no face's number"), ([0.5], "whole numbers")])
+    ([-1], "none of the numbers"), ([10**6], "none of the numbers"), ([0.5], "whole numbers")])
 def test_a_region_that_cannot_be_is_refused(region, message):
     with pytest.raises(ValueError, match=message):
         powerrtf.remesh(POINTS, FACES, 100, region=region)

@@ -119,7 +119,7 @@ TEST_CASE("materials and groups go from OBJ to OBJ by their names, to PLY as num
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
   const Polygon_mesh mesh =
       parse_mesh(Format::obj, vertices + "usemtl red wine\nf 1 2 3\nusemtl steel\ng a b\nf 2 4 3\n"
-                                         "usemtl red wine\nf 1 2 4\nl 1 2 -1\n");
+                                         "usemtl red wine\nf 1 2 4\nl 1 2 -1\np 2\np -2 1\n");
   REQUIRE(mesh.properties.faces.size() == 2);
   const Mesh_property& material = mesh.properties.faces[0];
   CHECK(material.name == "material");
@@ -127,6 +127,7 @@ TEST_CASE("materials and groups go from OBJ to OBJ by their names, to PLY as num
   CHECK(material.names == std::vector<std::string>{"red wine", "steel"});
   CHECK(mesh.properties.faces[1].names == std::vector<std::string>{"default", "a b"});
   CHECK(mesh.lines == std::vector<CGAL::PowerRTF::Edge>{{0, 1}, {1, 3}});
+  CHECK(mesh.dots == std::vector<int>{1, 2, 0});
   CHECK(parse_mesh(Format::obj, vertices + "f 1 2 3\n").properties.empty());
   const Polygon_mesh one = parse_mesh(Format::obj, vertices + "usemtl a\nf 1 2 3\n");
   CHECK(one.properties.faces.size() == 1);

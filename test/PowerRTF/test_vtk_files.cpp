@@ -214,6 +214,7 @@ TEST_CASE("pieces, strips and lines; cells have their values in VTK's order")
                                                                    {7, 8, 9}});
   CHECK(values_of(mesh.properties.faces, "label") == Values{3, 4, 4, 4, 3, 4, 4, 4});
   CHECK(mesh.lines == std::vector<Edge>{{0, 1}, {1, 2}, {5, 6}, {6, 7}});
+  CHECK(mesh.dots == std::vector<int>{4, 9});
   CHECK(mesh.attributes == std::set<std::string>{"lines", "points"});
 }
 

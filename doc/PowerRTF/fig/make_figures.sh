@@ -101,6 +101,14 @@ awk '$2 == "vertex" { n = $3 } $2 == "face" { m = $3 }
 render "$work/wave.vtk" "$target/transfer_before.png" --color-by wave --palette 128
 render "$work/carried.vtp" "$target/transfer_after.png" --color-by wave --palette 128
 
+# Vertices that stay.
+with_vertex_values stay '(NR % 200 == 0)' "$models/bunny00.off" >"$work/stay.ply"
+awk 'NF == 4 && $4 == 1 { print "v", $1, $2, $3; ++n } END { print "p", n }' "$work/stay.ply" >"$work/stay.obj"
+"$program" "$work/stay.ply" "$work/free.off" --samples 600 --quiet
+"$program" "$work/stay.ply" "$work/stay.off" --samples 600 --corners stay --quiet
+render "$work/free.off" "$target/corners_before.png" --dots "$work/stay.obj" --palette 128
+render "$work/stay.off" "$target/corners_after.png" --dots "$work/stay.obj" --palette 128
+
 # A thin finger on a ball, turned on a lathe.
 awk 'BEGIN {
   pi = atan2(0, -1); m = 48; k = 60; n = 0

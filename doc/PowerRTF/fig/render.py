@@ -126,6 +126,7 @@ def main():
     parser.add_argument("--color", default="#e9dcc3", help="where there is no --color-by")
     parser.add_argument("--texture", action="store_true",
                         help="draw a board of squares by the mesh's texture coordinates")
+    parser.add_argument("--dots", metavar="FILE", help="red dots at the points of a mesh's file")
     parser.add_argument("--lattice", metavar="FILE",
                         help="drawn on the mesh, which is smooth then: the program's --fields")
     parser.add_argument("--up", choices="xyz", default="y", help="the model's axis (default: y)")
@@ -166,6 +167,10 @@ def main():
                      diffuse=0.8, specular=0.1, smooth_shading=bool(options.lattice), **appearance)
     if options.lattice:
         draw_lattice(plotter, options.lattice, view)
+    if options.dots:
+        dots = pyvista.PolyData(numpy.asarray(pyvista.read(options.dots).points))
+        plotter.add_mesh(dots.glyph(geom=pyvista.Sphere(radius=0.007 * mesh.length), scale=False,
+                                    orient=False), color="#d01c1c")
     plotter.camera = view
     plotter.enable_anti_aliasing("ssaa")
     plotter.reset_camera_clipping_range()

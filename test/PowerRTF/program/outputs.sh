@@ -324,8 +324,30 @@ run 0 'names of materials' -- labels.obj out.ply -n 400 --labels material
 run 0 -- lines.obj out.obj -n 400 --lines --report r.json
 has crease_edges 3
 run 0 'not carried over to the output: lines, materials' -- lines.obj out.obj -n 400
+run 0 -- lines.obj by_lines.off -n 400 --lines
+printf '0 1\n1 2\n3 2\n' >pairs.txt
+run 0 -- torus.off by_pairs.off -n 400 --creases pairs.txt --report r.json
+has crease_edges 3
+expect 'pairs of vertices do as lines' cmp by_pairs.off by_lines.off
+expect 'the report names them' grep -q '"creases": "pairs.txt"' r.json
+awk 'NR == 2 { print "ply\nformat ascii 1.0\nelement vertex " $1 "\nproperty double x\nproperty double y"
+       print "property double z\nelement face " $2 "\nproperty list uchar int vertex_indices"
+       print "element edge 3\nproperty int vertex1\nproperty int vertex2\nend_header" }
+     NR > 2' torus.off >edges.ply
+cat pairs.txt >>edges.ply
+run 0 -- edges.ply by_edges.off -n 400 --lines
+expect 'edges of PLY do as lines' cmp by_edges.off by_lines.off
+run 0 'not carried over to the output: lines' -- edges.ply out.off -n 400
+echo 5 >>pairs.txt
+run 1 'pairs.txt: line 4: it has one number only' -- torus.off out.off -n 400 --creases pairs.txt
+echo 0 1 2 >pairs.txt
+run 1 "pairs.txt: line 1: '2' is more than belongs into a line" -- torus.off out.off -n 400 --creases pairs.txt
+echo 0 11 >pairs.txt
+run 1 'pairs.txt: the edge from vertex 0 to 11 (numbered from 0) runs along no edge' -- \
+  torus.off out.off -n 400 --creases pairs.txt
+run 1 'none.txt cannot be read' -- torus.off out.off -n 400 --creases none.txt
 sed '$ a l 1 12' labels.obj >wrong.obj
-run 1 'its line from vertex 1 to 12 runs along no edge' -- wrong.obj out.obj -n 400 --lines
+run 1 'its line from vertex 0 to 11 (numbered from 0) runs along no edge' -- wrong.obj out.obj -n 400 --lines
 
 # --- input that is repaired
 sed '$ a 3 0 0 1' torus.off | sed '2s/800 1600 0/800 1601 0/' >degenerate.off
