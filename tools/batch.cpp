@@ -20,6 +20,7 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <sstream>
 #include <vector>
 
 namespace tools {
@@ -67,8 +68,18 @@ std::vector<std::string> lines_of(const std::string& file)
 struct Item {
   std::string input, output;
   Failure failure;
-  bool is_done = false;
+  bool is_there = false, is_done = false; ///< before, and now
 };
+
+/// Whether `output` has been written after `input`.
+bool is_newer(const std::string& output, const std::string& input)
+{
+  std::error_code error;
+  if (!fs::is_regular_file(output, error)) return false;
+  const fs::file_time_type written = fs::last_write_time(output, error),
+                           changed = fs::last_write_time(input, error);
+  return !error && written >= changed;
+}
 
 /// Where the mesh of a file goes: into the folder, by the same name.
 std::string output_for(const std::string& input, const Program_options& options)
@@ -92,9 +103,24 @@ std::vector<Item> items_of(const Program_options& options)
     if (!is_new)
       throw Usage_error("--batch: " + other->second + " and " + file +
                         " would both be written to " + output);
-    items.push_back({file, output, {}, false});
+    items.push_back({file, output, {}});
+    if (options.resumes) items.back().is_there = is_newer(output, file);
   }
   return items;
+}
+
+/// Opens the report for lines that follow. \param goes_on after those that are there: whole ones
+std::ofstream open_report(const std::string& file, bool goes_on)
+{
+  std::error_code ignored;
+  if (goes_on && fs::is_regular_file(file, ignored)) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    fs::resize_file(file, text.str().rfind('\n') + 1, ignored);
+  }
+  std::ofstream report(file, std::ios::binary | (goes_on ? std::ios::app : std::ios::trunc));
+  if (!report) throw Output_error(file + ": cannot be written: " + std::strerror(errno));
+  return report;
 }
 
 void make_folder(const std::string& folder)
@@ -111,16 +137,25 @@ public:
       : m_options(options), m_threads(threads), m_items(items_of(options)),
         m_progress(options.quiet)
   {
+    m_there = std::count_if(m_items.begin(), m_items.end(),
+                            [](const Item& item) { return item.is_there; });
     m_progress.on_stage("batch");
-    m_progress.on_progress(0);
+    m_progress.on_progress(share());
   }
 
   std::size_t size() const { return m_items.size(); }
 
+  /// \throws Output_error the report cannot be written
+  void begin_report()
+  {
+    if (!m_options.report_file.empty())
+      m_report = open_report(m_options.report_file, m_options.resumes);
+  }
+
   void remesh(std::size_t i)
   {
-    if (interrupted) return;
     Item& item = m_items[i];
+    if (interrupted || item.is_there) return;
     Run run;
     run.options = m_options;
     run.options.is_batch = false;
@@ -137,7 +172,7 @@ public:
       item.failure = current_failure(item.input);
       run.error = item.failure.message;
     }
-    if (!interrupted || item.is_done) finish(item, std::move(run));
+    if (!interrupted || item.is_done) finish(item, run);
   }
 
   /// Tells how it went and writes the report.
@@ -150,13 +185,10 @@ public:
                                                            " meshes are written"});
     if (!m_options.quiet)
       std::cout << m_written << " of " << size() << " meshes in " << rounded("%.2f", seconds)
-                << " s, " << rounded("%.1f", double(m_written) / seconds) << " a second\n";
-    if (!m_options.report_file.empty()) {
-      Output_file file(m_options.report_file);
-      write_json(file.stream(), m_runs);
-      file.close();
-      file.commit();
-    }
+                << " s, " << rounded("%.1f", double(m_written) / seconds) << " a second"
+                << (m_options.resumes ? "; " + std::to_string(m_there) + " were there" : "")
+                << '\n';
+    if (!m_report) return fail({unwritable_output, m_options.report_file + ": cannot be written"});
     for (const Exit_code code : {unwritable_output, unusable_input, wrong_cell, missed_guarantee})
       for (const Item& item : m_items)
         if (item.failure.code == code) return code;
@@ -171,10 +203,14 @@ private:
     return text;
   }
 
-  void finish(const Item& item, Run&& run)
+  void finish(const Item& item, const Run& run)
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
     ++m_finished;
+    if (m_report.is_open()) {
+      write_json_line(m_report, run);
+      m_report.flush();
+    }
     if (item.is_done) ++m_written;
     m_progress.clear();
     if (run.has_gpu_failed && !m_options.quiet && m_told_of_gpu.insert(run.gpu_not_used).second)
@@ -184,11 +220,10 @@ private:
     else if (!m_options.quiet)
       print_line(run);
     print_faults(run);
-    m_progress.on_progress(double(m_finished) / double(size()));
-    if (m_options.report_file.empty()) return;
-    m_runs.resize(size());
-    m_runs[&item - m_items.data()] = std::move(run);
+    m_progress.on_progress(share());
   }
+
+  double share() const { return double(m_there + m_finished) / double(size()); }
 
   void print_line(const Run& run) const
   {
@@ -202,9 +237,9 @@ private:
   const Program_options& m_options;
   int m_threads;
   std::vector<Item> m_items;
-  std::vector<Run> m_runs;             // for the report
+  std::ofstream m_report;              // not open: none is asked for
   std::set<std::string> m_told_of_gpu; // why it failed: for the first mesh that it did
-  std::size_t m_finished = 0, m_written = 0;
+  std::size_t m_there = 0, m_finished = 0, m_written = 0;
   Progress m_progress;
   std::mutex m_mutex;
 };
@@ -217,6 +252,7 @@ Exit_code remesh_files(const Program_options& options, int threads)
   if (!options.report_file.empty()) check_writable(options.report_file);
   Batch batch(options, threads);
   make_folder(options.output);
+  batch.begin_report();
   {
     const CGAL::PowerRTF::internal::Stopwatch watch(seconds);
     CGAL::PowerRTF::internal::for_each_job(CGAL::Parallel_if_available_tag(),

@@ -116,7 +116,8 @@ public:
         "remesh many files: INPUT is a folder, or a text file with the name of one in each "
         "line; OUTPUT is a folder")(
         "format", text("NAME"),
-        "off|obj|ply|stl|vtp|vtu|msh|gltf|glb: of a batch's outputs (that of each input)");
+        "off|obj|ply|stl|vtp|vtu|msh|gltf|glb: of a batch's outputs (that of each input)")(
+        "resume", "a batch goes on: outputs that are there and newer than their inputs stay");
     group("Comparison with exact arithmetic")
         .add_options()("check", "compare the cells with the exact ones")(
             "check-every", text("N"),
@@ -147,7 +148,8 @@ public:
            "3 written, but a guarantee was missed; 4 written, but a cell is wrong that was "
            "certified\n"
            "(--check); 5 an output cannot be written; 130 cancelled by Ctrl-C, 143 by SIGTERM.\n"
-           "--batch: 5 or 1 where one of the meshes is not written, else 4, 3 or 0.\n";
+           "--batch: 5 or 1 where one of the meshes is not written, else 4, 3 or 0; --report is a\n"
+           "JSON object a line then, each written as soon as its mesh is.\n";
     return out.str();
   }
 
@@ -347,6 +349,8 @@ void set_batch(const po::variables_map& values, Program_options& o)
     if (std::find(names.begin(), names.end(), o.format) == names.end())
       reject("format", o.format, "one of off|obj|ply|stl|vtp|vtu|msh|gltf|glb");
   }
+  o.resumes = values.count("resume") > 0;
+  if (o.resumes && !o.is_batch) throw Usage_error("--resume: for --batch");
   if (!o.is_batch) return;
   for (const char* other : {"cells", "samples-out", "fields", "provenance", "no-mesh"})
     if (values.count(other))

@@ -43,6 +43,7 @@ struct Program_options {
   int threads = 0;     ///< 0: all
   bool write_mesh = true;
   bool is_batch = false;  ///< the input lists files or is a folder, the output is a folder
+  bool resumes = false;   ///< a batch leaves outputs that are there and newer than their inputs
   std::size_t meshes = 1; ///< that are remeshed with these options
   std::string format;     ///< of a batch's outputs, as "off"; empty: as each input
   Encoding encoding = Encoding::binary; ///< of PLY and STL

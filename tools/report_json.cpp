@@ -251,21 +251,17 @@ Json to_json(const Run& run)
   return json;
 }
 
-void write(std::ostream& out, const Json& json)
+/// \param indent -1: all in one line
+void write(std::ostream& out, const Json& json, int indent = 2)
 {
   // a file's name need not be valid UTF-8
-  out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  out << json.dump(indent, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 } // namespace
 
 void write_json(std::ostream& out, const Run& run) { write(out, to_json(run)); }
 
-void write_json(std::ostream& out, const std::vector<Run>& runs)
-{
-  Json json = Json::array();
-  for (const Run& run : runs) json.push_back(to_json(run));
-  write(out, json);
-}
+void write_json_line(std::ostream& out, const Run& run) { write(out, to_json(run), -1); }
 
 } // namespace tools

@@ -38,8 +38,8 @@ struct Run {
 /// Everything, for programs. Without a mesh (--no-mesh) the fields about it are left out.
 void write_json(std::ostream& out, const Run& run);
 
-/// The same of many runs, as a list; of one that has failed, its input and its error.
-void write_json(std::ostream& out, const std::vector<Run>& runs);
+/// The same in one line; of a run that has failed, its input and its error.
+void write_json_line(std::ostream& out, const Run& run);
 
 /// The main results, for people.
 void print_table(std::ostream& out, const Run& run);

@@ -43,9 +43,11 @@ expect 'the others are written' [ "$(ls out4 | tr '\n' ' ')" = 'a.off d.off ' ]
 expect 'a line for each failure' [ "$(wc -l <stderr)" -eq 2 ]
 expect 'it says how many' grep -q '^2 of 4 meshes in ' stdout
 expect 'no temporary files are left' [ -z "$(find . -name '.power_rtf_*')" ]
-expect 'the report has all' [ "$(grep -c '"input": ' r.json)" -eq 4 ]
-expect 'the report has the errors' [ "$(grep -c '"error": "bad/[bc].off' r.json)" -eq 2 ]
-expect 'the report has the meshes' [ "$(grep -c '"vertices": 100' r.json)" -eq 2 ]
+expect 'the report has a line each' [ "$(wc -l <r.json)" -eq 4 ]
+expect 'the lines are objects' [ "$(grep -c '^{.*}$' r.json)" -eq 4 ]
+expect 'the report has the inputs' [ "$(grep -o '"input":"bad/[a-d].off"' r.json | sort -u | wc -l)" -eq 4 ]
+expect 'the report has the errors' [ "$(grep -c '"error":"bad/[bc].off' r.json)" -eq 2 ]
+expect 'the report has the meshes' [ "$(grep -c '"vertices":100[,}]' r.json)" -eq 2 ]
 printf '%s\n' in/t1.off missing.off >list
 run 1 missing.off 'No such file' -- --batch list out5 "${fast[@]}"
 expect 'what is there is remeshed' [ -s out5/t1.off ]
@@ -58,6 +60,30 @@ printf 'OFF\n7 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n' >touch
 printf '3 %s\n' '0 2 1' '0 1 3' '0 3 2' '1 2 3' '0 4 5' '0 6 4' '0 5 6' '4 6 5' >>touch.off
 printf '%s\n' touch.off in/t1.off >list
 run 3 'out8/touch.off: a guarantee is missed' -- --batch list out8 -n 100 --non-manifold split
+
+# --- what goes on: outputs that are there, and newer than their inputs, stay
+cp -r in again && rm -rf out11
+run 0 -- --batch again out11 "${fast[@]}" --report lines.json
+expect 'all have a line' [ "$(wc -l <lines.json)" -eq 7 ]
+cp -r out11 whole
+rm out11/t2.off out11/u.PLY
+touch -d '1 hour' again/t4.off # in an hour
+for f in t1.off t3.off t5.off v.stl; do echo kept >out11/$f; done
+printf '{"input":"cut o' >>lines.json # where it was killed
+run 0 -- --batch again out11 "${fast[@]}" --resume --report lines.json
+expect 'it says how many' grep -q '^3 of 7 meshes in .* a second; 4 were there$' stdout
+for f in t1.off t3.off t5.off v.stl; do
+  expect "$f stays" grep -qx kept out11/$f
+done
+for f in t2.off t4.off u.PLY; do expect "$f is made" cmp out11/$f whole/$f; done
+expect 'new lines come after the old ones' [ "$(wc -l <lines.json)" -eq 10 ]
+expect 'all of them are whole' [ "$(grep -c '^{.*}$' lines.json)" -eq 10 ]
+expect 'they are those of the new meshes' \
+  [ "$(tail -3 lines.json | grep -c '"output":"out11/\(t2.off\|t4.off\|u.PLY\)"')" -eq 3 ]
+run 0 -- --batch again out11 "${fast[@]}" --report lines.json
+expect 'without --resume all are made' cmp out11/t5.off whole/t5.off
+expect 'and the report is new' [ "$(wc -l <lines.json)" -eq 7 ]
+run 2 '--resume: for --batch' -- in/t1.off out.off --resume
 
 # --- what cannot begin
 run 1 'missing: the files' 'No such file' -- --batch missing out9
