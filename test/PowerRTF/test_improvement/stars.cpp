@@ -262,12 +262,21 @@ TEST_CASE(
   CHECK(one_by_one[0] != one_by_one[1]);
 }
 
+namespace {
+
+struct Coarse_egg {
+  Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
+  Facet_tree tree{c.surface.points, c.surface.triangles};
+  internal::Surface_projector projector{c.surface, tree};
+  internal::Star_mesh mesh{c.raw, projector};
+};
+
+} // namespace
+
 TEST_CASE("what is undone since a checkpoint is as it was, with or without a trace")
 {
-  const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
-  const Facet_tree tree(c.surface.points, c.surface.triangles);
-  const internal::Surface_projector projector(c.surface, tree);
-  internal::Star_mesh mesh(c.raw, projector);
+  Coarse_egg egg;
+  internal::Star_mesh& mesh = egg.mesh;
   using Vertex = internal::Star_mesh::Vertex;
   const auto& m = mesh.working().mesh;
   const auto state = [&](bool with_changes) {
@@ -333,7 +342,7 @@ TEST_CASE("what is undone since a checkpoint is as it was, with or without a tra
     for (int pass = 0; pass < 2; ++pass) {
       const auto h = m.halfedge(*(m.vertices_begin() + 50));
       mesh.pin(mesh.split(
-          h, projector.nearest(0.5 * (mesh.point(m.source(h)) + mesh.point(m.target(h))))));
+          h, egg.projector.nearest(0.5 * (mesh.point(m.source(h)) + mesh.point(m.target(h))))));
       CHECK(m.number_of_vertices() == mesh.size());
       CHECK(CGAL::is_valid_polygon_mesh(m));
       after.restore();
@@ -347,10 +356,8 @@ TEST_CASE("what is undone since a checkpoint is as it was, with or without a tra
 
 TEST_CASE("vertices that have been taken out have nothing around them")
 {
-  const Case c = make_case(shapes::ellipsoid(1, 0.7, 0.4, 3), 200, 1);
-  const Facet_tree tree(c.surface.points, c.surface.triangles);
-  const internal::Surface_projector projector(c.surface, tree);
-  internal::Star_mesh mesh(c.raw, projector);
+  Coarse_egg egg;
+  internal::Star_mesh& mesh = egg.mesh;
   using Vertex = internal::Star_mesh::Vertex;
   const auto& m = mesh.working().mesh;
   internal::Bad_triangle_optimizer optimizer(mesh);
