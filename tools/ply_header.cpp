@@ -147,8 +147,9 @@ private:
     if (facets == 0) throw Invalid_input_error("it has no facets");
   }
 
-  /// Takes the role from values that vertices or facets do not all have, or have twice, and from
-  /// texture coordinates but for those of corners: where they jump, linear interpolation is wrong.
+  /// Takes the role from values that vertices or facets do not all have, or have twice; from
+  /// texture coordinates but for those of corners: where they jump, linear interpolation is wrong;
+  /// and from one end of edges without the other.
   void drop_values()
   {
     const auto is_alone = [this](const Element& element) {
@@ -160,11 +161,14 @@ private:
     };
     for (Element& element : m_header.elements) {
       std::set<std::string> names;
-      for (Property& p : element.properties)
+      const bool is_edge = element.is_edge();
+      for (Property& p : element.properties) {
+        if (!is_edge && (p.role == Role::begin || p.role == Role::end)) p.role = Role::none;
         if (p.role == Role::value &&
             (!is_alone(element) || !names.insert(p.name).second ||
              in_words(p.name, element.is_vertex()) == "texture coordinates"))
           p.role = Role::none;
+      }
     }
   }
 

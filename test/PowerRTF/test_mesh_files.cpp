@@ -200,6 +200,16 @@ TEST_CASE("attributes beside points and facets are told")
           Names{"lines", "texture coordinates", "vertex property weights"}); // lists
     CHECK(parse_mesh(Format::ply, ply(body, float32, uchar, int32, true)).lines ==
           std::vector<CGAL::PowerRTF::Edge>{{0, 1}});
+    Ply ends(body); // of edges, of which only one is a number of a vertex
+    ends.line("element vertex 3").line("property float x").line("property float y");
+    ends.line("property float z").line("element edge 2").line("property int mark");
+    ends.line("property int vertex1").line("property float vertex2").line("element face 1");
+    ends.line("property list uchar int vertex_indices").line("end_header");
+    for (const double x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) ends.value(float32, x);
+    for (const double x : {0, 1}) ends.value(int32, 7).value(int32, x).value(float32, x + 1);
+    ends.value(uchar, 3).value(int32, 0).value(int32, 1).value(int32, 2);
+    CHECK(of(Format::ply, ends.data()) == Names{"elements edge"});
+    CHECK(parse_mesh(Format::ply, ends.data()).lines.empty());
   }
 
   const std::vector<Vec3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
