@@ -12,6 +12,7 @@
 #endif
 
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace CGAL::PowerRTF::internal {
@@ -24,8 +25,7 @@ public:
   {
 #ifdef CGAL_LINKED_WITH_TBB
     m_is_begun = concurrency.is_parallel();
-    // In an arena of its own: the loops of this thread do not wait for it.
-    if (m_is_begun) m_arena.execute([this] { m_group.run(m_work); });
+    if (m_is_begun) m_arena->execute([this] { m_group.run(m_work); });
 #else
     (void)concurrency;
 #endif
@@ -50,7 +50,7 @@ public:
 #ifdef CGAL_LINKED_WITH_TBB
     if (m_is_begun) {
       const Uninterrupted run;
-      m_arena.execute([this] { m_group.wait(); });
+      m_arena->execute([this] { m_group.wait(); });
       return;
     }
 #endif
@@ -58,10 +58,20 @@ public:
   }
 
 private:
+#ifdef CGAL_LINKED_WITH_TBB
+  /// One for all such work of a thread: its loops do not wait for what is in there. It is kept: on
+  /// a busy machine TBB (2021.8) does not free an arena whose workers leave late.
+  static std::shared_ptr<tbb::task_arena> arena_of_thread()
+  {
+    thread_local const auto arena = std::make_shared<tbb::task_arena>();
+    return arena;
+  }
+#endif
+
   std::function<void()> m_work;
   bool m_is_begun = false;
 #ifdef CGAL_LINKED_WITH_TBB
-  tbb::task_arena m_arena;
+  std::shared_ptr<tbb::task_arena> m_arena = arena_of_thread(); // which may end before
   tbb::task_group m_group;
 #endif
 };

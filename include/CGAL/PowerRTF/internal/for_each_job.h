@@ -48,9 +48,10 @@ void for_each_job(Concurrency concurrency, int n, int most, F&& f, Idle&& idle)
     std::atomic<int> begun{0}, ended{0};
     const std::thread::id caller = std::this_thread::get_id();
     const auto work = [&] {
+      // For all jobs of the thread: TBB (2021.8) need not free an arena, see Background_work.h.
+      tbb::task_arena alone(1), shared(threads);
       for (int i = begun++; i < n; i = begun++) {
-        tbb::task_arena own(n - i > threads && most >= threads ? 1 : threads);
-        own.execute([&] { f(i); });
+        (n - i > threads && most >= threads ? alone : shared).execute([&] { f(i); });
         ++ended;
       }
       while (std::this_thread::get_id() == caller && ended < n) {
