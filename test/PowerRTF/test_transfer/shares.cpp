@@ -146,6 +146,20 @@ TEST_CASE("faces have the value of the largest share, not that at their centers"
   CHECK(wrong_at_center > faces / 4);
 }
 
+TEST_CASE("sources that name one face only give its value")
+{
+  const Mesh mesh = shapes::make_mesh(shapes::tetrahedron());
+  const auto sources = boost::make_function_property_map<Face>([](Face f) {
+    Mesh_source<Mesh> source;
+    source.face = Face((f + 1) % 4);
+    return source;
+  });
+  const auto values = boost::make_function_property_map<Face>([](Face f) { return 10 * int(f); });
+  std::map<Face, int> result;
+  transfer_face_values(mesh, sources, values, boost::make_assoc_property_map(result));
+  for (const Face f : mesh.faces()) CHECK(result[f] == 10 * ((f + 1) % 4));
+}
+
 TEST_CASE("no share of a face comes from beyond a line between labels")
 {
   const Mesh input = shapes::make_mesh(shapes::icosphere(4));

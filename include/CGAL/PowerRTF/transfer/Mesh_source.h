@@ -95,7 +95,8 @@ void transfer_vertex_values(const OutputMesh& output, const SourceMap& sources, 
 }
 
 /// Gives the faces of a result the values of the input's faces: each that which the largest share
-/// of it comes from, as seen from 16 points of it.
+/// of it comes from, as seen from 16 points of it; where a source has no such faces, that at its
+/// center.
 ///
 /// \param sources readable: from the faces of `output` to `Mesh_source`, as the named parameter
 ///   `face_source_map` has set it
@@ -106,8 +107,9 @@ void transfer_face_values(const OutputMesh& output, const SourceMap& sources, co
 {
   for (const auto f : faces(output)) {
     const auto& source = get(sources, f);
-    const auto value = [&](int k) { return get(from, source.faces[k]); };
-    put(to, f, value(most_frequent(static_cast<int>(source.faces.size()), value)));
+    const int points = static_cast<int>(source.faces.size());
+    const auto value = [&](int k) { return get(from, points > 0 ? source.faces[k] : source.face); };
+    put(to, f, value(most_frequent(points, value)));
   }
 }
 

@@ -17,10 +17,10 @@ struct Source {
   std::array<double, 3> weights{0, 0, 0}; ///< barycentric coordinates in it: none negative, sum 1
 };
 
-/// The sources of a mesh.
 /// How many points of a face tell which share of it comes from where.
 inline constexpr int points_of_face = 16;
 
+/// The sources of a mesh.
 struct Sources {
   std::vector<Source> vertices, faces; ///< those of the faces are the sources of their centers
   /// By face the polygons under `points_of_face` points of it, the first being its center, where
