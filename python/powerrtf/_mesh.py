@@ -3,6 +3,7 @@
 """The result of a run."""
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 
@@ -102,6 +103,7 @@ class Mesh:
         """
         return Cells(_core.cells(self._sites))
 
+    @cached_property
     def _face_shares(self):
         """The input's faces under 16 points of each face, its center first. Faces that have stayed are
         themselves, and no share of a face comes from beyond a line between labels."""
@@ -156,7 +158,7 @@ class Mesh:
         >>> str(mesh.transfer(["green"], of="faces")[7])
         'green'
         """
-        return self._sources.transfer(values, of, self._face_shares)
+        return self._sources.transfer(values, of, lambda: self._face_shares)
 
     def show(self, height=900):
         """The page of :func:`report_html` in a notebook, where it is the cell's value."""

@@ -52,9 +52,16 @@ def corner_rows(array, faces, corners):
 
 def _most_frequent(array, rows):
     """For each of `rows` the row of `array` that is equal to most of those there; the first of such."""
-    _, values = np.unique(array.reshape(len(array), -1), axis=0, return_inverse=True)
-    found = values.reshape(-1)[rows]
-    equal = (found[:, :, np.newaxis] == found[:, np.newaxis, :]).sum(axis=2)
+    flat = array.reshape(len(array), -1)
+    if array.dtype == object:  # NumPy sorts no such rows
+        numbers = {}
+        values = np.array([numbers.setdefault(tuple(row), len(numbers)) for row in flat])
+    else:
+        values = np.unique(flat, axis=0, return_inverse=True)[1].reshape(-1)
+    found = values[rows]
+    equal = np.zeros(found.shape, dtype=np.int8)
+    for column in found.T:
+        equal += found == column[:, np.newaxis]
     return array[rows[np.arange(len(rows)), equal.argmax(axis=1)]]
 
 

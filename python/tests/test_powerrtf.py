@@ -105,6 +105,8 @@ def test_faces_have_the_value_of_the_largest_share():
     assert shared.dtype == np.uint8 and shared.mean() < 0.15 < values[mesh._sources.of_faces].mean()
     names = np.array(["even", "odd"])[values]
     assert (mesh.transfer(names, of="faces") == np.array(["even", "odd"])[shared]).all()
+    objects = mesh.transfer(np.array([None, "odd"], dtype=object)[values], of="faces")
+    assert ((objects == "odd") == shared).all()
     rows = np.stack([values, 1 - values], axis=1)
     assert (mesh.transfer(rows, of="faces")[:, 0] == shared).all()
 
