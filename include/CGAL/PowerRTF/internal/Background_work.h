@@ -60,7 +60,7 @@ public:
 private:
 #ifdef CGAL_LINKED_WITH_TBB
   /// One for all such work of a thread: its loops do not wait for what is in there. It is kept: on
-  /// a busy machine TBB (2021.8) does not free an arena whose workers leave late.
+  /// a busy machine oneTBB does not free an arena whose workers leave late.
   static std::shared_ptr<tbb::task_arena> arena_of_thread()
   {
     thread_local const auto arena = std::make_shared<tbb::task_arena>();

@@ -48,7 +48,7 @@ void for_each_job(Concurrency concurrency, int n, int most, F&& f, Idle&& idle)
     std::atomic<int> begun{0}, ended{0};
     const std::thread::id caller = std::this_thread::get_id();
     const auto work = [&] {
-      // For all jobs of the thread: TBB (2021.8) need not free an arena, see Background_work.h.
+      // For all jobs of the thread: oneTBB need not free an arena, see Background_work.h.
       tbb::task_arena alone(1), shared(threads);
       for (int i = begun++; i < n; i = begun++) {
         (n - i > threads && most >= threads ? alone : shared).execute([&] { f(i); });
