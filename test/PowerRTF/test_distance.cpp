@@ -4,8 +4,8 @@
 // The distance of two surfaces against closed forms.
 #include "shapes.h"
 
-#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/engines/surface_distances.h>
+#include <CGAL/PowerRTF/geometry/curve_order.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 

@@ -5,8 +5,8 @@
 #ifndef CGAL_POWER_RTF_ENGINES_ARRANGE_FACETS_H
 #define CGAL_POWER_RTF_ENGINES_ARRANGE_FACETS_H
 
-#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/geometry/Arrange_facets.h>
+#include <CGAL/PowerRTF/geometry/curve_order.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 

@@ -6,12 +6,12 @@
 #ifndef CGAL_POWER_RTF_ENGINES_BUILD_SURFACE_H
 #define CGAL_POWER_RTF_ENGINES_BUILD_SURFACE_H
 
-#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/geometry/Build_surface.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
 #include <CGAL/PowerRTF/geometry/Vertex_fan.h>
 #include <CGAL/PowerRTF/geometry/component_topology.h>
+#include <CGAL/PowerRTF/geometry/curve_order.h>
 #include <CGAL/PowerRTF/geometry/facet_shape.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>

@@ -6,10 +6,10 @@
 #ifndef CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 #define CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 
-#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Parting_plane.h>
 #include <CGAL/PowerRTF/geometry/box_around.h>
+#include <CGAL/PowerRTF/geometry/curve_order.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>

@@ -7,10 +7,10 @@
 #ifndef CGAL_POWER_RTF_ENGINES_SURFACE_DISTANCES_H
 #define CGAL_POWER_RTF_ENGINES_SURFACE_DISTANCES_H
 
-#include <CGAL/PowerRTF/engines/placed_facets.h>
 #include <CGAL/PowerRTF/geometry/Area_samples.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
+#include <CGAL/PowerRTF/geometry/placed_facets.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/internal/scan.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The order along the Hilbert curve, made where a backend works: what `spatial_order()` makes.
-#ifndef CGAL_POWER_RTF_ENGINES_CURVE_ORDER_H
-#define CGAL_POWER_RTF_ENGINES_CURVE_ORDER_H
+#ifndef CGAL_POWER_RTF_GEOMETRY_CURVE_ORDER_H
+#define CGAL_POWER_RTF_GEOMETRY_CURVE_ORDER_H
 
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/geometry/hilbert_code.h>
@@ -116,4 +116,4 @@ struct Order_corners {
 
 } // namespace CGAL::PowerRTF::internal
 
-#endif // CGAL_POWER_RTF_ENGINES_CURVE_ORDER_H
+#endif // CGAL_POWER_RTF_GEOMETRY_CURVE_ORDER_H

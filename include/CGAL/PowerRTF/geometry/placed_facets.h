@@ -3,12 +3,12 @@
 //
 // The facets of a mesh in the order of a tree, where a backend works: those of `Facet_tree`, in
 // double precision, but without normals.
-#ifndef CGAL_POWER_RTF_ENGINES_PLACED_FACETS_H
-#define CGAL_POWER_RTF_ENGINES_PLACED_FACETS_H
+#ifndef CGAL_POWER_RTF_GEOMETRY_PLACED_FACETS_H
+#define CGAL_POWER_RTF_GEOMETRY_PLACED_FACETS_H
 
-#include <CGAL/PowerRTF/engines/curve_order.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
+#include <CGAL/PowerRTF/geometry/curve_order.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 
 #include <cstddef>
@@ -116,4 +116,4 @@ Surface_view<double> placed_mesh(Backend& backend, const Mesh_arrays& mesh,
 
 } // namespace CGAL::PowerRTF::internal
 
-#endif // CGAL_POWER_RTF_ENGINES_PLACED_FACETS_H
+#endif // CGAL_POWER_RTF_GEOMETRY_PLACED_FACETS_H
