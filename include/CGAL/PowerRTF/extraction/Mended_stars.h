@@ -110,7 +110,15 @@ private:
     return first_reach * std::pow(growth, m_openings[v] - 1) * spacing(v);
   }
 
-  // The triangles at a sample as they are now.
+  // Whether all triangles at a sample are those of its cell.
+  bool is_of_cell(int v) const
+  {
+    if (v >= m_stars.cells() || !m_stars.is_agreed(v) || is_open(v) || m_has_made[v]) return false;
+    const Neighbor_cycles::Cycle around = m_stars.neighbors(v);
+    return std::none_of(around.begin(), around.end(), [this](int w) { return is_open(w); });
+  }
+
+  // The triangles at a sample as they are now; of a cell in their order around it.
   Fan star(int v) const
   {
     Fan star;
@@ -127,15 +135,10 @@ private:
   // and the pieces of its creases and borders are there.
   bool is_whole(int v) const
   {
-    const bool has_cell = v < m_stars.cells();
-    if (has_cell && m_stars.is_agreed(v) && !is_open(v) && !m_has_made[v]) {
-      const Neighbor_cycles::Cycle around = m_stars.neighbors(v);
-      return m_stars.triangles().are_distinct(v) &&
-             std::none_of(around.begin(), around.end(), [this](int w) { return is_open(w); });
-    }
+    if (is_of_cell(v)) return m_stars.triangles().are_distinct(v);
     Fan s = star(v);
     if (!sort_around(s)) return false;
-    if (has_cell) return is_closed(s) && s.size() >= 3;
+    if (v < m_stars.cells()) return is_closed(s) && s.size() >= 3;
     const int k = v - m_stars.cells();
     if (is_closed(s) == bool(m_is_on_border[k])) return false;
     const std::vector<int>& curve = m_on_curves[k];
@@ -289,31 +292,41 @@ private:
     for (const Triangle_at& t : m_made) m_has_made[t[0]] = 1;
   }
 
+  // Calls `f` for the triangles of which the sample is the first.
+  template <class F>
+  void for_each_triangle_from(int v, const F& f) const
+  {
+    if (m_has_made[v])
+      for (auto made = std::lower_bound(m_made_triangles.begin(), m_made_triangles.end(),
+                                        Triangle{v, -1, -1});
+           made != m_made_triangles.end() && (*made)[0] == v; ++made)
+        f(*made);
+    if (v < m_stars.cells() && !is_open(v))
+      m_stars.for_each_at(v, [&](const Fan_corner& c) {
+        if (v < c[0] && v < c[1] && !is_open(c[0]) && !is_open(c[1])) f({v, c[0], c[1]});
+      });
+  }
+
   void make_mesh()
   {
     resize_in_parallel(ConcurrencyTag(), m_mesh.points, m_size);
     for_each_index<ConcurrencyTag>(m_size, [&](int v) {
       m_mesh.points[v] = m_surface.normalization.snapped(m_samples.points[v]);
     });
-    constexpr int chunk = 1024;
-    std::vector<std::vector<Triangle>> parts((m_size + chunk - 1) / chunk);
-    for_each_chunk<ConcurrencyTag>(m_size, chunk, [&](int begin, int end) {
-      std::vector<Triangle>& part = parts[begin / chunk];
-      part.reserve(2 * chunk); // about as many
-      auto made = std::lower_bound(m_made_triangles.begin(), m_made_triangles.end(),
-                                   Triangle{begin, -1, -1});
-      for (int v = begin; v < end; ++v) {
-        const std::size_t first = part.size();
-        for (; made != m_made_triangles.end() && (*made)[0] == v; ++made) part.push_back(*made);
-        if (v < m_stars.cells() && !is_open(v))
-          m_stars.for_each_at(v, [&](const Fan_corner& c) {
-            if (v < c[0] && v < c[1] && !is_open(c[0]) && !is_open(c[1]))
-              part.push_back({v, c[0], c[1]});
-          });
-        std::sort(part.begin() + first, part.end());
-      }
+    Unset_vector<int> first(m_size + 1);
+    first[m_size] = 0;
+    for_each_index<ConcurrencyTag>(m_size, [&](int v) {
+      first[v] = 0;
+      for_each_triangle_from(v, [&](const Triangle&) { ++first[v]; });
     });
-    m_mesh.triangles = concatenated(ConcurrencyTag(), parts);
+    resize_in_parallel(ConcurrencyTag(), m_mesh.triangles,
+                       exclusive_scan(ConcurrencyTag(), m_size + 1, first.data()));
+    for_each_index<ConcurrencyTag>(m_size, [&](int v) {
+      const auto begin = m_mesh.triangles.begin() + first[v];
+      auto end = begin;
+      for_each_triangle_from(v, [&](const Triangle& t) { *end++ = t; });
+      std::sort(begin, end);
+    });
     m_mesh.feature_edges.clear();
     for (const Edge& e : m_features.edges)
       m_mesh.feature_edges.push_back(sorted_edge(m_stars.cells() + e[0], m_stars.cells() + e[1]));
@@ -325,7 +338,7 @@ private:
     if (!m_topology) m_topology = known_topology(m_surface, ConcurrencyTag());
     const auto ordered_star = [this](int v) {
       Fan s = star(v);
-      sort_around(s);
+      if (!is_of_cell(v)) sort_around(s);
       return s;
     };
     return are_homeomorphic(*m_topology, fan_topology(m_size, ordered_star, ConcurrencyTag()),

@@ -28,8 +28,8 @@ Topology fan_topology(int vertices, const Star_at& star, Concurrency concurrency
       connected_components(concurrency, vertices, [&](int v, auto&& join) {
         const Fan s = star(v);
         for (const Fan_corner& c : s)
-          for (const int w : c)
-            if (w < v) join(w);
+          if (c[0] < v) join(c[0]);
+        if (!is_closed(s) && s.back()[1] < v) join(s.back()[1]);
         next_on_border[v] = is_closed(s) ? -1 : s.front()[0];
         shares[v] = six_times_vertex_share(!is_closed(s)) + // and a third of each facet
                     six_times_facet_share / 3 * static_cast<int>(s.size());
