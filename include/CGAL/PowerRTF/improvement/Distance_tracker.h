@@ -96,7 +96,8 @@ public:
     const std::vector<int> changed = m_changed.take(), near = points_near(changed);
     for_each_index(m_mesh->concurrency(), int(near.size()),
                    [&](int k) { descend_anew(m_points[near[k]], changed); });
-    add_far(near);
+    const std::vector<int> farther = farther_than(m_tree_search_distance, near);
+    m_far.insert(m_far.end(), farther.begin(), farther.end());
     const std::vector<int> far = find_far();
     constexpr std::size_t points_per_change = 8; // where it pays to go through those alone
     if (points_per_change * (near.size() + far.size()) > m_points.size()) {
@@ -164,8 +165,8 @@ public:
     for (const int i : tracked) {
       search_faces(m_points[i], faces, v, m_mesh->point(v));
       reassign(i);
+      if (m_points[i].distance > m_tree_search_distance) m_far.push_back(i);
     }
-    add_far(tracked);
   }
 
 private:
@@ -174,7 +175,7 @@ private:
       : m_mesh(&mesh), m_tree_search_distance(exact), m_changed(mesh), m_others(std::move(others)),
         m_points(std::move(points))
   {
-    m_far = select(mesh.concurrency(), size(), [](int) { return true; });
+    m_far = all();
     find_far();
     assign();
   }
@@ -230,8 +231,14 @@ private:
     });
   }
 
+  std::vector<int> all() const
+  {
+    return select(m_mesh->concurrency(), size(), [](int) { return true; });
+  }
+
   std::vector<int> points_near(const std::vector<int>& changed) const
   {
+    if (changed.size() > Parameters::nearly_all * double(m_mesh->size())) return all();
     // Where it pays to look at what is near those alone; others are far more than the vertices.
     const std::size_t vertices_per_change = are_vertices() ? 32 : 2;
     return m_changed.are_few(changed, vertices_per_change) ? points_near_few(changed)
@@ -302,14 +309,6 @@ private:
     std::sort(far.begin(), far.end());
     far.erase(std::unique(far.begin(), far.end()), far.end());
     return far;
-  }
-
-  // After their distances have changed.
-  template <class Points>
-  void add_far(const Points& points)
-  {
-    for (const int i : points)
-      if (m_points[i].distance > m_tree_search_distance) m_far.push_back(i);
   }
 
   // Those that seem to be far are searched for in the whole mesh. Returns them.
