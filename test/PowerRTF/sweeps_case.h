@@ -21,7 +21,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -71,6 +73,39 @@ public:
     tracker.update();
     gain = before / mean_distance(tracker);
     return stars;
+  }
+
+  int vertices_of_surface() const { return int(m_case.surface.points.size()); }
+  int faces() const { return int(m_case.raw.triangles.size()); }
+  /// The faces that are nearest to the surface's vertices; none where they are not found.
+  internal::Unset_vector<int> nearest_faces(Star_sweeps_base& sweeps) const
+  {
+    internal::Unset_vector<int> nearest(vertices_of_surface());
+    std::iota(nearest.begin(), nearest.end(), 0);
+    const Extracted_mesh& raw = m_case.raw;
+    const Mesh_arrays mesh{int(raw.points.size()), raw.points.data(), faces(),
+                           raw.triangles.data()->data()};
+    if (!sweeps.find_faces(mesh, int(nearest.size()), nearest.data(), nearest.data()))
+      nearest.clear();
+    return nearest;
+  }
+  /// From a vertex of the surface to a face, if their normals agree, or `any` does; else infinite.
+  double distance(int vertex, int face, bool any = false) const
+  {
+    const auto [a, b, c] =
+        m_mesh.points(m_mesh.working().mesh.halfedge(internal::Working_mesh::Face(face)));
+    const Vec3d& p = m_case.surface.points[vertex];
+    if (!any && !internal::agrees(m_case.surface.vertex_normals[vertex], a, b, c))
+      return std::numeric_limits<double>::infinity();
+    return length(nearest_point_on_triangle(p, a, b, c) - p);
+  }
+  internal::Distance_tracker tracker(const internal::Unset_vector<int>& nearest) const
+  {
+    auto points =
+        internal::tracked_points(m_case.surface, m_tree, m_mesh.size(), m_mesh.concurrency());
+    internal::Unset_vector<int> known(nearest.empty() ? 0 : points.size());
+    for (std::size_t i = 0; i < known.size(); ++i) known[i] = nearest[points[i].vertex];
+    return internal::Distance_tracker(m_mesh, std::move(points), known);
   }
 
 private:

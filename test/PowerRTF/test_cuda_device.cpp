@@ -427,6 +427,14 @@ TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
     CHECK(mesh.smoothed(*device, 2).points == smooth.points);
     CHECK(improvement_case::doubts(mesh.mesh(), smooth).missed == 0);
     if (n > 1000) CHECK(smooth.doubtful.size() < 0.8 * n);
+    const auto nearest = mesh.nearest_faces(*device), nearest_on_host = mesh.nearest_faces(*host);
+    REQUIRE(nearest.size() == nearest_on_host.size());
+    for (int v = 0; v < int(nearest.size()); ++v) {
+      REQUIRE((nearest[v] < 0) == (nearest_on_host[v] < 0)); // no normal is at the limit
+      if (nearest[v] < 0) continue;
+      const double on_host = mesh.distance(v, nearest_on_host[v]);
+      CHECK(std::fabs(mesh.distance(v, nearest[v]) - on_host) < 1e-12 * mesh.spacing());
+    }
     double gain = 0, gain_on_host = 0;
     const auto fit = mesh.fitted(*device, gain), fit_on_host = mesh.fitted(*host, gain_on_host);
     REQUIRE(fit.size() == smooth.size());

@@ -73,6 +73,10 @@ public:
   {
     return m_sweeps->fit(stars, fit) && changed(stars);
   }
+  bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) override
+  {
+    return m_sweeps->find_faces(mesh, n, vertices, faces);
+  }
 
 private:
   bool changed(internal::Flat_stars& stars) const

@@ -9,7 +9,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -105,6 +107,44 @@ TEST_CASE("a sweep smooths one vertex after the other, whatever the number of th
     CHECK(sequential.facets == parallel.facets);
     CHECK(distances(flat_stars(one_by_one), sequential).back() < 1e-9 * c.spacing());
     CHECK((order.first.back() == 0 || sequential.points != stars.points));
+  }
+}
+
+TEST_CASE("the faces that are nearest to the surface's vertices are those of a search of all")
+{
+  struct Thin {
+    std::string name;
+    Sweeps_case mesh;
+    bool has_sheets; // which a face that is nearer does not belong to
+  };
+  const Thin meshes[] = {{"ellipsoid", {shapes::ellipsoid(1, 0.7, 0.4, 3), 500}, false},
+                         {"two sheets", {shapes::ellipsoid(1, 0.7, 0.01, 3), 200}, true},
+                         {"borders", {shapes::open_cylinder(40, 10, .5, 2), 400}, false},
+                         {"few vertices", {shapes::icosphere(2), 12}, false}};
+  for (const auto& [name, c, has_sheets] : meshes) {
+    CAPTURE(name);
+    const auto nearest = c.nearest_faces(*c.host_sweeps(CGAL::Sequential_tag()));
+    REQUIRE(int(nearest.size()) == c.vertices_of_surface());
+    CHECK(nearest == c.nearest_faces(*c.host_sweeps(CGAL::Parallel_if_available_tag())));
+    int on_other_sheet = 0;
+    std::vector<double> least(nearest.size(), std::numeric_limits<double>::infinity());
+    for (int v = 0; v < int(nearest.size()); ++v) {
+      double least_of_any = least[v];
+      for (int f = 0; f < c.faces(); ++f) {
+        least[v] = std::min(least[v], c.distance(v, f));
+        least_of_any = std::min(least_of_any, c.distance(v, f, true));
+      }
+      on_other_sheet += least_of_any < least[v];
+      CHECK((nearest[v] < 0) == (least[v] == std::numeric_limits<double>::infinity()));
+      if (nearest[v] >= 0) CHECK(c.distance(v, nearest[v]) <= least[v] * (1 + 1e-12));
+    }
+    CHECK((on_other_sheet > 0) == has_sheets);
+    const internal::Distance_tracker tracker = c.tracker(nearest), without = c.tracker({});
+    for (int i = 0; i < tracker.size(); ++i) {
+      const int v = tracker[i].vertex;
+      CHECK(tracker[i].distance <= without[i].distance * (1 + 1e-12));
+      if (nearest[v] >= 0) CHECK(tracker[i].distance <= least[v] * (1 + 1e-12));
+    }
   }
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The facets of a mesh in the order of a tree, where a backend works: those of `Facet_tree`, in
-// double precision, but without normals.
+// double precision.
 #ifndef CGAL_POWER_RTF_GEOMETRY_PLACED_FACETS_H
 #define CGAL_POWER_RTF_GEOMETRY_PLACED_FACETS_H
 
@@ -23,7 +23,7 @@ struct Place_facets {
   CGAL_POWER_RTF_HD void operator()(int place) const
   {
     const int* const v = corners + 3 * std::size_t(place);
-    facets[place] = {points[v[0]], points[v[1]], points[v[2]], {0, 0, 0}};
+    facets[place] = facet_corners(points[v[0]], points[v[1]], points[v[2]]);
   }
 };
 
@@ -64,7 +64,7 @@ struct Mesh_tree_arrays {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Buffer<int> corners; ///< by place
+  Buffer<int> corners, order; ///< by place
   Buffer<Child_boxes> nodes;
 
   /// See listed_arrays.h.
@@ -72,18 +72,18 @@ struct Mesh_tree_arrays {
   static void for_each_array(F&& f, const Packed_tree_layout& tree)
   {
     f(&Mesh_tree_arrays::corners, 3 * std::size_t(tree.items));
+    f(&Mesh_tree_arrays::order, std::size_t(tree.items));
     f(&Mesh_tree_arrays::nodes, std::size_t(tree.nodes()));
   }
 
   struct Construction {
-    Buffer<int> corners, order;
+    Buffer<int> corners;
     Buffer<Box3<double>> boxes;
 
     template <class F>
     static void for_each_array(F&& f, const Packed_tree_layout& tree)
     {
       f(&Construction::corners, 3 * std::size_t(tree.items));
-      f(&Construction::order, std::size_t(tree.items));
       f(&Construction::boxes, std::size_t(tree.nodes()));
     }
   };
@@ -106,8 +106,8 @@ Surface_view<double> placed_mesh(Backend& backend, const Mesh_arrays& mesh,
   allocate_listed(backend, a, tree);
   const int* const corners = uploaded(backend, a.corners, mesh.corners);
   order_along_curve(backend, mesh.faces, Face_centers{arrays.points.data(), corners},
-                    a.order.data());
-  backend.for_each(mesh.faces, Order_corners{corners, a.order.data(), result.corners.data()});
+                    result.order.data());
+  backend.for_each(mesh.faces, Order_corners{corners, result.order.data(), result.corners.data()});
   const Surface_view<double> view =
       placed_facets(backend, arrays, tree, result.corners.data(), result.nodes.data());
   fit_tree(backend, tree, Box_of_facet{view.facets}, a.boxes.data(), result.nodes.data());

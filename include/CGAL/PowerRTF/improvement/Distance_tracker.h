@@ -38,16 +38,19 @@ public:
   using Halfedge = Star_mesh::Halfedge;
   using Face = Working_mesh::Face;
 
-  /// Of the surface's vertices. \pre `mesh` has a face
-  Distance_tracker(const Star_mesh& mesh, Unset_vector<Tracked_point>&& points)
+  /// Of the surface's vertices. `faces`: the nearest of those that agree with each, or -1; or none
+  /// are known. \pre `mesh` has a face
+  Distance_tracker(const Star_mesh& mesh, Unset_vector<Tracked_point>&& points,
+                   const Unset_vector<int>& faces = {})
       : Distance_tracker(mesh, {}, std::move(points),
                          Parameters::tree_search_distance *
-                             std::sqrt(mesh.projector().surface().area / double(mesh.size())))
+                             std::sqrt(mesh.projector().surface().area / double(mesh.size())),
+                         faces)
   {}
 
   /// Of `others` instead; any face may be nearest to them. From `exact` on distances are.
   Distance_tracker(const Star_mesh& mesh, Surface_points&& others, double exact)
-      : Distance_tracker(mesh, std::move(others), tracked_points(others), exact)
+      : Distance_tracker(mesh, std::move(others), tracked_points(others), exact, {})
   {}
 
   /// After the mesh has become another one with the same number of faces.
@@ -171,10 +174,15 @@ public:
 
 private:
   Distance_tracker(const Star_mesh& mesh, Surface_points&& others,
-                   Unset_vector<Tracked_point>&& points, double exact)
+                   Unset_vector<Tracked_point>&& points, double exact,
+                   const Unset_vector<int>& faces)
       : m_mesh(&mesh), m_tree_search_distance(exact), m_changed(mesh), m_others(std::move(others)),
         m_points(std::move(points))
   {
+    for_each_index(mesh.concurrency(), int(faces.size()), [&](int i) {
+      if (faces[i] >= 0)
+        try_face(m_points[i], topology().halfedge(Face(faces[i])), Vertex(), {}, any);
+    });
     m_far = all();
     find_far();
     assign();

@@ -47,6 +47,11 @@ public:
   {
     return (m_first && m_first->fit(stars, fit)) || m_second->fit(stars, fit);
   }
+  /// By `first` alone: who asks goes from face to face, which is quicker than `second`.
+  bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) override
+  {
+    return m_first && m_first->find_faces(mesh, n, vertices, faces);
+  }
 
 private:
   std::unique_ptr<Star_sweeps_base> m_first, m_second;

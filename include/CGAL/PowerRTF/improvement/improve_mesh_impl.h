@@ -101,7 +101,7 @@ public:
         m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency,
                 settings.find_topology,
                 m_prepared ? std::move(m_prepared->memory) : Working_mesh::Mesh()),
-        m_tracker(*m_stars, std::move(prepared().points)),
+        m_tracker(*m_stars, std::move(prepared().points), nearest_faces(prepared().points)),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
   {}
@@ -145,6 +145,17 @@ private:
       m_prepared = std::make_shared<Improvement_preparation>(m_surface, m_projector.tree(),
                                                              m_mesh.points.size(), m_concurrency);
     return *m_prepared;
+  }
+
+  // Of the extracted mesh; none where they are not found.
+  Unset_vector<int> nearest_faces(const Unset_vector<Tracked_point>& points)
+  {
+    Unset_vector<int> faces(points.size());
+    for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
+    const Mesh_arrays mesh{int(m_mesh.points.size()), m_mesh.points.data(),
+                           int(m_mesh.triangles.size()), m_mesh.triangles.data()->data()};
+    if (!m_sweeps.find_faces(mesh, int(faces.size()), faces.data(), faces.data())) faces.clear();
+    return faces;
   }
 
   // One attempt; see the head of this file.

@@ -7,6 +7,7 @@
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 #include <CGAL/PowerRTF/smoothing/color_vertices.h>
 #include <CGAL/PowerRTF/smoothing/doubtful_stars.h>
+#include <CGAL/PowerRTF/smoothing/faces_at_vertices.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <cstddef>
@@ -225,7 +226,7 @@ public:
 
   bool smooth(internal::Flat_stars& stars, int steps) override
   {
-    if (!has_room(stars, 0)) return false;
+    if (!has_room(bytes(stars))) return false;
     Arrays arrays;
     const internal::Star_view view = upload(stars, arrays);
     const std::vector<int> first = order(view, arrays);
@@ -239,7 +240,7 @@ public:
   {
     using Part = internal::Fit_part;
     using internal::Fit_rule;
-    if (!has_room(stars, internal::bytes_of_listed<Fit_arrays>(fit))) return false;
+    if (!has_room(bytes(stars) + internal::bytes_of_listed<Fit_arrays>(fit))) return false;
     Arrays arrays;
     Fit_arrays fit_arrays;
     const internal::Fit_equations equations =
@@ -258,25 +259,42 @@ public:
     return true;
   }
 
+  bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) override
+  {
+    if (!has_room(internal::faces_at_vertices_bytes<Backend>(mesh, n))) return false;
+    internal::find_faces_at_vertices(m_backend, surface(), mesh, n, vertices, faces);
+    return true;
+  }
+
 private:
   using Arrays = internal::Star_arrays<Backend>;
   using Fit_arrays = internal::Fit_arrays<Backend>;
   using Descent_arrays = internal::Descent_arrays<Backend>;
 
-  bool has_room(const internal::Flat_stars& stars, std::size_t more) const
+  static std::size_t bytes(const internal::Flat_stars& stars)
   {
-    if (!m_is_uploaded) more += internal::bytes_of_listed<Descent_arrays>(m_surface);
-    return m_backend.has_room(
-        more + internal::bytes_of_listed<Arrays>(stars.points.size(), stars.neighbors.size()));
+    return internal::bytes_of_listed<Arrays>(stars.points.size(), stars.neighbors.size());
+  }
+  /// Beside the surface.
+  bool has_room(std::size_t bytes) const
+  {
+    if (!m_is_uploaded) bytes += internal::bytes_of_listed<Descent_arrays>(m_surface);
+    return m_backend.has_room(bytes);
   }
 
-  internal::Star_view upload(const internal::Flat_stars& stars, Arrays& arrays)
+  /// Where the backend works.
+  const Surface_descent& surface()
   {
     if constexpr (!Backend::is_host)
       if (!m_is_uploaded) m_surface = m_arrays.upload(m_backend, m_surface);
     m_is_uploaded = true;
+    return m_surface;
+  }
+
+  internal::Star_view upload(const internal::Flat_stars& stars, Arrays& arrays)
+  {
     internal::Star_view view = arrays.upload(m_backend, stars);
-    view.surface = m_surface;
+    view.surface = surface();
     view.grid = m_grid;
     return view;
   }
