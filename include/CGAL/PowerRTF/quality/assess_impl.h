@@ -85,20 +85,10 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
     report.input_topology = internal::manifold_topology(surface, concurrency);
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
-  part.next(0.4);
-  report.constrained_vertices = surface.kept_vertices.size();
-  report.lost_constrained_vertices = internal::lost_kept_vertices(surface, mesh);
-  std::vector<Vec3d> outside; // where kept vertices are no places of the grid
-  if (!surface.kept_vertices.empty()) outside = mesh.outside(surface.normalization, concurrency);
-  report.self_intersections = self_intersections(outside.empty() ? mesh.points : outside,
-                                                 mesh.triangles, concurrency, find_close);
-  if (report.self_intersections > 0)
-    report.input_self_intersections =
-        self_intersections(surface.points, surface.triangles, concurrency);
-  part.next(0.5);
+  part.next(0.2);
   report.topology = topology(mesh.triangles, concurrency, find_topology);
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
-  // While distances are found:
+  // While intersections and distances are found:
   internal::Background_work judgment(concurrency, [&] {
     report.lost_feature_edges = internal::lost_feature_edges(mesh, concurrency);
     report.quality = triangle_quality(mesh.points, mesh.triangles, concurrency);
@@ -111,6 +101,16 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
     report.edge_length = {unit * lengths.mean, unit * lengths.median, unit * lengths.min,
                           unit * lengths.max};
   });
+  part.next(0.5);
+  report.constrained_vertices = surface.kept_vertices.size();
+  report.lost_constrained_vertices = internal::lost_kept_vertices(surface, mesh);
+  std::vector<Vec3d> outside; // where kept vertices are no places of the grid
+  if (!surface.kept_vertices.empty()) outside = mesh.outside(surface.normalization, concurrency);
+  report.self_intersections = self_intersections(outside.empty() ? mesh.points : outside,
+                                                 mesh.triangles, concurrency, find_close);
+  if (report.self_intersections > 0)
+    report.input_self_intersections =
+        self_intersections(surface.points, surface.triangles, concurrency);
   const Box3<double> box = internal::bounding_box(surface.points, surface.triangles, concurrency);
   report.diagonal = unit * length(box.hi - box.lo);
   part.next(1);
