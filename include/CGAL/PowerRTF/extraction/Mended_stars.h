@@ -309,19 +309,18 @@ private:
 
   void make_mesh()
   {
-    resize_in_parallel(ConcurrencyTag(), m_mesh.points, m_size);
-    for_each_index<ConcurrencyTag>(m_size, [&](int v) {
-      m_mesh.points[v] = m_surface.normalization.snapped(m_samples.points[v]);
-    });
     Unset_vector<int> first(m_size + 1);
     first[m_size] = 0;
     for_each_index<ConcurrencyTag>(m_size, [&](int v) {
       first[v] = 0;
       for_each_triangle_from(v, [&](const Triangle&) { ++first[v]; });
     });
-    resize_in_parallel(ConcurrencyTag(), m_mesh.triangles,
-                       exclusive_scan(ConcurrencyTag(), m_size + 1, first.data()));
+    const int triangles = exclusive_scan(ConcurrencyTag(), m_size + 1, first.data());
+    call_at_once(
+        ConcurrencyTag(), [&] { resize_in_parallel(ConcurrencyTag(), m_mesh.points, m_size); },
+        [&] { resize_in_parallel(ConcurrencyTag(), m_mesh.triangles, triangles); });
     for_each_index<ConcurrencyTag>(m_size, [&](int v) {
+      m_mesh.points[v] = m_surface.normalization.snapped(m_samples.points[v]);
       const auto begin = m_mesh.triangles.begin() + first[v];
       auto end = begin;
       for_each_triangle_from(v, [&](const Triangle& t) { *end++ = t; });
