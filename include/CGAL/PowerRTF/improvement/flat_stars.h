@@ -10,7 +10,9 @@
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/Star_view.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
@@ -38,18 +40,28 @@ inline Flat_stars flat_stars(const Star_mesh& mesh)
   for (auto array : {&stars.points, &stars.normals}) array->resize(n);
   stars.facets.resize(n);
   stars.kinds.resize(n);
-  for_each_index(mesh.concurrency(), n, [&](int i) {
-    const Star_mesh::Vertex v(i);
-    stars.points[i] = mesh.point(v);
-    stars.normals[i] = mesh.normal(v);
-    stars.facets[i] = mesh.facet(v);
-    stars.kinds[i] = (mesh.is_movable(v) ? is_movable_kind : 0) |
-                     (mesh.is_on_feature(v) ? is_on_feature_kind : 0);
-    stars.first[i] = mesh.is_movable(v) ? int(topology.degree(v)) : 0;
+  const int chunk = std::clamp(n / 128, 64, 1024);
+  std::vector<std::vector<int>> parts((n + chunk - 1) / chunk); // of the neighbors
+  for_each_chunk(mesh.concurrency(), n, chunk, [&](int begin, int end) {
+    std::vector<int>& part = parts[begin / chunk];
+    part.reserve(7 * chunk); // mostly enough
+    for (int i = begin; i < end; ++i) {
+      const Star_mesh::Vertex v(i);
+      stars.points[i] = mesh.point(v);
+      stars.normals[i] = mesh.normal(v);
+      stars.facets[i] = mesh.facet(v);
+      stars.kinds[i] = (mesh.is_movable(v) ? is_movable_kind : 0) |
+                       (mesh.is_on_feature(v) ? is_on_feature_kind : 0);
+      const std::size_t before = part.size();
+      if (mesh.is_movable(v))
+        for (const auto h : halfedges_around_target(v, topology))
+          part.push_back(int(topology.source(h)));
+      stars.first[i] = int(part.size() - before);
+    }
   });
   stars.neighbors.resize(exclusive_scan(mesh.concurrency(), n + 1, stars.first.data()));
-  for_each_spoke(mesh, stars, [&](int k, Star_mesh::Halfedge h) {
-    stars.neighbors[k] = int(topology.source(h));
+  for_each_chunk(mesh.concurrency(), int(parts.size()), 1, [&](int k, int) {
+    std::copy(parts[k].begin(), parts[k].end(), stars.neighbors.begin() + stars.first[k * chunk]);
   });
   return stars;
 }
