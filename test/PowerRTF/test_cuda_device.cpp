@@ -4,6 +4,7 @@
 // The CUDA engine on a GPU, against the CPU engine and the oracle. Skipped where there is no GPU or
 // the engine is not built.
 #include "engine_comparison.h"
+#include "odd_shapes.h"
 #include "relative_distances.h"
 #include "sweeps_case.h"
 
@@ -427,14 +428,6 @@ TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
     CHECK(mesh.smoothed(*device, 2).points == smooth.points);
     CHECK(improvement_case::doubts(mesh.mesh(), smooth).missed == 0);
     if (n > 1000) CHECK(smooth.doubtful.size() < 0.8 * n);
-    const auto nearest = mesh.nearest_faces(*device), nearest_on_host = mesh.nearest_faces(*host);
-    REQUIRE(nearest.size() == nearest_on_host.size());
-    for (int v = 0; v < int(nearest.size()); ++v) {
-      REQUIRE((nearest[v] < 0) == (nearest_on_host[v] < 0)); // no normal is at the limit
-      if (nearest[v] < 0) continue;
-      const double on_host = mesh.distance(v, nearest_on_host[v]);
-      CHECK(std::fabs(mesh.distance(v, nearest[v]) - on_host) < 1e-12 * mesh.spacing());
-    }
     double gain = 0, gain_on_host = 0;
     const auto fit = mesh.fitted(*device, gain), fit_on_host = mesh.fitted(*host, gain_on_host);
     REQUIRE(fit.size() == smooth.size());
@@ -442,6 +435,44 @@ TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
     const std::vector<double> d = improvement_case::distances(fit, fit_on_host);
     CHECK(d[d.size() * 9 / 10] < bound * mesh.spacing());
     CHECK(std::fabs(gain - gain_on_host) < 0.01 * gain_on_host);
+  }
+}
+
+TEST_CASE("the faces that are nearest to a surface's vertices are as near as the host's")
+{
+  using improvement_case::Sweeps_case;
+  const Case c = cases()[0];
+  const Start start(c);
+  Cuda_engine<float> engine(start.patches->surface(), c.options);
+  engine.set_samples(start.samples, start.patches->features());
+  const Make_star_sweeps make = engine.star_sweeps_maker();
+  struct Mesh {
+    shapes::Soup soup;
+    int n;
+    bool has_sheets; // which a face that is nearer does not belong to
+  };
+  for (const auto& [soup, n, has_sheets] :
+       {Mesh{shapes::icosphere(2), 12, false}, Mesh{shapes::shell(3, 0.05), 100, true},
+        Mesh{shapes::open_cylinder(40, 10, .5, 2), 400, false},
+        Mesh{shapes::ellipsoid(1, 0.7, 0.4, 6), 40000, false}}) {
+    CAPTURE(n);
+    const Sweeps_case mesh(soup, n);
+    const auto nearest = mesh.nearest_faces(*mesh.sweeps(make)),
+               on_host = mesh.nearest_faces(*mesh.host_sweeps(CGAL::Parallel_if_available_tag()));
+    REQUIRE(nearest.size() == on_host.size());
+    int on_other_sheet = 0;
+    for (int v = 0; v < int(nearest.size()); ++v) {
+      REQUIRE((nearest[v] < 0) == (on_host[v] < 0)); // no normal is at the limit
+      if (nearest[v] < 0) continue;
+      const double distance = mesh.distance(v, nearest[v]);
+      CHECK(std::fabs(distance - mesh.distance(v, on_host[v])) < 1e-12 * mesh.spacing());
+      for (int f = 0; f < (has_sheets ? mesh.faces() : 0); ++f)
+        if (mesh.distance(v, f, true) < 0.9 * distance) {
+          ++on_other_sheet;
+          break;
+        }
+    }
+    CHECK((on_other_sheet > 0) == has_sheets);
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sweeps over all vertices of a mesh, as loops that a backend runs.
+#include "../odd_shapes.h"
 #include "../sweeps_case.h"
 
 #include <CGAL/PowerRTF/improvement/color_order.h>
@@ -118,7 +119,7 @@ TEST_CASE("the faces that are nearest to the surface's vertices are those of a s
     bool has_sheets; // which a face that is nearer does not belong to
   };
   const Thin meshes[] = {{"ellipsoid", {shapes::ellipsoid(1, 0.7, 0.4, 3), 500}, false},
-                         {"two sheets", {shapes::ellipsoid(1, 0.7, 0.01, 3), 200}, true},
+                         {"two sheets", {shapes::shell(3, 0.05), 100}, true},
                          {"borders", {shapes::open_cylinder(40, 10, .5, 2), 400}, false},
                          {"few vertices", {shapes::icosphere(2), 12}, false}};
   for (const auto& [name, c, has_sheets] : meshes) {
@@ -126,6 +127,7 @@ TEST_CASE("the faces that are nearest to the surface's vertices are those of a s
     const auto nearest = c.nearest_faces(*c.host_sweeps(CGAL::Sequential_tag()));
     REQUIRE(int(nearest.size()) == c.vertices_of_surface());
     CHECK(nearest == c.nearest_faces(*c.host_sweeps(CGAL::Parallel_if_available_tag())));
+    const double rounding = 1e-12 * c.spacing();
     int on_other_sheet = 0;
     std::vector<double> least(nearest.size(), std::numeric_limits<double>::infinity());
     for (int v = 0; v < int(nearest.size()); ++v) {
@@ -134,16 +136,16 @@ TEST_CASE("the faces that are nearest to the surface's vertices are those of a s
         least[v] = std::min(least[v], c.distance(v, f));
         least_of_any = std::min(least_of_any, c.distance(v, f, true));
       }
-      on_other_sheet += least_of_any < least[v];
+      on_other_sheet += least_of_any < 0.9 * least[v];
       CHECK((nearest[v] < 0) == (least[v] == std::numeric_limits<double>::infinity()));
-      if (nearest[v] >= 0) CHECK(c.distance(v, nearest[v]) <= least[v] * (1 + 1e-12));
+      if (nearest[v] >= 0) CHECK(c.distance(v, nearest[v]) <= least[v] + rounding);
     }
     CHECK((on_other_sheet > 0) == has_sheets);
     const internal::Distance_tracker tracker = c.tracker(nearest), without = c.tracker({});
     for (int i = 0; i < tracker.size(); ++i) {
       const int v = tracker[i].vertex;
-      CHECK(tracker[i].distance <= without[i].distance * (1 + 1e-12));
-      if (nearest[v] >= 0) CHECK(tracker[i].distance <= least[v] * (1 + 1e-12));
+      CHECK(tracker[i].distance <= without[i].distance + rounding);
+      if (nearest[v] >= 0) CHECK(tracker[i].distance <= least[v] + rounding);
     }
   }
 }
