@@ -4,9 +4,7 @@
 // The CUDA engine on a GPU, against the CPU engine and the oracle. Skipped where there is no GPU or
 // the engine is not built.
 #include "engine_comparison.h"
-#include "odd_shapes.h"
 #include "relative_distances.h"
-#include "sweeps_case.h"
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/engines/close_faces.h>
@@ -397,82 +395,6 @@ TEST_CASE("faces that may intersect are those that the host's loops find")
     REQUIRE(internal::close_faces(host, vertices, s.points.data(), n, s.triangles.front().data(),
                                   expected));
     CHECK(sorted(pairs) == sorted(expected));
-  }
-}
-
-TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
-{
-  using improvement_case::Sweeps_case;
-  const Case c = cases()[0];
-  const Start start(c);
-  Cuda_engine<float> engine(start.patches->surface(), c.options);
-  engine.set_samples(start.samples, start.patches->features());
-  const Make_star_sweeps make = engine.star_sweeps_maker();
-  const shapes::Soup fine = shapes::ellipsoid(1, 0.7, 0.4, 6);
-  struct Mesh {
-    shapes::Soup soup;
-    int n;
-    double bound; // of nine tenths of the distances, in the spacing: a fit is in single precision
-  };
-  // Of a cylinder's strips two are as near to a point: rounding chooses.
-  for (const auto& [soup, n, bound] :
-       {Mesh{shapes::icosphere(2), 12, 1e-6}, Mesh{shapes::open_cylinder(40, 10, .5, 2), 400, 0.01},
-        Mesh{fine, 3000, 1e-6}, Mesh{fine, 40000, 1e-6}}) {
-    CAPTURE(n);
-    const Sweeps_case mesh(soup, n);
-    const auto device = mesh.sweeps(make),
-               host = mesh.host_sweeps(CGAL::Parallel_if_available_tag());
-    const auto smooth = mesh.smoothed(*device, 2), smooth_on_host = mesh.smoothed(*host, 2);
-    REQUIRE(smooth.size() == int(mesh.mesh().size()));
-    CHECK(improvement_case::distances(smooth, smooth_on_host).back() < 1e-11 * mesh.spacing());
-    CHECK(mesh.smoothed(*device, 2).points == smooth.points);
-    CHECK(improvement_case::doubts(mesh.mesh(), smooth).missed == 0);
-    if (n > 1000) CHECK(smooth.doubtful.size() < 0.8 * n);
-    double gain = 0, gain_on_host = 0;
-    const auto fit = mesh.fitted(*device, gain), fit_on_host = mesh.fitted(*host, gain_on_host);
-    REQUIRE(fit.size() == smooth.size());
-    CHECK(improvement_case::doubts(mesh.mesh(), fit).missed == 0);
-    const std::vector<double> d = improvement_case::distances(fit, fit_on_host);
-    CHECK(d[d.size() * 9 / 10] < bound * mesh.spacing());
-    CHECK(std::fabs(gain - gain_on_host) < 0.01 * gain_on_host);
-  }
-}
-
-TEST_CASE("the faces that are nearest to a surface's vertices are as near as the host's")
-{
-  using improvement_case::Sweeps_case;
-  const Case c = cases()[0];
-  const Start start(c);
-  Cuda_engine<float> engine(start.patches->surface(), c.options);
-  engine.set_samples(start.samples, start.patches->features());
-  const Make_star_sweeps make = engine.star_sweeps_maker();
-  struct Mesh {
-    shapes::Soup soup;
-    int n;
-    bool has_sheets; // which a face that is nearer does not belong to
-  };
-  for (const auto& [soup, n, has_sheets] :
-       {Mesh{shapes::icosphere(2), 12, false}, Mesh{shapes::shell(3, 0.05), 100, true},
-        Mesh{shapes::open_cylinder(40, 10, .5, 2), 400, false},
-        Mesh{shapes::ellipsoid(1, 0.7, 0.4, 6), 40000, false}}) {
-    CAPTURE(n);
-    const Sweeps_case mesh(soup, n);
-    const auto nearest = mesh.nearest_faces(*mesh.sweeps(make)),
-               on_host = mesh.nearest_faces(*mesh.host_sweeps(CGAL::Parallel_if_available_tag()));
-    REQUIRE(nearest.size() == on_host.size());
-    int on_other_sheet = 0;
-    for (int v = 0; v < int(nearest.size()); ++v) {
-      REQUIRE((nearest[v] < 0) == (on_host[v] < 0)); // no normal is at the limit
-      if (nearest[v] < 0) continue;
-      const double distance = mesh.distance(v, nearest[v]);
-      CHECK(std::fabs(distance - mesh.distance(v, on_host[v])) < 1e-12 * mesh.spacing());
-      for (int f = 0; f < (has_sheets ? mesh.faces() : 0); ++f)
-        if (mesh.distance(v, f, true) < 0.9 * distance) {
-          ++on_other_sheet;
-          break;
-        }
-    }
-    CHECK((on_other_sheet > 0) == has_sheets);
   }
 }
 

@@ -113,12 +113,12 @@ TEST_CASE("a sweep smooths one vertex after the other, whatever the number of th
 
 TEST_CASE("the faces that are nearest to the surface's vertices are those of a search of all")
 {
-  struct Thin {
+  struct Mesh {
     std::string name;
     Sweeps_case mesh;
     bool has_sheets; // which a face that is nearer does not belong to
   };
-  const Thin meshes[] = {{"ellipsoid", {shapes::ellipsoid(1, 0.7, 0.4, 3), 500}, false},
+  const Mesh meshes[] = {{"ellipsoid", {shapes::ellipsoid(1, 0.7, 0.4, 3), 500}, false},
                          {"two sheets", {shapes::shell(3, 0.05), 100}, true},
                          {"borders", {shapes::open_cylinder(40, 10, .5, 2), 400}, false},
                          {"few vertices", {shapes::icosphere(2), 12}, false}};
