@@ -10,10 +10,10 @@
 
 #include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Points_by_face.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/nearest_faces.h>
 #include <CGAL/PowerRTF/improvement/tracked_points.h>
-#include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -26,7 +26,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -68,14 +67,7 @@ public:
   const Vec3d& normal(int i) const { return surface().vertex_normals[m_points[i].vertex]; }
 
   /// Those that are nearest to a face.
-  boost::iterator_range<const int*> at_face(Face f) const
-  {
-    if (!m_moved.empty())
-      if (const auto moved = m_moved.find(f); moved != m_moved.end())
-        return {moved->second.data(), moved->second.data() + moved->second.size()};
-    const int* points = m_at_face->entries.data();
-    return {points + m_at_face->first[f], points + m_at_face->first[f + 1]};
-  }
+  boost::iterator_range<const int*> at_face(Face f) const { return m_faces.at(f); }
 
   double max_distance() const
   {
@@ -286,7 +278,8 @@ private:
         if (has_changed[topology().source(h)]) is_near[v] = true;
     });
     return select(m_mesh->concurrency(), size(), [&](int i) {
-      if (topology().is_removed(m_points[i].face) || topology().is_removed(m_face[i])) return true;
+      if (topology().is_removed(m_points[i].face) || topology().is_removed(m_faces.face(i)))
+        return true;
       const auto [a, b, c] = m_mesh->working().corners(m_points[i].face);
       return is_near[a] || is_near[b] || is_near[c];
     });
@@ -345,30 +338,15 @@ private:
     });
   }
 
+  Face face(int i) const { return topology().face(m_points[i].face); }
+
   void assign()
   {
-    m_moved.clear();
-    m_face.resize(size());
-    for_each_index(m_mesh->concurrency(), size(),
-                   [&](int i) { m_face[i] = topology().face(m_points[i].face); });
-    m_at_face.emplace(
-        m_mesh->concurrency(), size(), topology().num_faces(),
-        [this](int i) { return int(m_face[i]); }, [](int i) { return i; });
+    m_faces.assign(m_mesh->concurrency(), size(), topology().num_faces(),
+                   [this](int i) { return face(i); });
   }
 
-  void reassign(int i)
-  {
-    const Face from = std::exchange(m_face[i], topology().face(m_points[i].face));
-    if (m_face[i] == from) return;
-    const auto points = [this](Face f) -> std::vector<int>& {
-      const auto now = at_face(f);
-      return m_moved.try_emplace(f, now.begin(), now.end()).first->second;
-    };
-    std::vector<int>& before = points(from);
-    before.erase(std::find(before.begin(), before.end(), i));
-    std::vector<int>& after = points(m_face[i]);
-    after.insert(std::upper_bound(after.begin(), after.end(), i), i);
-  }
+  void reassign(int i) { m_faces.move(i, face(i)); }
 
   bool agrees(const Tracked_point& w, const Vec3d& a, const Vec3d& b, const Vec3d& c) const
   {
@@ -470,10 +448,8 @@ private:
   Changed_vertices m_changed;    // since the last update
   Surface_points m_others;       // or none: the surface's vertices are tracked
   Unset_vector<Tracked_point> m_points;
-  std::vector<int> m_far;                // all that are farther than is searched for, and others
-  Unset_vector<Face> m_face;             // by point: as it was assigned
-  std::optional<Buckets<int>> m_at_face; // the points by face
-  std::unordered_map<Face, std::vector<int>> m_moved; // since then: all points of such faces
+  std::vector<int> m_far; // all that are farther than is searched for, and others
+  Points_by_face m_faces; // as of the last update
 };
 
 } // namespace CGAL::PowerRTF::internal
