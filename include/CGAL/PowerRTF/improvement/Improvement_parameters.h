@@ -55,7 +55,7 @@ struct Improvement_parameters {
     static constexpr int max_points_per_vertex = 16;     ///< of the mesh
     static constexpr double tree_search_distance = 0.25; ///< in h: larger ones are exact
     static constexpr int max_carriers = 8;    ///< vertices from which a far point is looked for
-    static constexpr double nearly_all = 0.9; ///< of the vertices: then no point is as it was
+    static constexpr double nearly_all = 0.9; ///< of the vertices: then all points are looked at
   };
 
   using Smoothing = Smoothing_parameters;

@@ -150,6 +150,7 @@ private:
   // Of the extracted mesh; none where they are not found.
   Unset_vector<int> nearest_faces(const Unset_vector<Tracked_point>& points)
   {
+    if (!m_settings.make_sweeps) return {};
     Unset_vector<int> faces(points.size());
     for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
     const Mesh_arrays mesh{int(m_mesh.points.size()), m_mesh.points.data(),

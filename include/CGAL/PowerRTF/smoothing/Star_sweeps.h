@@ -276,10 +276,10 @@ private:
     return internal::bytes_of_listed<Arrays>(stars.points.size(), stars.neighbors.size());
   }
   /// Beside the surface.
-  bool has_room(std::size_t bytes) const
+  bool has_room(std::size_t more) const
   {
-    if (!m_is_uploaded) bytes += internal::bytes_of_listed<Descent_arrays>(m_surface);
-    return m_backend.has_room(bytes);
+    if (!m_is_uploaded) more += internal::bytes_of_listed<Descent_arrays>(m_surface);
+    return m_backend.has_room(more);
   }
 
   /// Where the backend works.
