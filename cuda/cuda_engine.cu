@@ -63,7 +63,7 @@ void check_cuda_device(const Run_sizes& sizes, const Remeshing_options& options,
                              : "the surface alone has too many facets"));
 }
 
-std::unique_ptr<Engine_base> make_cuda_engine(const Packed_surface& surface,
+std::unique_ptr<Engine_base> make_cuda_engine(const Surface_in_tree& surface,
                                               const Remeshing_options& options,
                                               Cuda_precision precision)
 {

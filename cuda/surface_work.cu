@@ -11,6 +11,9 @@
 #include <CGAL/PowerRTF/fields/density_by_curvature.h>
 #include <CGAL/PowerRTF/fields/normal_diffusion.h>
 
+#include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -28,6 +31,21 @@ bool done_on(int device, const Work& work)
   }
 }
 
+/// Has what stays when the backend that has made it goes.
+struct Device_surface final : Resident_surface {
+  std::vector<device::Cuda_backend::Kept_memory> memory;
+
+  Device_surface(int device_number, internal::Facet_buffers<device::Cuda_backend>&& buffers)
+  {
+    facets = buffers.view();
+    device = device_number;
+    memory.reserve(7);
+    internal::Facet_buffers<device::Cuda_backend>::for_each_array(
+        [&](auto array, std::size_t) { memory.push_back((buffers.*array).keep()); }, 0, 0);
+    for (const auto& block : memory) bytes += block.bytes();
+  }
+};
+
 } // namespace
 
 Surface_work cuda_surface_work(int device)
@@ -36,14 +54,26 @@ Surface_work cuda_surface_work(int device)
   work.build = [device](const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                         Surface& surface) {
     return done_on(device, [&](device::Cuda_backend& backend) {
-      return build_surface(backend, points, triangles, surface);
+      internal::Facet_buffers<device::Cuda_backend> there;
+      if (!build_surface(backend, points, triangles, surface, there)) return false;
+      surface.resident.value = std::make_shared<Device_surface>(device, std::move(there));
+      return true;
     });
   };
-  work.arrange_facets = [device](const std::vector<Vec3d>& points,
-                                 const std::vector<Triangle>& triangles, int* order,
-                                 Child_boxes* nodes) {
+  work.bring_facets = [device](Surface& surface) {
     return done_on(device, [&](device::Cuda_backend& backend) {
-      return arrange_facets(backend, points, triangles, order, nodes);
+      if (internal::are_facets_there(backend, surface.resident.value.get())) return true;
+      internal::Facet_buffers<device::Cuda_backend> there;
+      if (!backend.has_room(internal::bytes_of_facets(backend, surface, nullptr))) return false;
+      there.upload(backend, surface);
+      backend.synchronize(); // other streams read it
+      surface.resident.value = std::make_shared<Device_surface>(device, std::move(there));
+      return true;
+    });
+  };
+  work.arrange_facets = [device](const Surface& surface, int* order, Child_boxes* nodes) {
+    return done_on(device, [&](device::Cuda_backend& backend) {
+      return arrange_facets(backend, surface, order, nodes);
     });
   };
   work.compute_density = [device](const Surface& surface, const Remeshing_options& options,

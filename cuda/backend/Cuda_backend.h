@@ -10,6 +10,7 @@
 #include "Device_context.h"
 #include "Staging_ring.h"
 #include "kernels.cuh"
+#include <CGAL/PowerRTF/geometry/Surface_facets.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -33,6 +34,30 @@ public:
   static constexpr int max_resident = 300000; ///< threads that a GPU runs at once
   /// Of what is done in the host's memory.
   static internal::Concurrency concurrency() { return Parallel_if_available_tag(); }
+
+  /// Memory of the device's context that no backend has. Nothing may be under way with it in the
+  /// end.
+  class Kept_memory {
+  public:
+    Kept_memory(Device_context& context, void* data, std::size_t bytes)
+        : m_context(&context), m_data(data), m_bytes(bytes)
+    {}
+    Kept_memory(Kept_memory&& other) noexcept
+        : m_context(other.m_context), m_data(std::exchange(other.m_data, nullptr)),
+          m_bytes(other.m_bytes)
+    {}
+    Kept_memory& operator=(Kept_memory&&) = delete;
+    ~Kept_memory()
+    {
+      if (m_data) m_context->memory().give_back(m_data, m_bytes);
+    }
+    std::size_t bytes() const { return m_bytes; }
+
+  private:
+    Device_context* m_context;
+    void* m_data;
+    std::size_t m_bytes;
+  };
 
   /// Device memory that is given back with it. Its contents are lost when it grows.
   template <class T>
@@ -62,6 +87,16 @@ public:
     T* data() { return m_data; }
     const T* data() const { return m_data; }
     std::size_t size() const { return m_size; }
+
+    /// What it has from now on outlives the backend. \pre it has something
+    Kept_memory keep()
+    {
+      const std::size_t bytes = m_capacity * sizeof(T);
+      m_backend->m_bytes -= bytes;
+      Kept_memory kept(m_backend->m_context, std::exchange(m_data, nullptr), bytes);
+      m_capacity = m_size = 0;
+      return kept;
+    }
 
   private:
     void swap(Buffer& other) noexcept
@@ -205,6 +240,9 @@ public:
     fill_kernel<<<unsigned((n + 255) / 256), 256, 0, stream()>>>(to, value, n);
     check(cudaGetLastError(), "starting a kernel");
   }
+
+  /// Whether that is on its device.
+  bool has(const Resident_surface& surface) const { return surface.device == m_context.device(); }
 
   /// Whether so many bytes are free now.
   bool has_room(std::size_t bytes) const

@@ -59,7 +59,7 @@ public:
         m_whole(PowerRTF::split_off_image(m_surface, m_options, m_report,
                                           typename Traits::Concurrency_tag())),
         m_patches(m_surface, m_options, typename Traits::Concurrency_tag(),
-                  Engine::surface_work(m_options).diffuse_normals),
+                  Engine::surface_work(m_options)),
         m_engine(m_patches.surface(), m_options)
   {
     if (!m_whole) m_report.samples_asked = m_options.number_of_samples;

@@ -127,14 +127,14 @@ inline void check_trees(const Arrange_facets& arrange)
        {Soup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, octahedron(), plane_patch(3, 3),
         two_spheres(4), permuted(torus(300, 150, 1, .3), 1)}) {
     CAPTURE(soup.triangles.size());
-    const Surface surface = make_surface(soup);
-    const std::vector<int> patches(surface.triangles.size(), 7);
+    Surface surface = make_surface(soup);
+    surface.facet_patches.assign(surface.triangles.size(), 7);
     bool is_arranged = false;
     const CGAL::Parallel_if_available_tag parallel;
     const Facet_tree tree(
-        surface.points, surface.triangles, patches, parallel,
+        surface, parallel,
         [&](const auto&... arguments) { return is_arranged = arrange(arguments...); }),
-        expected(surface.points, surface.triangles, patches, parallel);
+        expected(surface.points, surface.triangles, surface.facet_patches, parallel);
     CHECK(is_arranged);
     CHECK(tree.order() == expected.order());
     CHECK(tree.places() == expected.places());

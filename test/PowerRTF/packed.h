@@ -5,8 +5,8 @@
 #ifndef CGAL_POWER_RTF_TEST_PACKED_H
 #define CGAL_POWER_RTF_TEST_PACKED_H
 
-#include <CGAL/PowerRTF/engines/Surface_arrays.h>
-#include <CGAL/PowerRTF/geometry/pack_surface.h>
+#include <CGAL/PowerRTF/geometry/Surface_arrays.h>
+#include <CGAL/PowerRTF/geometry/make_surface_in_tree.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 
 #include <CGAL/tags.h>
@@ -18,12 +18,13 @@ template <class Real>
 struct Packed {
   Packed_backend backend;
   CGAL::PowerRTF::Facet_tree tree;
-  CGAL::PowerRTF::Packed_surface surface;
+  CGAL::PowerRTF::Surface_in_tree surface;
   CGAL::PowerRTF::Surface_arrays<Real, Packed_backend> arrays;
 
   explicit Packed(const CGAL::PowerRTF::Surface& s)
       : tree(s.points, s.triangles, s.facet_patches),
-        surface(CGAL::PowerRTF::internal::packed_surface(s, tree, true)), arrays(backend, surface)
+        surface(CGAL::PowerRTF::internal::make_surface_in_tree(s, tree, true)),
+        arrays(backend, surface)
   {}
   Packed(const Packed&) = delete;
   const CGAL::PowerRTF::Surface_view<Real>& view() const { return arrays.view(); }

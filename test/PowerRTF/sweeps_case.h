@@ -40,6 +40,7 @@ public:
   {}
 
   const internal::Star_mesh& mesh() const { return m_mesh; }
+  const Surface& surface() const { return m_case.surface; }
   double spacing() const { return std::sqrt(m_case.surface.area / double(m_mesh.size())); }
 
   std::unique_ptr<Star_sweeps_base> host_sweeps(internal::Concurrency concurrency) const

@@ -20,17 +20,16 @@ TEST_CASE_TEMPLATE("what a backend makes of clean triangles is the surface that 
   built_surfaces::check([](const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
                            Surface& surface) {
     Host_backend<Tag> backend;
-    return build_surface(backend, points, triangles, surface);
+    internal::Facet_buffers<Host_backend<Tag>> there;
+    return build_surface(backend, points, triangles, surface, there);
   });
 }
 
 TEST_CASE_TEMPLATE("facets that a backend arranges are in the tree that the host makes", Tag,
                    CGAL::Sequential_tag, CGAL::Parallel_if_available_tag)
 {
-  built_surfaces::check_trees([](const std::vector<Vec3d>& points,
-                                 const std::vector<Triangle>& triangles, int* order,
-                                 Child_boxes* nodes) {
+  built_surfaces::check_trees([](const Surface& surface, int* order, Child_boxes* nodes) {
     Host_backend<Tag> backend;
-    return arrange_facets(backend, points, triangles, order, nodes);
+    return arrange_facets(backend, surface, order, nodes);
   });
 }

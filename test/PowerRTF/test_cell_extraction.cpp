@@ -210,13 +210,13 @@ TEST_CASE("a patch without cells is no hole")
 /// On the host; counts what it finds.
 Find_sound_stars find_sound_stars(std::size_t& sound)
 {
-  return [&sound](const Connected_facets& surface, int facets, int vertices,
-                  const Cell_triangles& triangles, unsigned char* is_sound) {
-    Host_backend<Sequential_tag> host;
-    REQUIRE(internal::find_sound_stars(host, surface, facets, vertices, triangles, is_sound));
-    sound = std::count(is_sound, is_sound + triangles.cells, 1);
-    return true;
-  };
+  return
+      [&sound](const Surface& surface, const Cell_triangles& triangles, unsigned char* is_sound) {
+        Host_backend<Sequential_tag> host;
+        REQUIRE(internal::find_sound_stars(host, surface, triangles, is_sound));
+        sound = std::count(is_sound, is_sound + triangles.cells, 1);
+        return true;
+      };
 }
 
 TEST_CASE("the same for any number of threads, and with sound triangles found elsewhere")

@@ -10,7 +10,8 @@
 #include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/exact/check_cells.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
-#include <CGAL/PowerRTF/geometry/pack_surface.h>
+#include <CGAL/PowerRTF/geometry/Surface_arrays.h>
+#include <CGAL/PowerRTF/geometry/make_surface_in_tree.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/sampling/Lattice_field.h>
@@ -71,10 +72,15 @@ Samples lattice_but_for_rounding(const Case& c, const Start& start, unsigned num
 {
   const Surface& surface = start.patches->surface();
   const Facet_tree tree(surface.points, surface.triangles, surface.facet_patches);
-  Packed_surface packed = internal::packed_surface(surface, tree, false);
-  std::vector<Facet_corners<double>> facets(packed.facets.facets,
-                                            packed.facets.facets + surface.triangles.size());
-  packed.facets.facets = facets.data();
+  Host_backend<Tag> backend;
+  const Surface_arrays<double, Host_backend<Tag>> arrays(
+      backend, internal::make_surface_in_tree(surface, tree));
+  Surface_view<double> view = arrays.view();
+  std::vector<Facet_corners<double>> facets(view.facets, view.facets + surface.triangles.size());
+  std::vector<Vertex_attributes<double>> attributes(view.attributes,
+                                                    view.attributes + surface.points.size());
+  view.facets = facets.data();
+  view.attributes = attributes.data();
   std::mt19937 random(number);
   std::uniform_real_distribution<double> ulp(-6e-8, 6e-8); // of 1, which no coordinate exceeds
   const auto move = [&](Vec3d& v) {
@@ -82,10 +88,9 @@ Samples lattice_but_for_rounding(const Case& c, const Start& start, unsigned num
   };
   for (Facet_corners<double>& f : facets)
     for (Vec3d* corner : {&f.a, &f.b, &f.c}) move(*corner);
-  for (Vertex_attributes<double>& a : packed.attributes) move(a.normal);
-  Host_backend<Tag> backend;
+  for (Vertex_attributes<double>& a : attributes) move(a.normal);
   const auto make = [&](const Lattice_plan& plan) {
-    return std::make_unique<Lattice_field<Host_backend<Tag>>>(backend, packed.view(), plan);
+    return std::make_unique<Lattice_field<Host_backend<Tag>>>(backend, view, plan);
   };
   return sample_surface<Tag>(surface, c.options, start.patches->features(), &tree, nullptr, make);
 }

@@ -2,18 +2,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The memory that a run takes on a device, as it is told before, against what an engine on the host
-// takes whose arrays are counted. (On a device: test_cuda_device/memory.cpp.)
+// takes whose arrays are counted; and what goes up. (On a device: test_cuda_device/memory.cpp.)
 #include "engine_comparison.h"
+#include "sweeps_case.h"
 
 #include <CGAL/PowerRTF/cells/Tree_cells.h>
 #include <CGAL/PowerRTF/engines/Engine.h>
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
+#include <CGAL/PowerRTF/geometry/Surface_facets.h>
+#include <CGAL/PowerRTF/geometry/halve_edges.h>
+#include <CGAL/PowerRTF/geometry/make_surface_in_tree.h>
+#include <CGAL/PowerRTF/geometry/split_at_centers.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/quality/surface_distance.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <utility>
 
 using namespace engine_comparison;
 
@@ -25,6 +33,8 @@ using Backend = Host_backend<CGAL::Sequential_tag>;
 class Counting_backend : public Backend {
 public:
   static constexpr bool is_host = false;
+  static constexpr int device = 7;
+  inline static std::size_t uploaded = 0; ///< bytes, by all of them
 
   /// Bytes that count for as long as it lives.
   struct Uncount {
@@ -53,6 +63,13 @@ public:
     Count m_count;
   };
 
+  static bool has(const Resident_surface& surface) { return surface.device == device; }
+  template <class T>
+  void upload(T* to, const T* from, std::size_t n)
+  {
+    uploaded += n * sizeof(T);
+    Backend::upload(to, from, n);
+  }
   std::size_t bytes() const { return m_most; }
   static std::size_t least_bytes() { return 0; }
 
@@ -81,7 +98,7 @@ struct Make_counted {
   using Concurrency_tag = CGAL::Sequential_tag;
   static void check(const Run_sizes&, const Remeshing_options&) {}
   static Surface_work surface_work(const Remeshing_options&) { return {}; }
-  static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
+  static std::unique_ptr<Engine_base> make(const Surface_in_tree& surface,
                                            const Remeshing_options& options)
   {
     return std::make_unique<Counted>(surface, options);
@@ -124,6 +141,64 @@ TEST_CASE("a run takes the memory that was told before, but for some per cent")
     CHECK(ratio >= (has_features ? 0.95 : 0.99));
     CHECK(ratio <= 1.05);
   }
+}
+
+TEST_CASE("the facets of a surface go up once, or not at all where they are there")
+{
+  const improvement_case::Sweeps_case mesh(shapes::ellipsoid(1, 0.7, 0.4, 4), 500);
+  const Surface& surface = mesh.surface();
+  const Facet_tree tree(surface.points, surface.triangles);
+  const auto uploaded_by = [](const auto& f) {
+    const std::size_t before = Counting_backend::uploaded;
+    f();
+    return Counting_backend::uploaded - before;
+  };
+  const auto here = std::make_shared<Resident_surface>();
+  here->facets = surface;
+  const std::size_t facets = internal::bytes_of_listed<internal::Facet_buffers<Counting_backend>>(
+      surface.points.size(), surface.triangles.size());
+  std::optional<std::size_t> least; // to make an engine
+  for (const int device : {Counting_backend::device, 0}) {
+    here->device = device;
+    Surface_in_tree in_tree = internal::make_surface_in_tree(surface, tree);
+    in_tree.resident = here;
+    std::optional<Counted> engine;
+    const std::size_t uploaded = uploaded_by([&] { engine.emplace(in_tree, Remeshing_options()); });
+    if (!least) least = uploaded;
+    CHECK(uploaded == *least + (device == Counting_backend::device ? 0 : facets));
+
+    std::unique_ptr<Star_sweeps_base> sweeps;
+    CHECK(uploaded_by([&] { sweeps = mesh.sweeps(engine->star_sweeps_maker()); }) == 0);
+    const auto host = mesh.host_sweeps(CGAL::Sequential_tag());
+    const auto stars = mesh.smoothed(*sweeps, 2), on_host = mesh.smoothed(*host, 2);
+    REQUIRE(stars.size() == int(mesh.mesh().size()));
+    CHECK(stars.points == on_host.points);
+    CHECK(stars.facets == on_host.facets);
+
+    const shapes::Soup other = shapes::icosphere(2);
+    Distance_statistics distances;
+    CHECK(uploaded_by([&] {
+            distances = surface_distance(surface.points, surface.triangles, tree, other.points,
+                                         other.triangles, CGAL::Sequential_tag(), false,
+                                         engine->distance_finder());
+          }) == sizeof(Vec3d) * other.points.size() + sizeof(Triangle) * other.triangles.size());
+    CHECK(distances.mean ==
+          surface_distance(surface.points, surface.triangles, tree, other.points, other.triangles)
+              .mean);
+  }
+}
+
+TEST_CASE("what is known of a surface's facets is forgotten when they change, and by a copy")
+{
+  Surface surface = shapes::make_surface(shapes::octahedron());
+  const auto here = std::make_shared<Resident_surface>();
+  surface.resident.value = here;
+  CHECK(!Surface(surface).resident.value);
+  Surface moved = std::move(surface);
+  CHECK(moved.resident.value == here);
+  SUBCASE("edges are halved") { halve_edges(moved, {0}); }
+  SUBCASE("facets are split") { split_at_centers(moved, {0}); }
+  CHECK(!moved.resident.value);
 }
 
 TEST_CASE("more samples and facets take more memory")

@@ -176,14 +176,18 @@ namespace {
 
 /// As an engine finds them.
 template <class Tag>
-Find_distances finder(const Facet_tree& tree, const std::vector<int>& corners_by_place)
+Find_distances finder(const Soup& surface, const Facet_tree& tree,
+                      const std::vector<int>& corners_by_place)
 {
-  return [&](const Mesh_arrays& surface, const Mesh_arrays& mesh, int samples,
-             Two_sided_distances& result) {
+  return [&](const Mesh_arrays& mesh, int samples, Two_sided_distances& result) {
     Host_backend<Tag> backend;
     Surface_view<double> there = tree.view();
     there.facet_vertices = corners_by_place.data();
-    return internal::surface_distances(backend, there, surface, mesh, samples, result);
+    Surface_facets facets;
+    facets.vertices = int(surface.points.size());
+    facets.facets = int(surface.triangles.size());
+    facets.points = surface.points.data();
+    return internal::surface_distances(backend, facets, there, mesh, samples, result);
   };
 }
 
@@ -218,8 +222,8 @@ TEST_CASE("distance: found by a backend, to the last bit")
       };
       const bool is_bound_wanted = in.triangles.size() < 20 && out.triangles.size() < 20;
       const Distance_statistics expected = run(is_bound_wanted, {});
-      check_same(run(is_bound_wanted, finder<Tag>(tree, corners)), expected);
-      check_same(run(is_bound_wanted, finder<CGAL::Sequential_tag>(tree, corners)), expected);
+      check_same(run(is_bound_wanted, finder<Tag>(in, tree, corners)), expected);
+      check_same(run(is_bound_wanted, finder<CGAL::Sequential_tag>(in, tree, corners)), expected);
     }
   }
 }

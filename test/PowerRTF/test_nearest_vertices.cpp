@@ -80,15 +80,14 @@ TEST_CASE("the facets at each vertex")
   for (const shapes::Soup& soup : {shapes::octahedron(), shapes::plane_patch(4, 3)}) {
     const Surface s = shapes::make_surface(soup);
     const Facet_tree tree(s.points, s.triangles);
-    const Packed_surface packed = internal::packed_surface(s, tree, true);
-    const internal::Unset_vector<int>& first = packed.first_facet;
-    REQUIRE(first.size() == s.points.size() + 1);
+    const Surface_in_tree packed = internal::make_surface_in_tree(s, tree, true);
+    const int* const first = packed.facets.first_corner;
     CHECK(packed.vertex_facets.size() == 3 * s.triangles.size());
     for (int v = 0; v < static_cast<int>(s.points.size()); ++v) {
       std::vector<int> expected; // by their numbers in the surface
       for (int f = 0; f < static_cast<int>(s.triangles.size()); ++f) {
-        const int* const vertices = &packed.facet_vertices[3 * tree.place(f)];
-        if (std::count(vertices, vertices + 3, v)) expected.push_back(tree.place(f));
+        if (std::count(s.triangles[f].begin(), s.triangles[f].end(), v))
+          expected.push_back(tree.place(f));
       }
       CHECK(std::vector<int>(packed.vertex_facets.begin() + first[v],
                              packed.vertex_facets.begin() + first[v + 1]) == expected);

@@ -97,6 +97,9 @@ public:
   void stop_clock();
   double seconds() const;
 
+  /// Whether the facets of a surface are where it works; not asked of the host.
+  bool has(const CGAL::PowerRTF::Resident_surface& surface) const;
+
   /// Whether so many bytes are free.
   bool has_room(std::size_t bytes) const;
 

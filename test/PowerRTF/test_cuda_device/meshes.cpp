@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <random>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace engine_comparison;
@@ -94,12 +96,10 @@ TEST_CASE("cells whose triangles are sound are those that the host finds")
                                    neighbors.first.data(), neighbors.neighbors.data(),
                                    sites.points.data(),    sites.normals.data(),
                                    sites.facets.data()};
-    const int facets = int(surface.triangles.size()), vertices = int(surface.points.size());
     Host_backend<CGAL::Parallel_if_available_tag> host;
     std::vector<unsigned char> found(triangles.cells), expected(triangles.cells);
-    REQUIRE(
-        internal::find_sound_stars(host, surface, facets, vertices, triangles, expected.data()));
-    REQUIRE(engine.sound_star_finder()(surface, facets, vertices, triangles, found.data()));
+    REQUIRE(internal::find_sound_stars(host, surface, triangles, expected.data()));
+    REQUIRE(engine.sound_star_finder()(surface, triangles, found.data()));
     CHECK(found == expected);
     CHECK(std::count(found.begin(), found.end(), 1) > triangles.cells / 2);
   }
@@ -109,6 +109,50 @@ TEST_CASE("clean triangles become the surface and the tree that the host makes")
 {
   built_surfaces::check(Cuda_engine<float>::surface_work({}).build);
   built_surfaces::check_trees(Cuda_engine<float>::surface_work({}).arrange_facets);
+}
+
+TEST_CASE("facets that are on the GPU are those that would go up")
+{
+  const Surface_work work = Cuda_engine<float>::surface_work({});
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    const Start start(c);
+    const Surface& surface = start.patches->surface();
+    Surface resident = surface;
+    REQUIRE(work.bring_facets(resident));
+    const auto there = resident.resident.value;
+    REQUIRE(there);
+    CHECK(there->bytes >= resident.triangles.size() * 60);
+    CHECK(work.bring_facets(resident));
+    CHECK(resident.resident.value == there);
+    Remeshing_options elsewhere;
+    elsewhere.device = 1000; // there is none
+    CHECK_FALSE(Cuda_engine<float>::surface_work(elsewhere).bring_facets(resident));
+    CHECK(resident.resident.value == there);
+
+    const auto run = [&](const Surface& s) {
+      Cuda_engine<float> engine(s, c.options);
+      engine.set_samples(start.samples, start.patches->features());
+      for (int k = 0; k < 3; ++k) {
+        engine.build_cells();
+        engine.move_samples(Position_method::lloyd);
+      }
+      Two_sided_distances distances;
+      const shapes::Soup sphere = shapes::icosphere(3);
+      const Mesh_arrays mesh{int(sphere.points.size()), sphere.points.data(),
+                             int(sphere.triangles.size()), sphere.triangles.data()->data()};
+      REQUIRE(engine.distance_finder()(mesh, 1000, distances));
+      return std::make_tuple(engine.samples().points, engine.samples().density,
+                             distances.from_surface.sum, distances.from_mesh.sum);
+    };
+    CHECK(run(resident) == run(surface));
+    const Surface moved = std::move(resident); // keeps them
+    CHECK(run(moved) == run(surface));
+    std::vector<double> density, expected;
+    CHECK(work.compute_density(moved, c.options, density) ==
+          work.compute_density(surface, c.options, expected));
+    CHECK(density == expected);
+  }
 }
 
 TEST_CASE("normals are smoothed as on the host")

@@ -19,19 +19,16 @@ using improvement_case::Sweeps_case;
 
 namespace {
 
-/// An engine on the GPU, with any surface and its samples.
+/// An engine on the GPU, with the surface of meshes.
 class Device {
 public:
-  Device()
-      : m_case(cases()[0]), m_start(m_case), m_engine(m_start.patches->surface(), m_case.options)
+  explicit Device(const Surface& surface) : m_engine(surface, Remeshing_options())
   {
-    m_engine.set_samples(m_start.samples, m_start.patches->features());
+    m_engine.facet_finder(); // the surface is there
   }
   Make_star_sweeps maker() { return m_engine.star_sweeps_maker(); }
 
 private:
-  Case m_case;
-  Start m_start;
   Cuda_engine<float> m_engine;
 };
 
@@ -39,7 +36,6 @@ private:
 
 TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
 {
-  Device device;
   const shapes::Soup fine = shapes::ellipsoid(1, 0.7, 0.4, 6);
   struct Mesh {
     shapes::Soup soup;
@@ -52,6 +48,7 @@ TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
         Mesh{fine, 3000, 1e-6}, Mesh{fine, 40000, 1e-6}}) {
     CAPTURE(n);
     const Sweeps_case mesh(soup, n);
+    Device device(mesh.surface());
     const auto on_device = mesh.sweeps(device.maker()),
                on_host = mesh.host_sweeps(CGAL::Parallel_if_available_tag());
     const auto smooth = mesh.smoothed(*on_device, 2), smooth_on_host = mesh.smoothed(*on_host, 2);
@@ -74,7 +71,6 @@ TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
 // What the host finds is compared with a search of all in test_improvement/sweeps.cpp.
 TEST_CASE("the faces that are nearest to a surface's vertices are as near as the host's")
 {
-  Device device;
   struct Mesh {
     shapes::Soup soup;
     int n;
@@ -84,6 +80,7 @@ TEST_CASE("the faces that are nearest to a surface's vertices are as near as the
                                 Mesh{shapes::ellipsoid(1, 0.7, 0.4, 6), 40000}}) {
     CAPTURE(n);
     const Sweeps_case mesh(soup, n);
+    Device device(mesh.surface());
     const auto nearest = mesh.nearest_faces(*mesh.sweeps(device.maker())),
                on_host = mesh.nearest_faces(*mesh.host_sweeps(CGAL::Parallel_if_available_tag()));
     REQUIRE(int(nearest.size()) == mesh.vertices_of_surface());

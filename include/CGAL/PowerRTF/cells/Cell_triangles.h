@@ -56,7 +56,7 @@ struct Cell_triangles {
   }
 
   /// Whether a short way along the surface joins two samples with cells.
-  CGAL_POWER_RTF_HD bool are_neighbors(const Connected_facets& surface, int v, int w) const
+  CGAL_POWER_RTF_HD bool are_neighbors(const Surface_facets& surface, int v, int w) const
   {
     const Vec3d p = points[v], q = points[w], up = normals[v] + normals[w];
     const double scale = length(q - p);

@@ -12,11 +12,9 @@ namespace CGAL::PowerRTF {
 
 /// Writes, where an engine works, for each cell whether its triangles are sound for sure: the cells
 /// at their corners agree on all of them, and they lie well; see `Cell_triangles`. Those at samples
-/// without a cell are left to the caller. `facets`, `vertices`: the numbers of the surface's.
-/// Returns `false` where it does nothing.
-using Find_sound_stars =
-    std::function<bool(const Connected_facets& surface, int facets, int vertices,
-                       const Cell_triangles& triangles, unsigned char* is_sound)>;
+/// without a cell are left to the caller. Returns `false` where it does nothing.
+using Find_sound_stars = std::function<bool(const Surface& surface, const Cell_triangles& triangles,
+                                            unsigned char* is_sound)>;
 
 } // namespace CGAL::PowerRTF
 

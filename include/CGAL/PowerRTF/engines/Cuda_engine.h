@@ -29,7 +29,7 @@ struct Make_cuda_engine {
   {
     return cuda_surface_work(options.device);
   }
-  static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
+  static std::unique_ptr<Engine_base> make(const Surface_in_tree& surface,
                                            const Remeshing_options& options)
   {
     return make_cuda_engine(surface, options, precision);

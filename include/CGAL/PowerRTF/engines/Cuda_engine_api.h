@@ -8,6 +8,7 @@
 
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/fields/Surface_work.h>
+#include <CGAL/PowerRTF/geometry/Surface_in_tree.h>
 
 #include <cstddef>
 #include <future>
@@ -61,7 +62,7 @@ void check_cuda_device(const Run_sizes& sizes, const Remeshing_options& options,
                        Cuda_precision precision);
 
 /// An engine on GPU number `options.device`. \throws Cuda_error
-std::unique_ptr<Engine_base> make_cuda_engine(const Packed_surface& surface,
+std::unique_ptr<Engine_base> make_cuda_engine(const Surface_in_tree& surface,
                                               const Remeshing_options& options,
                                               Cuda_precision precision);
 

@@ -8,13 +8,14 @@
 
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
 #include <CGAL/PowerRTF/engines/Engine_base.h>
-#include <CGAL/PowerRTF/engines/Surface_arrays.h>
 #include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/engines/nearest_facets.h>
 #include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
 #include <CGAL/PowerRTF/engines/sound_stars.h>
 #include <CGAL/PowerRTF/engines/surface_distances.h>
+#include <CGAL/PowerRTF/geometry/Surface_arrays.h>
+#include <CGAL/PowerRTF/geometry/Surface_in_tree.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
 #include <CGAL/PowerRTF/optimization/position_steps.h>
@@ -42,10 +43,10 @@ class Engine final : public Engine_base {
 public:
   /// `backend`: the arguments of the backend's constructor.
   template <class... Arguments>
-  Engine(const Packed_surface& surface, const Remeshing_options& options, Arguments&&... backend)
+  Engine(const Surface_in_tree& surface, const Remeshing_options& options, Arguments&&... backend)
       : m_options(options), m_cos_angle(Real(compatibility_cosine(options.normal_angle))),
-        m_backend(std::forward<Arguments>(backend)...), m_surface(m_backend, surface),
-        m_area_of_surface(surface.area), m_shared_summary(m_backend)
+        m_resident(surface.resident), m_backend(std::forward<Arguments>(backend)...),
+        m_surface(m_backend, surface), m_area_of_surface(surface.area), m_shared_summary(m_backend)
   {
     m_summary.allocate(m_backend, 1);
     m_scalar.allocate(m_backend, 1);
@@ -97,10 +98,10 @@ public:
     if constexpr (Backend::is_host)
       return {};
     else
-      return [this](const Mesh_arrays& surface, const Mesh_arrays& mesh, int samples,
-                    Two_sided_distances& result) {
-        return internal::surface_distances(m_backend, m_surface.view(), surface, mesh, samples,
-                                           result);
+      return [this](const Mesh_arrays& mesh, int samples, Two_sided_distances& result) {
+        const std::optional<Surface_view<double>> there = m_surface.view_in_double(m_backend);
+        return there && internal::surface_distances(m_backend, m_surface.facets(), *there, mesh,
+                                                    samples, result);
       };
   }
   Find_close_faces close_face_finder() override
@@ -118,11 +119,10 @@ public:
     if constexpr (Backend::is_host)
       return {};
     else
-      return [this](const Connected_facets& surface, int facets, int vertices,
-                    const Cell_triangles& triangles, unsigned char* is_sound) {
-        return internal::find_sound_stars(m_backend, surface, facets, vertices, triangles,
-                                          is_sound);
-      };
+      return
+          [this](const Surface& surface, const Cell_triangles& triangles, unsigned char* is_sound) {
+            return internal::find_sound_stars(m_backend, surface, triangles, is_sound);
+          };
   }
   Find_topology topology_finder() override
   {
@@ -149,14 +149,20 @@ public:
     if constexpr (Backend::is_host)
       return {};
     else
-      return [this](const Surface_descent& surface, double grid) {
-        return std::make_unique<Star_sweeps<Backend>>(m_backend, surface, grid);
-      };
+      return
+          [this](const Surface_descent& surface, double grid) -> std::unique_ptr<Star_sweeps_base> {
+            const std::optional<Surface_descent> there = m_surface.descent(m_backend, surface);
+            if (!there) return nullptr;
+            return std::make_unique<Star_sweeps<Backend>>(m_backend, *there, grid);
+          };
   }
   double epsilon() const override { return std::numeric_limits<Real>::epsilon(); }
   Device_report device_report() override
   {
-    return {m_backend.name(), m_backend.seconds(), m_backend.bytes()};
+    std::size_t bytes = m_backend.bytes();
+    if constexpr (!Backend::is_host)
+      if (internal::are_facets_there(m_backend, m_resident.get())) bytes += m_resident->bytes;
+    return {m_backend.name(), m_backend.seconds(), bytes};
   }
 
 private:
@@ -228,6 +234,7 @@ private:
 
   Remeshing_options m_options;
   Real m_cos_angle;
+  std::shared_ptr<const Resident_surface> m_resident; // or null; until the backend has done all
   Backend m_backend;
   Surface_arrays<Real, Backend> m_surface;
   double m_area_of_surface;

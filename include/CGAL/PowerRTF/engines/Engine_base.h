@@ -14,7 +14,6 @@
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/geometry/Find_topology.h>
-#include <CGAL/PowerRTF/geometry/Packed_surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>

@@ -40,7 +40,9 @@ std::size_t Engine<R, B, C>::bytes(const Run_sizes& sizes, const Remeshing_optio
   if (has_newton) weights = Newton_solver<R, B>::bytes(n);
   if (options.extraction == Extraction_method::cells)
     extraction = n * sizeof(Site<R>) + C::neighbors_bytes(n); // see neighbors()
-  return B::least_bytes() + Surface_arrays<R, B>::bytes(sizes, options) +
+  return B::least_bytes() +
+         Surface_arrays<R, B>::bytes(sizes.facets, sizes.vertices, sizes.has_patches,
+                                     asks_for_vertices(options)) +
          (std::max)(sampling, samples + (std::max)({positions, weights, extraction}));
 }
 

@@ -17,7 +17,7 @@ struct Make_host_engine {
   using Concurrency_tag = ConcurrencyTag;
   static void check(const Run_sizes&, const Remeshing_options&) {}
   static Surface_work surface_work(const Remeshing_options&) { return {}; }
-  static std::unique_ptr<Engine_base> make(const Packed_surface& surface,
+  static std::unique_ptr<Engine_base> make(const Surface_in_tree& surface,
                                            const Remeshing_options& options);
 };
 

@@ -16,7 +16,7 @@ namespace CGAL::PowerRTF {
 
 template <class Real, class Construction, class ConcurrencyTag>
 std::unique_ptr<Engine_base>
-Make_host_engine<Real, Construction, ConcurrencyTag>::make(const Packed_surface& surface,
+Make_host_engine<Real, Construction, ConcurrencyTag>::make(const Surface_in_tree& surface,
                                                            const Remeshing_options& options)
 {
   using Backend = Host_backend<ConcurrencyTag>;

@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/geometry/Find_topology.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/Surface_in_tree.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -89,7 +90,7 @@ public:
   static Run_sizes run_sizes(const Surface& surface, const Remeshing_options& options);
 
 protected:
-  using Make = std::unique_ptr<Engine_base> (*)(const Packed_surface&, const Remeshing_options&);
+  using Make = std::unique_ptr<Engine_base> (*)(const Surface_in_tree&, const Remeshing_options&);
 
   /// Keeps a reference to `surface`.
   /// `concurrency`: of the construction of what stays on the host; `arrange`: of the facets' tree.
@@ -107,7 +108,7 @@ private:
   internal::Concurrency m_concurrency;
   Arrange_facets m_arrange;
   std::unique_ptr<Facet_tree> m_tree;
-  Packed_surface m_packed; // refers to the tree
+  Surface_in_tree m_in_tree;
   std::unique_ptr<Engine_base> m_engine;
   std::size_t m_size = 0, m_sites = 0; // cells; and with the feature samples' sites
 };
@@ -115,7 +116,7 @@ private:
 /// \cgalModels `PowerRTFEngine`
 ///
 /// \tparam Maker `Maker::check(run_sizes, options)` throws what keeps the engine from working;
-/// `Maker::make(packed_surface, options)` returns a `std::unique_ptr<Engine_base>`;
+/// `Maker::make(surface_in_tree, options)` returns a `std::unique_ptr<Engine_base>`;
 /// `Maker::surface_work(options)` is what the engine's is;
 /// `Maker::Concurrency_tag` is that of the host's work.
 template <class Maker>

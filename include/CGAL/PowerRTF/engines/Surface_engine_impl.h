@@ -8,7 +8,7 @@
 #include <CGAL/PowerRTF/engines/Surface_engine.h>
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
-#include <CGAL/PowerRTF/geometry/pack_surface.h>
+#include <CGAL/PowerRTF/geometry/make_surface_in_tree.h>
 
 #include <cmath>
 #include <cstddef>
@@ -55,18 +55,16 @@ CGAL_POWER_RTF_INLINE double Surface_engine_base::displacement() const
 
 CGAL_POWER_RTF_INLINE const Facet_tree& Surface_engine_base::facet_tree()
 {
-  if (!m_tree)
-    m_tree = std::make_unique<Facet_tree>(m_surface.points, m_surface.triangles,
-                                          m_surface.facet_patches, m_concurrency, m_arrange);
+  if (!m_tree) m_tree = std::make_unique<Facet_tree>(m_surface, m_concurrency, m_arrange);
   return *m_tree;
 }
 
 CGAL_POWER_RTF_INLINE Engine_base& Surface_engine_base::engine()
 {
   if (!m_engine) { // only now the surface's normals and density are what they will be
-    m_packed = internal::packed_surface(m_surface, facet_tree(), asks_for_vertices(m_options),
-                                        m_concurrency);
-    m_engine = m_make(m_packed, m_options);
+    m_in_tree = internal::make_surface_in_tree(m_surface, facet_tree(),
+                                               asks_for_vertices(m_options), m_concurrency);
+    m_engine = m_make(m_in_tree, m_options);
   }
   return *m_engine;
 }

@@ -6,12 +6,12 @@
 #define CGAL_POWER_RTF_ENGINES_ARRANGE_FACETS_H
 
 #include <CGAL/PowerRTF/geometry/Arrange_facets.h>
+#include <CGAL/PowerRTF/geometry/Surface_facets.h>
 #include <CGAL/PowerRTF/geometry/curve_order.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 
 #include <cstddef>
-#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -37,19 +37,16 @@ struct Facet_arrangement {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Buffer<Vec3d> points;
-  Buffer<int> vertices, order;
+  Buffer<int> order;
   Buffer<Box3<double>> boxes;
   Buffer<Child_boxes> nodes;
 
   /// See listed_arrays.h.
   template <class F>
-  static void for_each_array(F&& f, std::size_t vertices, std::size_t facets)
+  static void for_each_array(F&& f, std::size_t facets)
   {
     using A = Facet_arrangement;
     const std::size_t nodes = Packed_tree_layout(static_cast<int>(facets)).nodes();
-    f(&A::points, vertices);
-    f(&A::vertices, 3 * facets);
     f(&A::order, facets);
     f(&A::boxes, nodes);
     f(&A::nodes, nodes);
@@ -60,18 +57,21 @@ struct Facet_arrangement {
 
 /// As `Arrange_facets`: `false` where the memory does not suffice.
 template <class Backend>
-bool arrange_facets(Backend& backend, const std::vector<Vec3d>& points,
-                    const std::vector<Triangle>& triangles, int* order, Child_boxes* nodes)
+bool arrange_facets(Backend& backend, const Surface& surface, int* order, Child_boxes* nodes)
 {
   using Arrays = internal::Facet_arrangement<Backend>;
-  const int facets = static_cast<int>(triangles.size());
-  if (!backend.has_room(internal::bytes_of_listed<Arrays>(points.size(), triangles.size()) +
-                        internal::order_bytes<Backend>(triangles.size())))
+  const std::size_t n = surface.triangles.size();
+  const int facets = static_cast<int>(n);
+  const Resident_surface* const resident = surface.resident.value.get();
+  if (!backend.has_room(internal::bytes_of_listed<Arrays>(n) + internal::order_bytes<Backend>(n) +
+                        internal::bytes_of_facets(backend, surface, resident)))
     return false;
   Arrays a;
-  internal::allocate_listed(backend, a, points.size(), triangles.size());
-  const Vec3d* const p = internal::uploaded(backend, a.points, points.data());
-  const int* const v = internal::uploaded(backend, a.vertices, triangles.data()->data());
+  internal::Facet_buffers<Backend> buffers;
+  internal::allocate_listed(backend, a, n);
+  const Surface_facets there = internal::facets_there(backend, surface, resident, buffers);
+  const Vec3d* const p = there.points;
+  const int* const v = there.corners;
   internal::order_along_curve(backend, facets, internal::Face_centers{p, v}, a.order.data());
   fit_tree(backend, Packed_tree_layout(facets),
            internal::Box_of_ordered_facet{p, v, a.order.data()}, a.boxes.data(), a.nodes.data());

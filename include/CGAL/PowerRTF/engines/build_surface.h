@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/geometry/Build_surface.h>
 #include <CGAL/PowerRTF/geometry/Spatial_order.h>
+#include <CGAL/PowerRTF/geometry/Surface_facets.h>
 #include <CGAL/PowerRTF/geometry/Vertex_fan.h>
 #include <CGAL/PowerRTF/geometry/component_topology.h>
 #include <CGAL/PowerRTF/geometry/curve_order.h>
@@ -140,10 +141,10 @@ struct Surface_building {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Buffer<Vec3d> given_points, points, facet_normals, vertex_normals;
-  Buffer<int> given_vertices, vertices, vertex_order, facet_order, places, first, corners, opposite;
+  Buffer<Vec3d> given_points, vertex_normals;
+  Buffer<int> given_vertices, vertex_order, facet_order, places;
   Buffer<int> component;
-  Buffer<double> areas, sums;
+  Buffer<double> sums;
   Buffer<Facet_angles> angles;
   Buffer<std::uint64_t> keys;
 
@@ -152,14 +153,10 @@ struct Surface_building {
   static void for_each_array(F&& f, std::size_t vertices, std::size_t facets)
   {
     using A = Surface_building;
-    for (auto array : {&A::given_points, &A::points, &A::vertex_normals}) f(array, vertices);
+    for (auto array : {&A::given_points, &A::vertex_normals}) f(array, vertices);
     for (auto array : {&A::vertex_order, &A::places, &A::component}) f(array, vertices);
-    f(&A::first, vertices + 1);
-    for (auto array : {&A::given_vertices, &A::vertices, &A::corners, &A::opposite})
-      f(array, 3 * facets);
+    f(&A::given_vertices, 3 * facets);
     f(&A::facet_order, facets);
-    f(&A::facet_normals, facets);
-    f(&A::areas, facets);
     f(&A::angles, facets);
     f(&A::keys, 3 * facets);
     f(&A::sums, std::size_t(5));
@@ -168,16 +165,18 @@ struct Surface_building {
 
 /// Sorts the points along the Hilbert curve and the facets by their least vertices.
 template <class Backend>
-void sort_spatially(Backend& backend, Surface_building<Backend>& a, int vertices, int facets)
+void sort_spatially(Backend& backend, Surface_building<Backend>& a, Facet_buffers<Backend>& there)
 {
+  const int vertices = static_cast<int>(there.points.size()),
+            facets = static_cast<int>(there.facet_areas.size());
   order_along_curve(backend, vertices, Points_themselves{a.given_points.data()},
                     a.vertex_order.data());
   backend.for_each(vertices, Place_point{a.given_points.data(), a.vertex_order.data(),
-                                         a.points.data(), a.places.data()});
+                                         there.points.data(), a.places.data()});
   backend.for_each(facets, Renumber_facet{a.places.data(), a.given_vertices.data(), a.keys.data()});
   backend.sort_order(facets, a.keys.data(), a.facet_order.data());
-  backend.for_each(facets,
-                   Order_corners{a.given_vertices.data(), a.facet_order.data(), a.vertices.data()});
+  backend.for_each(
+      facets, Order_corners{a.given_vertices.data(), a.facet_order.data(), there.corners.data()});
 }
 
 /// The topology of a closed surface that hangs together.
@@ -209,40 +208,45 @@ inline void allocate_surface(Concurrency concurrency, int vertices, int facets, 
 
 } // namespace internal
 
-/// As `Build_surface`.
+/// As `Build_surface`. `there` gets the facets of the surface.
 template <class Backend>
 bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
-                   const std::vector<Triangle>& triangles, Surface& surface)
+                   const std::vector<Triangle>& triangles, Surface& surface,
+                   internal::Facet_buffers<Backend>& there)
 {
   using namespace internal;
   const int vertices = static_cast<int>(points.size()), facets = static_cast<int>(triangles.size()),
             corners = 3 * facets;
   Surface_building<Backend> a;
   if (!backend.has_room(bytes_of_listed<Surface_building<Backend>>(vertices, facets) +
+                        bytes_of_listed<Facet_buffers<Backend>>(vertices, facets) +
                         backend.sort_bytes(corners) + order_bytes<Backend>(points.size())))
     return false;
   allocate_listed(backend, a, std::size_t(vertices), std::size_t(facets));
+  allocate_listed(backend, there, std::size_t(vertices), std::size_t(facets));
   const bool is_sorted = triangles.size() > facets_in_caches;
-  backend.upload((is_sorted ? a.given_points : a.points).data(), points.data(), points.size());
-  backend.upload((is_sorted ? a.given_vertices : a.vertices).data(), triangles.data()->data(),
+  backend.upload((is_sorted ? a.given_points : there.points).data(), points.data(), points.size());
+  backend.upload((is_sorted ? a.given_vertices : there.corners).data(), triangles.data()->data(),
                  3 * triangles.size());
-  if (is_sorted) sort_spatially(backend, a, vertices, facets);
+  if (is_sorted) sort_spatially(backend, a, there);
 
   double* const sums = a.sums.data();
   backend.template reduce<2, 0>(facets,
-                                Shape_facet{a.points.data(), a.vertices.data(), a.areas.data(),
-                                            a.facet_normals.data(), a.angles.data()},
+                                Shape_facet{there.points.data(), there.corners.data(),
+                                            there.facet_areas.data(), there.facet_normals.data(),
+                                            a.angles.data()},
                                 Keep_totals{sums});
-  backend.for_each(corners, Set_vertex_key{a.vertices.data(), a.keys.data()});
-  backend.sort_order(corners, a.keys.data(), a.corners.data());
-  backend.for_each(corners + 1, Mark_first_corners{a.vertices.data(), a.corners.data(), corners,
-                                                   vertices, a.first.data()});
+  backend.for_each(corners, Set_vertex_key{there.corners.data(), a.keys.data()});
+  backend.sort_order(corners, a.keys.data(), there.vertex_corners.data());
+  backend.for_each(corners + 1,
+                   Mark_first_corners{there.corners.data(), there.vertex_corners.data(), corners,
+                                      vertices, there.first_corner.data()});
   backend.for_each(vertices, Set_to_own_number{a.component.data()});
-  const Corner_lists lists{a.first.data(), nullptr, a.corners.data()};
+  const Corner_lists lists{there.first_corner.data(), nullptr, there.vertex_corners.data()};
   backend.template reduce<2, 0>(vertices,
-                                Join_facets{a.vertices.data(), lists, a.angles.data(),
-                                            a.facet_normals.data(), a.component.data(),
-                                            a.opposite.data(), a.vertex_normals.data()},
+                                Join_facets{there.corners.data(), lists, a.angles.data(),
+                                            there.facet_normals.data(), a.component.data(),
+                                            there.opposite.data(), a.vertex_normals.data()},
                                 Keep_totals{sums + 2});
   backend.template reduce<1, 0>(vertices, Count_components{a.component.data()},
                                 Keep_totals{sums + 4});
@@ -257,14 +261,14 @@ bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
   const auto take = [&](auto* to, const auto& from) {
     backend.download(to, from.data(), from.size());
   };
-  take(result.points.data(), a.points);
-  take(result.triangles.data()->data(), a.vertices);
-  take(result.facet_normals.data(), a.facet_normals);
-  take(result.facet_areas.data(), a.areas);
+  take(result.points.data(), there.points);
+  take(result.triangles.data()->data(), there.corners);
+  take(result.facet_normals.data(), there.facet_normals);
+  take(result.facet_areas.data(), there.facet_areas);
   take(result.vertex_normals.data(), a.vertex_normals);
-  take(result.adjacency.opposite.data(), a.opposite);
-  take(result.adjacency.corners.first.data(), a.first);
-  take(result.adjacency.corners.entries.data(), a.corners);
+  take(result.adjacency.opposite.data(), there.opposite);
+  take(result.adjacency.corners.first.data(), there.first_corner);
+  take(result.adjacency.corners.entries.data(), there.vertex_corners);
   if (is_sorted)
     take(result.input_vertices.data(), a.vertex_order);
   else

@@ -14,7 +14,7 @@
 namespace CGAL::PowerRTF::internal {
 
 struct Judge_star {
-  Connected_facets surface;
+  Surface_facets surface;
   Cell_triangles triangles;
   unsigned char* is_sound;
 
@@ -47,19 +47,16 @@ struct Sound_star_arrays {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Buffer<int> corners, opposite, neighbors, facets;
+  Buffer<int> neighbors, facets;
   Buffer<std::size_t> first;
-  Buffer<Vec3d> vertices, points, normals;
+  Buffer<Vec3d> points, normals;
   Buffer<unsigned char> is_sound;
 
-  /// See listed_arrays.h. `facets`, `vertices`: of the surface; `neighbors`: of all cells.
+  /// See listed_arrays.h. `neighbors`: of all cells.
   template <class F>
-  static void for_each_array(F&& f, std::size_t facets, std::size_t vertices, std::size_t cells,
-                             std::size_t samples, std::size_t neighbors)
+  static void for_each_array(F&& f, std::size_t cells, std::size_t samples, std::size_t neighbors)
   {
     using A = Sound_star_arrays;
-    for (auto array : {&A::corners, &A::opposite}) f(array, 3 * facets);
-    f(&A::vertices, vertices);
     f(&A::first, cells + 1);
     f(&A::neighbors, neighbors);
     for (auto array : {&A::points, &A::normals}) f(array, samples);
@@ -70,26 +67,27 @@ struct Sound_star_arrays {
 
 /// As `Find_sound_stars`: `false` where the memory does not suffice.
 template <class Backend>
-bool find_sound_stars(Backend& backend, Connected_facets surface, int facets, int vertices,
-                      Cell_triangles triangles, unsigned char* is_sound)
+bool find_sound_stars(Backend& backend, const Surface& surface, Cell_triangles triangles,
+                      unsigned char* is_sound)
 {
   using Arrays = Sound_star_arrays<Backend>;
   const std::size_t cells = triangles.cells, samples = triangles.samples,
                     neighbors = triangles.first[cells];
-  if (!backend.has_room(bytes_of_listed<Arrays>(facets, vertices, cells, samples, neighbors)))
+  const Resident_surface* const resident = surface.resident.value.get();
+  if (!backend.has_room(bytes_of_listed<Arrays>(cells, samples, neighbors) +
+                        bytes_of_facets(backend, surface, resident)))
     return false;
   Arrays a;
-  allocate_listed(backend, a, std::size_t(facets), std::size_t(vertices), cells, samples,
-                  neighbors);
-  surface.corners = uploaded(backend, a.corners, surface.corners);
-  surface.opposite = uploaded(backend, a.opposite, surface.opposite);
-  surface.points = uploaded(backend, a.vertices, surface.points);
+  Facet_buffers<Backend> of_surface;
+  allocate_listed(backend, a, cells, samples, neighbors);
   triangles.first = uploaded(backend, a.first, triangles.first);
   triangles.neighbors = uploaded(backend, a.neighbors, triangles.neighbors);
   triangles.points = uploaded(backend, a.points, triangles.points);
   triangles.normals = uploaded(backend, a.normals, triangles.normals);
   triangles.facets = uploaded(backend, a.facets, triangles.facets);
-  backend.for_each(static_cast<int>(cells), Judge_star{surface, triangles, a.is_sound.data()});
+  backend.for_each(static_cast<int>(cells),
+                   Judge_star{facets_there(backend, surface, resident, of_surface), triangles,
+                              a.is_sound.data()});
   backend.download(is_sound, a.is_sound.data(), cells);
   return true;
 }

@@ -9,6 +9,7 @@
 
 #include <CGAL/PowerRTF/geometry/Area_samples.h>
 #include <CGAL/PowerRTF/geometry/Find_distances.h>
+#include <CGAL/PowerRTF/geometry/Surface_facets.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/geometry/placed_facets.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
@@ -158,39 +159,38 @@ void find_sampled_distances(Backend& backend, Sampled_distance_arrays<Backend>& 
       n, Distance_totals_rule{a.squared_distances.data(), a.points.data(), samples, result});
 }
 
-/// As `Find_distances`: `false` where the memory does not suffice. `there`: the surface as the
-/// engine has it.
-template <class Real, class Backend>
-bool surface_distances(Backend& backend, const Surface_view<Real>& there,
-                       const Mesh_arrays& surface, const Mesh_arrays& mesh, int samples,
+/// As `Find_distances`: `false` where the memory does not suffice. `surface`, `there`: the surface
+/// where the backend works, and its facets by their places in a tree.
+template <class Backend>
+bool surface_distances(Backend& backend, const Surface_facets& surface,
+                       const Surface_view<double>& there, const Mesh_arrays& mesh, int samples,
                        Two_sided_distances& result)
 {
   using Points = Sampled_distance_arrays<Backend>;
   using Facets = Facet_arrays<Backend>;
   using Tree = Mesh_tree_arrays<Backend>;
-  const auto points_bytes = [&](const Mesh_arrays& m) {
-    return bytes_of_listed<Points>(std::size_t(m.vertices), std::size_t(m.faces),
+  const auto points_bytes = [&](int vertices, int facets) {
+    return bytes_of_listed<Points>(std::size_t(vertices), std::size_t(facets),
                                    std::size_t(samples));
   };
   const Packed_tree_layout layout(mesh.faces);
-  if (!backend.has_room(bytes_of_listed<Facets>(surface) + bytes_of_listed<Facets>(mesh) +
-                        Tree::bytes(layout) + points_bytes(surface) + points_bytes(mesh)))
+  if (!backend.has_room(bytes_of_listed<Facets>(mesh) + Tree::bytes(layout) +
+                        points_bytes(surface.vertices, surface.facets) +
+                        points_bytes(mesh.vertices, mesh.faces)))
     return false;
-  Facets of_surface, of_mesh;
+  Facets of_mesh;
   Tree tree;
   typename Backend::template Buffer<Two_sided_distances> found;
-  allocate_listed(backend, of_surface, surface);
   allocate_listed(backend, of_mesh, mesh);
   allocate_listed(backend, tree, layout);
   found.allocate(backend, 1);
-  const Vec3d* const surface_points = uploaded(backend, of_surface.points, surface.points);
-  const Surface_view<double> a =
-      placed_facets(backend, of_surface, there.facet_tree, there.facet_vertices, there.facet_nodes);
+  Surface_view<double> a = there;
+  a.patches = nullptr;
   const Vec3d* const mesh_points = uploaded(backend, of_mesh.points, mesh.points);
   const Surface_view<double> b = placed_mesh(backend, mesh, of_mesh, tree);
   Points from_surface, from_mesh;
   const int n_surface =
-                place_points(backend, a, surface.vertices, surface_points, samples, from_surface),
+                place_points(backend, a, surface.vertices, surface.points, samples, from_surface),
             n_mesh = place_points(backend, b, mesh.vertices, mesh_points, samples, from_mesh);
   find_sampled_distances(backend, from_surface, n_surface, samples, b, &found.data()->from_surface);
   find_sampled_distances(backend, from_mesh, n_mesh, samples, a, &found.data()->from_mesh);

@@ -48,9 +48,7 @@ public:
         int& j = m_neighbors.neighbors[k];
         if (j >= m_cells) j = m_cells + features.samples_of_sites[j - m_cells];
       });
-    if (find && m_cells > 0)
-      find(surface, static_cast<int>(surface.triangles.size()),
-           static_cast<int>(surface.points.size()), m_triangles, m_is_sound.data());
+    if (find && m_cells > 0) find(surface, m_triangles, m_is_sound.data());
     for_each_index<ConcurrencyTag>(m_cells, [&](int i) {
       for (int k = 0; k < m_triangles.size(i) && !is_sound(i); ++k)
         if (!m_triangles.is_agreed(i, k)) m_is_agreed[i] = 0;

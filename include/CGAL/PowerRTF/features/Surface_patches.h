@@ -8,7 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
-#include <CGAL/PowerRTF/fields/Diffuse_normals.h>
+#include <CGAL/PowerRTF/fields/Surface_work.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -24,10 +24,11 @@ public:
   /// normals by the smoothed ones (the means over the patches at each vertex).
   /// \throws Invalid_input_error when there are too few samples for the topology, or for the
   ///   creases and borders, or too many for the output's coordinates
-  /// \param diffuse what smooths the normals instead of the host, where it does
+  /// \param work what is done where an engine works: it has the facets of `surface()`, and smooths
+  ///   the normals
   Surface_patches(Surface& surface, const Remeshing_options& options,
                   internal::Concurrency concurrency = Sequential_tag(),
-                  const Diffuse_normals& diffuse = {});
+                  const Surface_work& work = {});
 
   Surface_patches(const Surface_patches&) = delete;
   Surface_patches& operator=(const Surface_patches&) = delete;
@@ -45,6 +46,9 @@ public:
   }
 
 private:
+  /// What is done to `surface()` once its facets are what they will be.
+  static void finish(Surface& surface, const Remeshing_options& options,
+                     internal::Concurrency concurrency, const Surface_work& work);
   /// Gives the features' sites facets that have been split: any part of theirs lies on their patch.
   void place_features();
 

@@ -23,7 +23,7 @@ namespace CGAL::PowerRTF {
 
 CGAL_POWER_RTF_INLINE
 Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& options,
-                                 internal::Concurrency concurrency, const Diffuse_normals& diffuse)
+                                 internal::Concurrency concurrency, const Surface_work& work)
     : m_whole(surface)
 {
   const std::size_t n = options.number_of_samples;
@@ -39,7 +39,7 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
   // Means over the nearest vertices would depend on how finely a facet is split.
   const bool splits = options.attributes == Attributes::facet;
   if (is_one_patch && !(splits && has_long_bent_facets(surface, n, concurrency))) {
-    smooth_normals(surface, n, options.normal_smoothing, concurrency, diffuse);
+    finish(surface, options, concurrency, work);
     return;
   }
   std::vector<int> originals; // of the vertices of the patches
@@ -55,11 +55,21 @@ Surface_patches::Surface_patches(Surface& surface, const Remeshing_options& opti
   }
   if (splits) m_parents = split_bent_facets(*m_own, n, concurrency);
   place_features();
-  smooth_normals(*m_own, n, options.normal_smoothing, concurrency, diffuse);
+  finish(*m_own, options, concurrency, work);
   surface.vertex_normals.assign(surface.points.size(), {0, 0, 0});
   for (std::size_t v = 0; v < originals.size(); ++v)
     surface.vertex_normals[originals[v]] += m_own->vertex_normals[v];
   internal::mend_vertex_normals(surface, concurrency);
+}
+
+CGAL_POWER_RTF_INLINE void Surface_patches::finish(Surface& surface,
+                                                   const Remeshing_options& options,
+                                                   internal::Concurrency concurrency,
+                                                   const Surface_work& work)
+{
+  if (work.bring_facets) work.bring_facets(surface);
+  smooth_normals(surface, options.number_of_samples, options.normal_smoothing, concurrency,
+                 work.diffuse_normals);
 }
 
 CGAL_POWER_RTF_INLINE void Surface_patches::place_features()

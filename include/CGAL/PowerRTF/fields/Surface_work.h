@@ -6,6 +6,7 @@
 #include <CGAL/PowerRTF/fields/Compute_density.h>
 #include <CGAL/PowerRTF/fields/Diffuse_normals.h>
 #include <CGAL/PowerRTF/geometry/Arrange_facets.h>
+#include <CGAL/PowerRTF/geometry/Bring_facets.h>
 #include <CGAL/PowerRTF/geometry/Build_surface.h>
 
 namespace CGAL::PowerRTF {
@@ -15,6 +16,7 @@ namespace CGAL::PowerRTF {
 /// is done by the host.
 struct Surface_work {
   Build_surface build;
+  Bring_facets bring_facets;
   Arrange_facets arrange_facets;
   Compute_density compute_density;
   Diffuse_normals diffuse_normals;

@@ -53,7 +53,6 @@ public:
         m_vertices(static_cast<int>(surface.points.size())), m_edges(backend, surface)
   {
     allocate_listed(backend, *this, surface);
-    uploaded(backend, m_areas, surface.facet_areas.data());
     m_density = m_values.data();
     m_spare = m_others.data();
   }
@@ -70,14 +69,13 @@ public:
     for (auto array : {&D::m_order, &D::m_lowered}) f(array, vertices);
     f(&D::m_last, 1);
     f(&D::m_keys, vertices);
-    f(&D::m_areas, surface.triangles.size());
   }
 
   void set_to_curvature()
   {
     using Normalize = Normalize_curvature;
     const Vec3d* const normals = uploaded(m_backend, m_normals, m_surface.vertex_normals.data());
-    m_backend.for_each(m_vertices, Find_curvature{edges(), m_edges.points(), normals, m_density});
+    m_backend.for_each(m_vertices, Find_curvature{edges(), facets().points, normals, m_density});
     for (int pass = 0; pass < Normalize::smoothing_passes; ++pass) {
       m_backend.for_each(m_vertices, Smooth_over_edges{edges(), m_density, m_spare});
       std::swap(m_density, m_spare);
@@ -147,6 +145,7 @@ private:
   using Buffer = typename Backend::template Buffer<T>;
 
   Edges_view edges() const { return m_edges.view(); }
+  const Surface_facets& facets() const { return m_edges.facets(); }
 
   /// What `f(i, totals)` gathers over [0, n): a sum, or a maximum.
   template <int Sums, class F>
@@ -159,8 +158,8 @@ private:
   double largest_value() { return total<0>(m_vertices, Find_largest{m_density}); }
   double integral()
   {
-    return total<1>(static_cast<int>(m_areas.size()),
-                    Density_integral{m_edges.vertices(), m_areas.data(), m_density});
+    return total<1>(facets().facets,
+                    Density_integral{facets().corners, facets().facet_areas, m_density});
   }
 
   double nth_value(std::size_t n)
@@ -182,7 +181,7 @@ private:
   double *m_density, *m_spare; // the values and the others, or the other way round
   Edge_lists<Backend> m_edges;
   Buffer<Vec3d> m_normals;
-  Buffer<double> m_areas, m_values, m_others, m_relative, m_spacing, m_times;
+  Buffer<double> m_values, m_others, m_relative, m_spacing, m_times;
   Buffer<std::uint64_t> m_keys;
   Buffer<int> m_order, m_lowered, m_last;
 };
@@ -195,7 +194,7 @@ bool density_by_curvature(Backend& backend, const Surface& surface,
 {
   using Field = Density_by_curvature<Backend>;
   if (!surface.creases.empty() || surface.adjacency.non_manifold_edges > 0) return false;
-  if (!backend.has_room(bytes_of_listed<Edge_lists<Backend>>(surface) +
+  if (!backend.has_room(Edge_lists<Backend>::bytes(backend, surface) +
                         bytes_of_listed<Field>(surface) +
                         Backend::sort_bytes(static_cast<int>(surface.points.size()))))
     return false;

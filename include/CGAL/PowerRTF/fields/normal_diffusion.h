@@ -59,7 +59,7 @@ bool diffuse_normals(Backend& backend, const Surface& surface, double variance, 
   using Arrays = Normal_arrays<Backend>;
   const int n = static_cast<int>(surface.points.size());
   if (surface.adjacency.non_manifold_edges > 0) return false;
-  if (!backend.has_room(bytes_of_listed<Edge_lists<Backend>>(surface) +
+  if (!backend.has_room(Edge_lists<Backend>::bytes(backend, surface) +
                         bytes_of_listed<Arrays>(surface.points.size())))
     return false;
   const Edge_lists<Backend> lists(backend, surface);

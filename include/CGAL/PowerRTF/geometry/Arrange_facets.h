@@ -7,15 +7,13 @@
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 
 #include <functional>
-#include <vector>
 
 namespace CGAL::PowerRTF {
 
-/// Makes the tree of triangles where an engine works: their order along a curve, and the nodes of a
-/// `Packed_tree_layout` over them. Returns `false` where it does not: then nothing has changed.
-using Arrange_facets =
-    std::function<bool(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
-                       int* order, Child_boxes* nodes)>;
+/// Makes the tree of a surface's facets where an engine works: their order along a curve, and the
+/// nodes of a `Packed_tree_layout` over them. Returns `false` where it does not: then nothing has
+/// changed.
+using Arrange_facets = std::function<bool(const Surface& surface, int* order, Child_boxes* nodes)>;
 
 } // namespace CGAL::PowerRTF
 

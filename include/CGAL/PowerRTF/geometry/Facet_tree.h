@@ -22,25 +22,38 @@ namespace CGAL::PowerRTF {
 
 /// A search structure for the nearest point of a triangle mesh. Queries are read-only.
 class Facet_tree {
+  struct Corners_of {
+    const std::vector<Vec3d>& points;
+    const std::vector<Triangle>& triangles;
+
+    std::array<Vec3d, 3> operator()(int f) const
+    {
+      const Triangle& t = triangles[f];
+      return {points[t[0]], points[t[1]], points[t[2]]};
+    }
+  };
+
 public:
   /// `points` and `triangles`: the mesh (#V by 3, #F by 3), in coordinates of size at most 1;
-  /// `patches`: of the facets, or empty. `concurrency`: of the construction; `arrange`: what does
-  /// the most of it elsewhere, where it does.
+  /// `patches`: of the facets, or empty. `concurrency`: of the construction.
   Facet_tree(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
              const std::vector<int>& patches = {},
-             internal::Concurrency concurrency = Sequential_tag(),
-             const Arrange_facets& arrange = {})
-      : Facet_tree(triangles.size(), patches, concurrency)
+             internal::Concurrency concurrency = Sequential_tag())
+      : Facet_tree(triangles.size(), Corners_of{points, triangles}, patches, concurrency)
+  {}
+
+  /// Of a surface with its patches. `arrange`: what does the most of the construction elsewhere,
+  /// where it does.
+  Facet_tree(const Surface& surface, internal::Concurrency concurrency,
+             const Arrange_facets& arrange)
+      : Facet_tree(surface.triangles.size(), surface.facet_patches, concurrency)
   {
-    const auto corners = [&](int f) {
-      const Triangle& t = triangles[f];
-      return std::array<Vec3d, 3>{points[t[0]], points[t[1]], points[t[2]]};
-    };
-    m_order.resize(arrange ? triangles.size() : 0);
-    if (arrange && arrange(points, triangles, m_order.data(), m_nodes.data()))
-      take_facets(corners, patches);
+    const Corners_of corners{surface.points, surface.triangles};
+    m_order.resize(arrange ? surface.triangles.size() : 0);
+    if (arrange && arrange(surface, m_order.data(), m_nodes.data()))
+      take_facets(corners, surface.facet_patches);
     else
-      build(corners, patches);
+      build(corners, surface.facet_patches);
   }
 
   /// Of `facets` triangles. `corners`: function facet -> its three points.

@@ -29,11 +29,11 @@ struct Two_sided_distances {
   Sampled_distances from_surface, from_mesh;
 };
 
-/// Finds distances between an engine's `surface` and a mesh, both with a face, from so many samples
+/// Finds distances between an engine's surface and a mesh, both with a face, from so many samples
 /// each way, where the engine works. Returns `false` where it does not: then they are left to the
 /// caller.
-using Find_distances = std::function<bool(const Mesh_arrays& surface, const Mesh_arrays& mesh,
-                                          int samples, Two_sided_distances& result)>;
+using Find_distances =
+    std::function<bool(const Mesh_arrays& mesh, int samples, Two_sided_distances& result)>;
 
 } // namespace CGAL::PowerRTF
 

@@ -39,23 +39,27 @@ void sort_uniquely(Items& items)
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
+struct Resident_surface;
+
 namespace internal {
 
 struct Topology;
 
-/// The topology of a surface, or none. A copy has none: what is copied is going to change.
-struct Known_topology {
-  std::shared_ptr<const Topology> value;
+/// What is known of a surface as it is, or nothing. A copy has nothing: what is copied is going to
+/// change.
+template <class T>
+struct Known {
+  std::shared_ptr<const T> value;
 
-  Known_topology() = default;
-  Known_topology(const Known_topology&) {}
-  Known_topology(Known_topology&&) = default;
-  Known_topology& operator=(const Known_topology&)
+  Known() = default;
+  Known(const Known&) {}
+  Known(Known&&) = default;
+  Known& operator=(const Known&)
   {
     value.reset();
     return *this;
   }
-  Known_topology& operator=(Known_topology&&) = default;
+  Known& operator=(Known&&) = default;
 };
 
 } // namespace internal
@@ -131,9 +135,11 @@ struct Surface {
   /// Of the half of a symmetric surface, which is above: its border on the plane is where it goes
   /// on as its own mirror image.
   std::optional<Mirror_plane> mirror;
-  std::size_t mirror_samples = 0;    ///< to be on the plane; 0: as many as their spacing gives
-  internal::Known_topology topology; ///< of the facets as they are: `known_topology()`
-  double area = 0;                   ///< sum of the facets' areas
+  std::size_t mirror_samples = 0; ///< to be on the plane; 0: as many as their spacing gives
+  internal::Known<internal::Topology> topology; ///< of the facets as they are: `known_topology()`
+  /// Where a GPU has the points and facets as they are; see `compute_geometry()`.
+  internal::Known<Resident_surface> resident;
+  double area = 0; ///< sum of the facets' areas
   Normalization normalization;
 
   /// Whether it must be cut to be an oriented 2-manifold.

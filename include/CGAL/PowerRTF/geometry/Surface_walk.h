@@ -5,7 +5,7 @@
 #ifndef CGAL_POWER_RTF_GEOMETRY_SURFACE_WALK_H
 #define CGAL_POWER_RTF_GEOMETRY_SURFACE_WALK_H
 
-#include <CGAL/PowerRTF/geometry/Surface.h>
+#include <CGAL/PowerRTF/geometry/Surface_facets.h>
 #include <CGAL/PowerRTF/geometry/halfedge_numbers.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 
@@ -13,29 +13,14 @@
 
 namespace CGAL::PowerRTF {
 
-/// The facets of a surface as plain arrays. Non-owning.
-struct Connected_facets {
-  const int* corners;  ///< three vertices per facet
-  const int* opposite; ///< as in `Facet_adjacency`
-  const Vec3d* points; ///< of the vertices
-
-  Connected_facets(const int* corners, const int* opposite, const Vec3d* points)
-      : corners(corners), opposite(opposite), points(points)
-  {}
-  Connected_facets(const Surface& surface)
-      : Connected_facets(surface.triangles.data()->data(), surface.adjacency.opposite.data(),
-                         surface.points.data())
-  {}
-};
-
 namespace internal {
 
 /// The way straight on along the surface, in the plane through two of its points that holds the
 /// direction `up`.
 class Surface_walk {
 public:
-  CGAL_POWER_RTF_HD Surface_walk(const Connected_facets& surface, const Vec3d& from,
-                                 const Vec3d& to, const Vec3d& up)
+  CGAL_POWER_RTF_HD Surface_walk(const Surface_facets& surface, const Vec3d& from, const Vec3d& to,
+                                 const Vec3d& up)
       : m_surface(surface), m_from(from), m_way(to - from), m_normal(cross(m_way, up))
   {}
 
@@ -106,13 +91,13 @@ private:
     return {next_halfedge(next), apex_side, e.source_side};
   }
 
-  Connected_facets m_surface;
+  Surface_facets m_surface;
   Vec3d m_from, m_way, m_normal;
 };
 
 /// Whether facet `f` holds the point `p` of facet `own`, which may be on an edge or at a vertex of
 /// both. `scale`: of the rounding.
-CGAL_POWER_RTF_HD inline bool holds_point(const Connected_facets& surface, int f, const Vec3d& p,
+CGAL_POWER_RTF_HD inline bool holds_point(const Surface_facets& surface, int f, const Vec3d& p,
                                           int own, double scale)
 {
   constexpr double rounding = 1e-6; // of samples on a GPU

@@ -15,15 +15,18 @@
 
 namespace CGAL::PowerRTF::internal {
 
+template <class Real>
 struct Place_facets {
   const Vec3d* points;
   const int* corners; ///< by place
-  Facet_corners<double>* facets;
+  Facet_corners<Real>* facets;
 
   CGAL_POWER_RTF_HD void operator()(int place) const
   {
     const int* const v = corners + 3 * std::size_t(place);
-    facets[place] = facet_corners(points[v[0]], points[v[1]], points[v[2]]);
+    const Facet_corners<double> f = facet_corners(points[v[0]], points[v[1]], points[v[2]]);
+    facets[place] = {to_real<Real>(f.a), to_real<Real>(f.b), to_real<Real>(f.c),
+                     to_real<Real>(f.normal)};
   }
 };
 
@@ -50,7 +53,8 @@ Surface_view<double> placed_facets(Backend& backend, Facet_arrays<Backend>& arra
                                    const Packed_tree_layout& tree, const int* corners,
                                    const Child_boxes* nodes)
 {
-  backend.for_each(tree.items, Place_facets{arrays.points.data(), corners, arrays.facets.data()});
+  backend.for_each(tree.items,
+                   Place_facets<double>{arrays.points.data(), corners, arrays.facets.data()});
   Surface_view<double> view;
   view.facets = arrays.facets.data();
   view.facet_vertices = corners;

@@ -60,11 +60,13 @@ inline void level_mirror_normals(Surface& surface)
 
 /// Sets `facet_normals`, `facet_areas`, `area` and `vertex_normals` from points and triangles.
 /// Facets without a direction of their own (\ref is_degenerate) count in no vertex normal and get
-/// the mean normal of their vertices. All normals are of length 1.
+/// the mean normal of their vertices. All normals are of length 1. What a GPU has of the surface is
+/// forgotten.
 inline void compute_geometry(Surface& surface, internal::Concurrency concurrency = Sequential_tag())
 {
   const int facets = static_cast<int>(surface.triangles.size());
   const int vertices = static_cast<int>(surface.points.size());
+  surface.resident = {};
   const auto resize = [&](auto& items, int n) {
     internal::resize_in_parallel(concurrency, items, n);
   };

@@ -167,8 +167,7 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
   const int n = 20000;
   Two_sided_distances sides;
   const bool is_found =
-      find && find(internal::mesh_arrays(input_points, input_triangles),
-                   internal::mesh_arrays(output_points, output_triangles), n, sides);
+      find && find(internal::mesh_arrays(output_points, output_triangles), n, sides);
   std::optional<Facet_tree> output_tree;
   if (!is_found || is_bound_wanted)
     output_tree.emplace(output_points, output_triangles, std::vector<int>(), concurrency);

@@ -5,8 +5,9 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_SAMPLE_SURFACE_IMPL_H
 #define CGAL_POWER_RTF_SAMPLING_SAMPLE_SURFACE_IMPL_H
 
+#include <CGAL/PowerRTF/geometry/Surface_arrays.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
-#include <CGAL/PowerRTF/geometry/pack_surface.h>
+#include <CGAL/PowerRTF/geometry/make_surface_in_tree.h>
 #include <CGAL/PowerRTF/internal/Host_backend.h>
 #include <CGAL/PowerRTF/internal/errors.h>
 #include <CGAL/PowerRTF/option_table.h>
@@ -45,10 +46,10 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
     if (!tree) tree = &own_tree.emplace(surface.points, surface.triangles, surface.facet_patches);
     Lattice_sampler<Backend> sampler(backend, surface, *tree, features, component, shares,
                                      options.random_seed);
-    Packed_surface packed;
+    std::optional<Surface_arrays<double, Backend>> arrays;
     const Make_lattice_field own_make = [&](const Lattice_plan& plan) {
-      packed = internal::packed_surface(surface, *tree, false, backend.concurrency());
-      return std::make_unique<Lattice_field<Backend>>(backend, packed.view(), plan);
+      arrays.emplace(backend, internal::make_surface_in_tree(surface, *tree));
+      return std::make_unique<Lattice_field<Backend>>(backend, arrays->view(), plan);
     };
     samples = sampler.run(make ? make : own_make, find);
     if (off_lattice) *off_lattice = sampler.off_lattice();
@@ -77,11 +78,11 @@ Lattice_fields lattice_fields(const Surface& surface, const Remeshing_options& o
   const std::vector<int>& component = topology->component;
   const std::vector<Component_share> shares = component_shares(
       surface, options.number_of_samples, features, *topology, backend.concurrency());
-  const Packed_surface packed =
-      internal::packed_surface(surface, tree, false, backend.concurrency());
+  const Surface_arrays<double, Backend> arrays(backend,
+                                               internal::make_surface_in_tree(surface, tree));
   return Lattice_sampler<Backend>(backend, surface, tree, features, component, shares,
                                   options.random_seed)
-      .fields(packed.view());
+      .fields(arrays.view());
 }
 
 } // namespace CGAL::PowerRTF

@@ -17,70 +17,6 @@ namespace CGAL::PowerRTF {
 
 namespace internal {
 
-/// Makes a facet of a surface's tree.
-struct Gather_facet {
-  const Vec3d* points;
-  const int *corners, *order;
-  Facet_corners<double>* facets;
-
-  CGAL_POWER_RTF_HD void operator()(int place) const
-  {
-    const int* const v = corners + 3 * std::size_t(order[place]);
-    facets[place] = facet_corners(points[v[0]], points[v[1]], points[v[2]]);
-  }
-};
-
-/// The arrays of a surface where a backend works.
-template <class Backend>
-struct Descent_arrays {
-  template <class T>
-  using Buffer = typename Backend::template Buffer<T>;
-
-  Buffer<int> corners, opposite, patches, order, places, tree_patches;
-  Buffer<Vec3d> points, vertex_normals, facet_normals;
-  Buffer<Facet_corners<double>> facets;
-  Buffer<Child_boxes> nodes;
-
-  /// See listed_arrays.h.
-  template <class F>
-  static void for_each_array(F&& f, const Surface_descent& s)
-  {
-    using A = Descent_arrays;
-    const std::size_t facets = s.tree.facet_tree.items, vertices = s.vertices;
-    for (auto array : {&A::corners, &A::opposite}) f(array, 3 * facets);
-    for (auto array : {&A::order, &A::places}) f(array, facets);
-    if (s.patches)
-      for (auto array : {&A::patches, &A::tree_patches}) f(array, facets);
-    for (auto array : {&A::points, &A::vertex_normals}) f(array, vertices);
-    f(&A::facet_normals, facets);
-    f(&A::facets, facets);
-    f(&A::nodes, std::size_t(s.tree.facet_tree.nodes()));
-  }
-
-  /// The surface as it is there; `s`: the host's.
-  Surface_descent upload(Backend& backend, const Surface_descent& s)
-  {
-    allocate_listed(backend, *this, s);
-    Surface_descent there = s;
-    there.corners = uploaded(backend, corners, s.corners);
-    there.opposite = uploaded(backend, opposite, s.opposite);
-    there.order = uploaded(backend, order, s.order);
-    there.places = uploaded(backend, places, s.places);
-    if (s.patches) {
-      there.patches = uploaded(backend, patches, s.patches);
-      there.tree.patches = uploaded(backend, tree_patches, s.tree.patches);
-    }
-    there.points = uploaded(backend, points, s.points);
-    there.vertex_normals = uploaded(backend, vertex_normals, s.vertex_normals);
-    there.facet_normals = uploaded(backend, facet_normals, s.facet_normals);
-    there.tree.facets = facets.data(); // half of all: they are made there
-    backend.for_each(s.tree.facet_tree.items,
-                     Gather_facet{there.points, there.corners, there.order, facets.data()});
-    there.tree.facet_nodes = uploaded(backend, nodes, s.tree.facet_nodes);
-    return there;
-  }
-};
-
 /// The arrays of `Flat_stars` where a backend works, and the order of the vertices.
 template <class Backend>
 struct Star_arrays {
@@ -219,14 +155,14 @@ struct In_order {
 template <class Backend>
 class Star_sweeps : public Star_sweeps_base {
 public:
-  /// As `Make_star_sweeps`. Keeps a reference to `backend`, too.
+  /// `surface`: where the backend works. Keeps a reference to `backend`.
   Star_sweeps(Backend& backend, const Surface_descent& surface, double grid)
       : m_backend(backend), m_surface(surface), m_grid(grid)
   {}
 
   bool smooth(internal::Flat_stars& stars, int steps) override
   {
-    if (!has_room(bytes(stars))) return false;
+    if (!m_backend.has_room(bytes(stars))) return false;
     Arrays arrays;
     const internal::Star_view view = upload(stars, arrays);
     const std::vector<int> first = order(view, arrays);
@@ -240,7 +176,8 @@ public:
   {
     using Part = internal::Fit_part;
     using internal::Fit_rule;
-    if (!has_room(bytes(stars) + internal::bytes_of_listed<Fit_arrays>(fit))) return false;
+    if (!m_backend.has_room(bytes(stars) + internal::bytes_of_listed<Fit_arrays>(fit)))
+      return false;
     Arrays arrays;
     Fit_arrays fit_arrays;
     const internal::Fit_equations equations =
@@ -261,40 +198,24 @@ public:
 
   bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) override
   {
-    if (!has_room(internal::faces_at_vertices_bytes<Backend>(mesh, n))) return false;
-    internal::find_faces_at_vertices(m_backend, surface(), mesh, n, vertices, faces);
+    if (!m_backend.has_room(internal::faces_at_vertices_bytes<Backend>(mesh, n))) return false;
+    internal::find_faces_at_vertices(m_backend, m_surface, mesh, n, vertices, faces);
     return true;
   }
 
 private:
   using Arrays = internal::Star_arrays<Backend>;
   using Fit_arrays = internal::Fit_arrays<Backend>;
-  using Descent_arrays = internal::Descent_arrays<Backend>;
 
   static std::size_t bytes(const internal::Flat_stars& stars)
   {
     return internal::bytes_of_listed<Arrays>(stars.points.size(), stars.neighbors.size());
   }
-  /// Beside the surface.
-  bool has_room(std::size_t more) const
-  {
-    if (!m_is_uploaded) more += internal::bytes_of_listed<Descent_arrays>(m_surface);
-    return m_backend.has_room(more);
-  }
-
-  /// Where the backend works.
-  const Surface_descent& surface()
-  {
-    if constexpr (!Backend::is_host)
-      if (!m_is_uploaded) m_surface = m_arrays.upload(m_backend, m_surface);
-    m_is_uploaded = true;
-    return m_surface;
-  }
 
   internal::Star_view upload(const internal::Flat_stars& stars, Arrays& arrays)
   {
     internal::Star_view view = arrays.upload(m_backend, stars);
-    view.surface = surface();
+    view.surface = m_surface;
     view.grid = m_grid;
     return view;
   }
@@ -331,11 +252,9 @@ private:
   }
 
   Backend& m_backend;
-  Surface_descent m_surface; // where the backend works, once it is uploaded
-  Descent_arrays m_arrays;
+  Surface_descent m_surface;
   double m_grid;
   typename Backend::template Buffer<int> m_colors; // of the vertices, as they were last
-  bool m_is_uploaded = false;
 };
 
 } // namespace CGAL::PowerRTF

@@ -27,8 +27,8 @@ public:
   virtual bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) = 0;
 };
 
-/// `surface`: what meshes lie on; its arrays have to live as long as the result. `grid`: of the
-/// coordinates of the vertices; 0: none.
+/// `surface`: the engine's, which meshes lie on; the engine has to live as long as the result.
+/// `grid`: of the coordinates of the vertices; 0: none. Null: the engine's memory does not suffice.
 using Make_star_sweeps =
     std::function<std::unique_ptr<Star_sweeps_base>(const Surface_descent& surface, double grid)>;
 
