@@ -31,7 +31,7 @@ namespace improvement_case {
 
 class Sweeps_case {
 public:
-  using Stars = internal::Flat_stars;
+  using Stars = internal::Swept_vertices;
 
   Sweeps_case(const shapes::Soup& soup, std::size_t n) : Sweeps_case(make_case(soup, n, 1)) {}
   explicit Sweeps_case(Case c)
@@ -54,8 +54,9 @@ public:
 
   Stars smoothed(Star_sweeps_base& sweeps, int steps) const
   {
-    Stars stars = flat_stars(m_mesh);
-    return sweeps.smooth(stars, steps) ? stars : Stars();
+    Stars swept;
+    if (sweeps.take(flat_stars(m_mesh))) sweeps.smooth(steps, swept);
+    return swept;
   }
   /// `gain`: becomes the mean distance of the surface's vertices before, over that after.
   Stars fitted(Star_sweeps_base& sweeps, double& gain) const
@@ -66,14 +67,15 @@ public:
                                        mesh.concurrency()));
     const double before = mean_distance(tracker);
     const Flat_patches flat(m_case.surface);
-    const internal::Surface_fitter fitter(mesh, tracker, flat, sweeps, 0.3);
-    Stars stars = flat_stars(mesh);
-    internal::Flat_fit fit = fitter.equations(stars);
-    if (!sweeps.fit(stars, fit)) return {};
-    mesh.move_all(stars, fit.heights.data());
+    const internal::Surface_fitter fitter(mesh, tracker, flat, 0.3);
+    Stars swept;
+    if (!sweeps.take(flat_stars(mesh))) return swept;
+    internal::Flat_fit fit = fitter.equations(sweeps.first_spokes());
+    if (!sweeps.fit(fit, swept)) return {};
+    mesh.move_all(swept, fit.heights.data());
     tracker.update();
     gain = before / mean_distance(tracker);
-    return stars;
+    return swept;
   }
 
   int vertices_of_surface() const { return int(m_case.surface.points.size()); }
@@ -124,8 +126,9 @@ private:
   internal::Star_mesh m_mesh;
 };
 
-/// The distances between two sets of points, sorted.
-inline std::vector<double> distances(const internal::Flat_stars& a, const internal::Flat_stars& b)
+/// The distances between the points of two meshes, sorted.
+template <class A, class B>
+std::vector<double> distances(const A& a, const B& b)
 {
   std::vector<double> result;
   for (std::size_t v = 0; v < a.points.size(); ++v)
@@ -140,16 +143,16 @@ struct Doubts {
   int missed = 0;         ///< of these: at vertices that are not doubtful
 };
 
-/// Of a mesh whose vertices are where they are in `stars`.
-inline Doubts doubts(internal::Star_mesh mesh, const internal::Flat_stars& stars)
+/// Of a mesh whose vertices are where they are in `swept`.
+inline Doubts doubts(internal::Star_mesh mesh, const internal::Swept_vertices& swept)
 {
-  mesh.move_all(stars);
+  mesh.move_all(swept);
   const internal::Working_mesh& working = mesh.working();
   Doubts result;
   const auto note = [&](int& count, const auto& corners) {
     ++count;
     result.missed += std::none_of(corners.begin(), corners.end(), [&](const auto v) {
-      return std::binary_search(stars.doubtful.begin(), stars.doubtful.end(), int(v));
+      return std::binary_search(swept.doubtful.begin(), swept.doubtful.end(), int(v));
     });
   };
   const auto energy = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {

@@ -65,13 +65,18 @@ public:
       : m_sweeps(std::move(sweeps)), m_doubtful(doubtful)
   {}
 
-  bool smooth(internal::Flat_stars& stars, int steps) override
+  bool take(const internal::Flat_stars& stars) override { return m_sweeps->take(stars); }
+  internal::Unset_vector<int> first_spokes() override { return m_sweeps->first_spokes(); }
+  void smooth(int steps, internal::Swept_vertices& result) override
   {
-    return m_sweeps->smooth(stars, steps) && changed(stars);
+    m_sweeps->smooth(steps, result);
+    change(result);
   }
-  bool fit(internal::Flat_stars& stars, internal::Flat_fit& fit) override
+  bool fit(internal::Flat_fit& fit, internal::Swept_vertices& result) override
   {
-    return m_sweeps->fit(stars, fit) && changed(stars);
+    const bool is_done = m_sweeps->fit(fit, result);
+    change(result);
+    return is_done;
   }
   bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) override
   {
@@ -79,12 +84,11 @@ public:
   }
 
 private:
-  bool changed(internal::Flat_stars& stars) const
+  void change(internal::Swept_vertices& swept) const
   {
-    if (m_doubtful == Doubtful::as_found) return true;
-    stars.doubtful.resize(m_doubtful == Doubtful::all ? stars.size() : 0);
-    std::iota(stars.doubtful.begin(), stars.doubtful.end(), 0);
-    return true;
+    if (m_doubtful == Doubtful::as_found) return;
+    swept.doubtful.resize(m_doubtful == Doubtful::all ? swept.size() : 0);
+    std::iota(swept.doubtful.begin(), swept.doubtful.end(), 0);
   }
 
   std::unique_ptr<Star_sweeps_base> m_sweeps;
@@ -95,7 +99,8 @@ Extracted_mesh smoothed(const Sweeps_case& c, Doubtful doubtful)
 {
   Other_doubts sweeps(c.host_sweeps(CGAL::Sequential_tag()), doubtful);
   internal::Star_mesh mesh = c.mesh();
-  internal::Mesh_smoother smoother(mesh, sweeps);
+  internal::Mesh_sweeper sweeper(mesh, nullptr, sweeps);
+  internal::Mesh_smoother smoother(mesh, sweeper);
   for (int pass = 0; pass < 4; ++pass) smoother.run(1);
   Extracted_mesh result;
   result.points.resize(mesh.size());
@@ -131,7 +136,7 @@ TEST_CASE("bad triangles, and edges of which a flip helps, are at doubtful verti
     const Sweeps_case mesh(c);
     const auto sequential = mesh.host_sweeps(CGAL::Sequential_tag()),
                parallel = mesh.host_sweeps(CGAL::Parallel_if_available_tag());
-    const auto check = [&](const internal::Flat_stars& stars, int least_flips, int least_bad) {
+    const auto check = [&](const internal::Swept_vertices& stars, int least_flips, int least_bad) {
       const Doubts found = doubts(mesh.mesh(), stars);
       CHECK(found.flips >= least_flips);
       CHECK(found.bad >= least_bad);
@@ -141,7 +146,7 @@ TEST_CASE("bad triangles, and edges of which a flip helps, are at doubtful verti
     };
     for (const int steps : {0, 1, 2}) {
       CAPTURE(steps);
-      const internal::Flat_stars stars = mesh.smoothed(*sequential, steps);
+      const internal::Swept_vertices stars = mesh.smoothed(*sequential, steps);
       check(stars, steps == 0 ? 50 : 0, 20);
       CHECK(mesh.smoothed(*parallel, steps).doubtful == stars.doubtful);
     }

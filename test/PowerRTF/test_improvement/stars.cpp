@@ -222,7 +222,8 @@ TEST_CASE("dislocations glide to each other and annihilate")
   if (length > 1) { // flips alone do not help
     const auto sweeps =
         internal::make_host_star_sweeps(projector.descent(), 0, CGAL::Sequential_tag());
-    internal::Mesh_smoother(mesh, *sweeps).run(0);
+    internal::Mesh_sweeper sweeper(mesh, nullptr, *sweeps);
+    internal::Mesh_smoother(mesh, sweeper).run(0);
     CHECK(irregular() == 4);
   }
   CHECK(internal::Dislocation_annihilator(mesh).run() == (are_near ? 1 : 0));

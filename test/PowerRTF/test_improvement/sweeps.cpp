@@ -5,6 +5,7 @@
 #include "../odd_shapes.h"
 #include "../sweeps_case.h"
 
+#include <CGAL/PowerRTF/improvement/Mesh_sweeper.h>
 #include <CGAL/PowerRTF/improvement/color_order.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -58,6 +60,85 @@ std::vector<int> recolored(const internal::Flat_stars& stars, std::vector<int> c
   CHECK(result == colors);
   return result;
 }
+
+// Changes some of all that can change between sweeps, and does some of it in vain.
+void edit(internal::Star_mesh& mesh, unsigned seed)
+{
+  using Star_mesh = internal::Star_mesh;
+  std::mt19937 random(seed);
+  const auto is_chosen = [&](unsigned one_in) { return random() % one_in == 0; };
+  auto& working = mesh.working();
+  const auto flip_some = [&](unsigned one_in) {
+    for (const auto e : working.mesh.edges())
+      if (is_chosen(one_in) && mesh.is_free(e) && working.is_flippable(e)) mesh.flip(e);
+  };
+  flip_some(200);
+  {
+    Star_mesh::Checkpoint before(mesh);
+    flip_some(200);
+    seed % 2 == 0 ? before.rewind() : before.restore();
+  }
+  for (int v = 0; v < int(mesh.size()); ++v) {
+    const Star_mesh::Vertex vertex(v);
+    if (!mesh.is_movable(vertex)) {
+      mesh.release(vertex);
+      continue;
+    }
+    if (is_chosen(50)) mesh.pin(vertex);
+    if (is_chosen(50)) mesh.move_off(vertex, mesh.point(vertex) * 1.001);
+  }
+  int gone = 0; // and come again elsewhere
+  for (const auto h : working.mesh.halfedges()) {
+    if (working.mesh.is_removed(h) || !is_chosen(100)) continue;
+    const auto s = working.mesh.source(h), t = working.mesh.target(h);
+    if (gone > 0) {
+      if (!mesh.is_movable(s) || !mesh.is_movable(t)) continue;
+      mesh.split(h, mesh.projector().nearest((mesh.point(s) + mesh.point(t)) * .5));
+      --gone;
+    } else if (mesh.is_movable(s) && mesh.is_movable(t) &&
+               CGAL::Euler::does_satisfy_link_condition(working.mesh.edge(h), working.mesh)) {
+      mesh.collapse(h);
+      ++gone;
+    }
+  }
+  for (const auto e : working.mesh.edges()) {
+    if (gone == 0) break;
+    const auto h = working.mesh.halfedge(e);
+    const auto s = working.mesh.source(h), t = working.mesh.target(h);
+    if (!mesh.is_movable(s) || !mesh.is_movable(t)) continue;
+    mesh.split(h, mesh.projector().nearest((mesh.point(s) + mesh.point(t)) * .5));
+    --gone;
+  }
+  REQUIRE(gone == 0);
+}
+
+// Notes what it is given, and has no room when it is told so.
+class Noting_sweeps : public Star_sweeps_base {
+public:
+  explicit Noting_sweeps(std::unique_ptr<Star_sweeps_base> sweeps) : m_sweeps(std::move(sweeps)) {}
+
+  bool take(const internal::Flat_stars& stars) override
+  {
+    taken.push_back(stars.are_all ? -1 : stars.size());
+    return has_room && m_sweeps->take(stars);
+  }
+  internal::Unset_vector<int> first_spokes() override { return m_sweeps->first_spokes(); }
+  void smooth(int steps, internal::Swept_vertices& swept) override
+  {
+    m_sweeps->smooth(steps, swept);
+  }
+  bool fit(internal::Flat_fit& fit, internal::Swept_vertices& swept) override
+  {
+    return has_room_to_fit && m_sweeps->fit(fit, swept);
+  }
+  bool find_faces(const Mesh_arrays&, int, const int*, int*) override { return false; }
+
+  std::vector<int> taken; // so many stars; -1: all
+  bool has_room = true, has_room_to_fit = true;
+
+private:
+  std::unique_ptr<Star_sweeps_base> m_sweeps;
+};
 
 } // namespace
 
@@ -109,6 +190,85 @@ TEST_CASE("a sweep smooths one vertex after the other, whatever the number of th
     CHECK(distances(flat_stars(one_by_one), sequential).back() < 1e-9 * c.spacing());
     CHECK((order.first.back() == 0 || sequential.points != stars.points));
   }
+}
+
+TEST_CASE("sweeps over what is there, but for what has changed, are those over all")
+{
+  for (const auto& [name, c, least_gain] : all())
+    for (const bool is_parallel : {false, true}) {
+      CAPTURE(name);
+      const internal::Concurrency concurrency =
+          is_parallel ? internal::Concurrency(CGAL::Parallel_if_available_tag())
+                      : internal::Concurrency(CGAL::Sequential_tag());
+      internal::Star_mesh mesh = c->mesh(), expected = c->mesh();
+      Noting_sweeps sweeps(c->host_sweeps(concurrency)), over_all(c->host_sweeps(concurrency));
+      internal::Mesh_sweeper sweeper(mesh, nullptr, sweeps);
+      const Flat_patches flat(c->surface());
+      const auto fit = [&](internal::Star_mesh& m, internal::Mesh_sweeper& by) {
+        internal::Distance_tracker tracker(
+            m, internal::tracked_points(c->surface(), m.projector().tree(), m.size(), concurrency));
+        return internal::Surface_fitter(m, tracker, flat, 0.3).run(by);
+      };
+      for (unsigned pass = 0; pass < 5; ++pass) {
+        CAPTURE(pass);
+        internal::Mesh_sweeper anew(expected, nullptr, over_all);
+        if (pass == 3)
+          CHECK(fit(mesh, sweeper) == fit(expected, anew));
+        else
+          CHECK(sweeper.smooth(2) == anew.smooth(2));
+        const auto swept = flat_stars(mesh), as_expected = flat_stars(expected);
+        CHECK(swept.points == as_expected.points);
+        CHECK(swept.normals == as_expected.normals);
+        CHECK(swept.facets == as_expected.facets);
+        edit(mesh, pass);
+        edit(expected, pass);
+      }
+      CHECK(over_all.taken == std::vector<int>(5, -1));
+      CHECK(sweeps.taken.front() == -1);
+      for (std::size_t k = 1; k < 5 && mesh.size() > 100; ++k) {
+        CHECK(sweeps.taken[k] >= 0);
+        CHECK(sweeps.taken[k] <= int(mesh.size()) / 2);
+      }
+    }
+}
+
+TEST_CASE("where an engine has no room the host sweeps, and the next time all goes there again")
+{
+  const Sweeps_case& c = *all()[0].mesh;
+  internal::Star_mesh mesh = c.mesh();
+  Noting_sweeps there(c.host_sweeps(CGAL::Sequential_tag())),
+      here(c.host_sweeps(CGAL::Sequential_tag()));
+  internal::Mesh_sweeper sweeper(mesh, &there, here);
+  const auto step = [&] {
+    const internal::Flat_stars before = flat_stars(mesh);
+    sweeper.smooth(1);
+    CHECK(flat_stars(mesh).points != before.points);
+  };
+  step();
+  edit(mesh, 1);
+  step();
+  CHECK(there.taken.size() == 2);
+  CHECK(there.taken[1] > 0);
+  CHECK(here.taken.empty());
+  there.has_room = false;
+  step();
+  step();
+  CHECK(there.taken == std::vector<int>{-1, there.taken[1], 0, -1});
+  CHECK(here.taken == std::vector<int>{-1, 0});
+  there.has_room = true;
+  step();
+  step();
+  CHECK(there.taken == std::vector<int>{-1, there.taken[1], 0, -1, -1, 0});
+  CHECK(here.taken.size() == 2);
+  there.has_room_to_fit = false;
+  const Flat_patches flat(c.surface());
+  internal::Distance_tracker tracker(mesh,
+                                     internal::tracked_points(c.surface(), mesh.projector().tree(),
+                                                              mesh.size(), CGAL::Sequential_tag()));
+  internal::Surface_fitter(mesh, tracker, flat, 0.3).run(sweeper);
+  CHECK(here.taken.size() == 3);
+  step();
+  CHECK(there.taken.back() == -1);
 }
 
 TEST_CASE("the faces that are nearest to the surface's vertices are those of a search of all")

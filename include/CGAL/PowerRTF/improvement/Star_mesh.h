@@ -391,14 +391,16 @@ public:
     m.mesh.point(v) = Working_mesh::Point(q.x, q.y, q.z);
   }
 
-  /// The vertices go where they are in `flat`, at these heights, or 0. \pre nothing is noted
-  void move_all(const Flat_stars& flat, const double* heights = nullptr)
+  /// The vertices go where sweeps have moved them, to these heights, or 0. \pre nothing is noted
+  void move_all(const Swept_vertices& swept, const double* heights = nullptr)
   {
-    for_each_index(m_concurrency, flat.size(), [&](int i) {
+    for_each_index(m_concurrency, swept.size(), [&](int i) {
       const Vertex v(i);
-      if (flat.points[i] == point(v)) return;
-      move(v, {flat.points[i], flat.normals[i], flat.facets[i]});
-      m_heights[v] = heights ? heights[i] : 0;
+      const bool has_moved = !(swept.points[i] == point(v));
+      if (has_moved) set_point(v, swept.points[i]);
+      m.normals[v] = swept.normals[i];
+      m_facets[v] = swept.facets[i];
+      if (heights || has_moved) m_heights[v] = heights ? heights[i] : 0;
     });
   }
 

@@ -11,11 +11,11 @@
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Mesh_sweeper.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
-#include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,22 +35,18 @@ public:
   /// `flat`: of the surface. `limit`: the badness that a move may bring upon a triangle that was
   /// better.
   Surface_fitter(Star_mesh& mesh, const Distance_tracker& tracker, const Flat_patches& flat,
-                 Star_sweeps_base& sweeps, double limit)
-      : m(mesh), m_tracker(tracker), m_flat(flat), m_sweeps(sweeps), m_badness_limit(limit)
+                 double limit)
+      : m(mesh), m_tracker(tracker), m_flat(flat), m_badness_limit(limit)
   {}
 
   /// \returns the vertices that are left doubtful.
-  std::vector<int> run()
+  std::vector<int> run(Mesh_sweeper& sweeper) const
   {
-    Flat_stars stars = flat_stars(m);
-    Flat_fit fit = equations(stars);
-    m_sweeps.fit(stars, fit);
-    m.move_all(stars, fit.heights.data());
-    return std::move(stars.doubtful);
+    return sweeper.fit([this](const Unset_vector<int>& first) { return equations(first); });
   }
 
-  /// What `Star_sweeps_base::fit()` has to know.
-  Flat_fit equations(const Flat_stars& stars) const
+  /// What `Star_sweeps_base::fit()` has to know. `first_spokes`: of each vertex, and the end.
+  Flat_fit equations(const Unset_vector<int>& first_spokes) const
   {
     const Surface& surface = m.projector().surface();
     Flat_fit fit;
@@ -60,7 +56,7 @@ public:
     fit.tangential_weight = has_uniform_density(surface) ? Parameters::even_tangential_weight
                                                          : Parameters::tangential_weight;
     fit.badness_limit = m_badness_limit;
-    add_mesh(stars, fit);
+    add_mesh(first_spokes, fit);
     add_tracked(fit);
     const double width = Parameters::flat_width * std::sqrt(surface.area / double(m.size()));
     fit.is_wide.resize(surface.triangles.size());
@@ -72,14 +68,14 @@ public:
 private:
   using Parameters = Improvement_parameters::Fitting;
 
-  void add_mesh(const Flat_stars& stars, Flat_fit& fit) const
+  void add_mesh(const Unset_vector<int>& first_spokes, Flat_fit& fit) const
   {
     const auto& mesh = m.working().mesh;
     fit.heights.resize(m.size());
     for_each_index(m.concurrency(), int(m.size()),
                    [&](int v) { fit.heights[v] = m.height(Vertex(v)); });
-    for (auto array : {&fit.spoke_edges, &fit.spoke_faces}) array->resize(stars.neighbors.size());
-    for_each_spoke(m, stars, [&](int k, Halfedge h) {
+    for (auto array : {&fit.spoke_edges, &fit.spoke_faces}) array->resize(first_spokes.back());
+    for_each_spoke(m, first_spokes, [&](int k, Halfedge h) {
       fit.spoke_edges[k] = int(mesh.edge(h));
       fit.spoke_faces[k] = int(mesh.face(h));
     });
@@ -118,7 +114,6 @@ private:
   Star_mesh& m;
   const Distance_tracker& m_tracker;
   const Flat_patches& m_flat;
-  Star_sweeps_base& m_sweeps;
   double m_badness_limit;
 };
 

@@ -12,29 +12,30 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
-/// Calls `f(k, h)` for the spokes of all stars, many at once: their numbers in `stars`, and the
-/// halfedges to the center.
+/// Calls `f(k, h)` for the spokes of all stars, many at once: their numbers, and the halfedges to
+/// the center. `first`: of each vertex, and the end.
 template <class F>
-void for_each_spoke(const Star_mesh& mesh, const Flat_stars& stars, F&& f)
+void for_each_spoke(const Star_mesh& mesh, const Unset_vector<int>& first, F&& f)
 {
-  for_each_index(mesh.concurrency(), stars.size(), [&](int v) {
-    if (stars.first[v] == stars.first[v + 1]) return;
-    int k = stars.first[v];
+  for_each_index(mesh.concurrency(), int(mesh.size()), [&](int v) {
+    if (first[v] == first[v + 1]) return;
+    int k = first[v];
     for (const auto h : halfedges_around_target(Star_mesh::Vertex(v), mesh.working().mesh))
       f(k++, h);
   });
 }
 
-/// \pre nothing is missing: no vertex has been collapsed
-inline Flat_stars flat_stars(const Star_mesh& mesh)
+/// Of n vertices, as `vertex(i)` names them. \pre nothing is missing: no vertex has been collapsed
+template <class Vertex>
+Flat_stars flat_stars(const Star_mesh& mesh, int n, const Vertex& vertex)
 {
   Flat_stars stars;
   const auto& topology = mesh.working().mesh;
-  const int n = int(mesh.size());
   stars.first.resize(n + 1);
   stars.first[n] = 0;
   for (auto array : {&stars.points, &stars.normals}) array->resize(n);
@@ -46,7 +47,7 @@ inline Flat_stars flat_stars(const Star_mesh& mesh)
     std::vector<int>& part = parts[begin / chunk];
     part.reserve(7 * chunk); // mostly enough
     for (int i = begin; i < end; ++i) {
-      const Star_mesh::Vertex v(i);
+      const Star_mesh::Vertex v(vertex(i));
       stars.points[i] = mesh.point(v);
       stars.normals[i] = mesh.normal(v);
       stars.facets[i] = mesh.facet(v);
@@ -63,6 +64,21 @@ inline Flat_stars flat_stars(const Star_mesh& mesh)
   for_each_chunk(mesh.concurrency(), int(parts.size()), 1, [&](int k, int) {
     std::copy(parts[k].begin(), parts[k].end(), stars.neighbors.begin() + stars.first[k * chunk]);
   });
+  return stars;
+}
+
+/// Of all vertices.
+inline Flat_stars flat_stars(const Star_mesh& mesh)
+{
+  return flat_stars(mesh, int(mesh.size()), [](int i) { return i; });
+}
+
+/// Of those that have changed.
+inline Flat_stars flat_stars(const Star_mesh& mesh, std::vector<int>&& changed)
+{
+  Flat_stars stars = flat_stars(mesh, int(changed.size()), [&](int i) { return changed[i]; });
+  stars.are_all = false;
+  stars.vertices = std::move(changed);
   return stars;
 }
 

@@ -92,10 +92,10 @@ public:
                 Concurrency concurrency, const Improvement_settings& settings)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_settings(settings),
         m_concurrency(concurrency), m_prepared(settings.prepared),
-        m_sweeps(
-            settings.make_sweeps
-                ? settings.make_sweeps(m_projector.descent(), surface.normalization.grid)
-                : nullptr,
+        m_sweeps(settings.make_sweeps
+                     ? settings.make_sweeps(m_projector.descent(), surface.normalization.grid)
+                     : nullptr),
+        m_host_sweeps(
             make_host_star_sweeps(m_projector.descent(), surface.normalization.grid, concurrency)),
         m_locked(mesh.points.size(), false),
         m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency,
@@ -150,12 +150,12 @@ private:
   // Of the extracted mesh; none where they are not found.
   Unset_vector<int> nearest_faces(const Unset_vector<Tracked_point>& points)
   {
-    if (!m_settings.make_sweeps) return {};
+    if (!m_sweeps) return {}; // the tracker's way from face to face is quicker than the host's
     Unset_vector<int> faces(points.size());
     for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
     const Mesh_arrays mesh{int(m_mesh.points.size()), m_mesh.points.data(),
                            int(m_mesh.triangles.size()), m_mesh.triangles.data()->data()};
-    if (!m_sweeps.find_faces(mesh, int(faces.size()), faces.data(), faces.data())) faces.clear();
+    if (!m_sweeps->find_faces(mesh, int(faces.size()), faces.data(), faces.data())) faces.clear();
     return faces;
   }
 
@@ -163,7 +163,8 @@ private:
   void improve(Star_mesh& stars, int passes_less)
   {
     Progress_part part(0.1);
-    Mesh_smoother smoother(stars, m_sweeps);
+    Mesh_sweeper sweeper(stars, m_sweeps.get(), *m_host_sweeps);
+    Mesh_smoother smoother(stars, sweeper);
     if (m_settings.dislocations == Dislocations::annihilate) {
       smoother.run(Schedule::smoothing_passes - std::exchange(passes_less, 0));
       part.next(0.2);
@@ -194,8 +195,8 @@ private:
     m_tracker.update();
     part.next(0.75);
     optimizer.expect_at(
-        Surface_fitter(stars, m_tracker, m_prepared->flat, m_sweeps, Schedule::healable_badness)
-            .run());
+        Surface_fitter(stars, m_tracker, m_prepared->flat, Schedule::healable_badness)
+            .run(sweeper));
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
     if (has_features && optimizer.is_needed()) slide();
@@ -349,7 +350,7 @@ private:
   const Improvement_settings& m_settings;
   Concurrency m_concurrency;
   std::shared_ptr<Improvement_preparation> m_prepared;
-  Star_sweeps_of_two m_sweeps;
+  std::unique_ptr<Star_sweeps_base> m_sweeps, m_host_sweeps; // the engine's may be null
   std::vector<char> m_locked;
   std::optional<Star_mesh> m_stars; // of the attempt
   Distance_tracker m_tracker;

@@ -8,16 +8,14 @@
 
 #include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Mesh_sweeper.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/better_flips.h>
-#include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
-#include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -28,19 +26,17 @@ public:
   using Edge = Star_mesh::Edge;
   using Halfedge = Star_mesh::Halfedge;
 
-  Mesh_smoother(Star_mesh& mesh, Star_sweeps_base& sweeps)
-      : m(mesh), m_sweeps(sweeps), m_changed(mesh)
+  Mesh_smoother(Star_mesh& mesh, Mesh_sweeper& sweeper)
+      : m(mesh), m_sweeper(sweeper), m_changed(mesh)
   {}
 
   /// Flips edges, then moves all vertices so many times. \returns those that are left doubtful.
   std::vector<int> run(int steps)
   {
     flip();
-    Flat_stars stars = flat_stars(m);
-    m_sweeps.smooth(stars, steps);
-    m.move_all(stars);
-    m_changed.assign(stars.doubtful);
-    return std::move(stars.doubtful);
+    std::vector<int> doubtful = m_sweeper.smooth(steps);
+    m_changed.assign(doubtful);
+    return doubtful;
   }
 
 private:
@@ -88,7 +84,7 @@ private:
   }
 
   Star_mesh& m;
-  Star_sweeps_base& m_sweeps;
+  Mesh_sweeper& m_sweeper;
   Changed_vertices m_changed; // since the last sweeps, and the doubtful ones
 };
 

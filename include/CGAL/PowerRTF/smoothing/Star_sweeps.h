@@ -4,6 +4,7 @@
 #define CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_H
 
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/smoothing/Star_arrays.h>
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 #include <CGAL/PowerRTF/smoothing/color_vertices.h>
 #include <CGAL/PowerRTF/smoothing/doubtful_stars.h>
@@ -16,46 +17,6 @@
 namespace CGAL::PowerRTF {
 
 namespace internal {
-
-/// The arrays of `Flat_stars` where a backend works, and the order of the vertices.
-template <class Backend>
-struct Star_arrays {
-  template <class T>
-  using Buffer = typename Backend::template Buffer<T>;
-
-  Buffer<int> first, neighbors, facets;
-  Buffer<unsigned char> kinds;
-  Buffer<Vec3d> points, normals;
-  Buffer<int> order, flag;
-  Buffer<unsigned char> flags;
-
-  /// See listed_arrays.h.
-  template <class F>
-  static void for_each_array(F&& f, std::size_t vertices, std::size_t spokes)
-  {
-    using A = Star_arrays;
-    f(&A::first, vertices + 1);
-    f(&A::neighbors, spokes);
-    for (auto array : {&A::facets, &A::order}) f(array, vertices);
-    for (auto array : {&A::kinds, &A::flags}) f(array, vertices);
-    for (auto array : {&A::points, &A::normals}) f(array, vertices);
-    f(&A::flag, std::size_t(1));
-  }
-
-  Star_view upload(Backend& backend, const Flat_stars& stars)
-  {
-    allocate_listed(backend, *this, stars.points.size(), stars.neighbors.size());
-    Star_view view;
-    view.size = stars.size();
-    view.first = uploaded(backend, first, stars.first.data());
-    view.neighbors = uploaded(backend, neighbors, stars.neighbors.data());
-    view.kinds = uploaded(backend, kinds, stars.kinds.data());
-    view.points = uploaded(backend, points, stars.points.data());
-    view.normals = uploaded(backend, normals, stars.normals.data());
-    view.facets = uploaded(backend, facets, stars.facets.data());
-    return view;
-  }
-};
 
 /// The arrays of `Fit_equations` where a backend works.
 template <class Backend>
@@ -160,39 +121,45 @@ public:
       : m_backend(backend), m_surface(surface), m_grid(grid)
   {}
 
-  bool smooth(internal::Flat_stars& stars, int steps) override
+  bool take(const internal::Flat_stars& stars) override
   {
-    if (!m_backend.has_room(bytes(stars))) return false;
-    Arrays arrays;
-    const internal::Star_view view = upload(stars, arrays);
-    const std::vector<int> first = order(view, arrays);
-    for (int step = 0; step < steps; ++step)
-      for_each_vertex(first, arrays, internal::Smooth_vertices{view});
-    download(view, arrays, stars);
-    return true;
+    return stars.are_all ? m_stars.upload(m_backend, stars) : m_stars.update(m_backend, stars);
   }
 
-  bool fit(internal::Flat_stars& stars, internal::Flat_fit& fit) override
+  internal::Unset_vector<int> first_spokes() override
+  {
+    internal::Unset_vector<int> first(m_stars.first.size());
+    m_backend.download(first.data(), m_stars.first.data(), first.size());
+    return first;
+  }
+
+  void smooth(int steps, internal::Swept_vertices& result) override
+  {
+    const internal::Star_view stars = view();
+    const std::vector<int> first = order(stars);
+    for (int step = 0; step < steps; ++step)
+      for_each_vertex(first, internal::Smooth_vertices{stars});
+    download(stars, result);
+  }
+
+  bool fit(internal::Flat_fit& fit, internal::Swept_vertices& result) override
   {
     using Part = internal::Fit_part;
     using internal::Fit_rule;
-    if (!m_backend.has_room(bytes(stars) + internal::bytes_of_listed<Fit_arrays>(fit)))
-      return false;
-    Arrays arrays;
-    Fit_arrays fit_arrays;
-    const internal::Fit_equations equations =
-        fit_arrays.upload(m_backend, upload(stars, arrays), fit);
+    if (!m_backend.has_room(internal::bytes_of_listed<Fit_arrays>(fit))) return false;
+    Fit_arrays arrays;
+    const internal::Fit_equations equations = arrays.upload(m_backend, view(), fit);
     const int edges = static_cast<int>(fit.edges.size());
     m_backend.for_each(fit.faces(), Fit_rule<Part::centroid>{equations});
     m_backend.for_each(edges, Fit_rule<Part::middle>{equations});
-    m_backend.for_each(stars.size(), Fit_rule<Part::unknown>{equations});
+    m_backend.for_each(m_stars.size(), Fit_rule<Part::unknown>{equations});
     m_backend.for_each(edges, Fit_rule<Part::coupling>{equations});
-    const std::vector<int> first = order(equations.stars, arrays);
+    const std::vector<int> first = order(equations.stars);
     for (int sweep = 0; sweep < internal::Fitting_parameters::sweeps; ++sweep)
-      for_each_vertex(first, arrays, Fit_rule<Part::step>{equations});
-    for_each_vertex(first, arrays, Fit_rule<Part::move>{equations});
-    download(equations.stars, arrays, stars);
-    m_backend.download(fit.heights.data(), fit_arrays.heights.data(), fit.heights.size());
+      for_each_vertex(first, Fit_rule<Part::step>{equations});
+    for_each_vertex(first, Fit_rule<Part::move>{equations});
+    download(equations.stars, result);
+    m_backend.download(fit.heights.data(), arrays.heights.data(), fit.heights.size());
     return true;
   }
 
@@ -204,56 +171,56 @@ public:
   }
 
 private:
-  using Arrays = internal::Star_arrays<Backend>;
   using Fit_arrays = internal::Fit_arrays<Backend>;
 
-  static std::size_t bytes(const internal::Flat_stars& stars)
+  internal::Star_view view()
   {
-    return internal::bytes_of_listed<Arrays>(stars.points.size(), stars.neighbors.size());
-  }
-
-  internal::Star_view upload(const internal::Flat_stars& stars, Arrays& arrays)
-  {
-    internal::Star_view view = arrays.upload(m_backend, stars);
+    internal::Star_view view = m_stars.view();
     view.surface = m_surface;
     view.grid = m_grid;
     return view;
   }
 
-  /// Where in the arrays' order each color begins.
-  std::vector<int> order(const internal::Star_view& view, Arrays& arrays)
+  /// Where in the order of the vertices each color begins.
+  std::vector<int> order(const internal::Star_view& stars)
   {
-    if (static_cast<int>(m_colors.size()) != view.size) {
-      m_colors.allocate(m_backend, view.size);
+    if (static_cast<int>(m_colors.size()) != stars.size) {
+      m_colors.allocate(m_backend, stars.size);
       m_backend.fill(m_colors.data(), internal::Color_vertices::none, m_colors.size());
     }
-    return internal::order_by_colors(m_backend, view, m_colors.data(), arrays.flag.data(),
-                                     arrays.flags.data(), arrays.order.data());
+    return internal::order_by_colors(m_backend, stars, m_colors.data(), m_stars.flag.data(),
+                                     m_stars.flags.data(), m_stars.order.data());
   }
 
   /// Applies a rule to all vertices that may move, neighbors one after the other.
   template <class Rule>
-  void for_each_vertex(const std::vector<int>& first, const Arrays& arrays, const Rule& rule)
+  void for_each_vertex(const std::vector<int>& first, const Rule& rule)
   {
     for (std::size_t c = 0; c + 1 < first.size(); ++c)
       m_backend.for_each(first[c + 1] - first[c],
-                         internal::In_order<Rule>{rule, arrays.order.data() + first[c]});
+                         internal::In_order<Rule>{rule, m_stars.order.data() + first[c]});
   }
 
   /// What has become of the stars, and which of them are doubtful.
-  void download(const internal::Star_view& view, Arrays& arrays, internal::Flat_stars& stars)
+  void download(const internal::Star_view& stars, internal::Swept_vertices& result)
   {
-    m_backend.for_each(view.size, internal::Find_doubtful_stars{view, arrays.flags.data()});
-    stars.doubtful.resize(m_backend.select(view.size, arrays.flags.data(), arrays.order.data()));
-    m_backend.download(stars.doubtful.data(), arrays.order.data(), stars.doubtful.size());
-    m_backend.download(stars.points.data(), arrays.points.data(), stars.points.size());
-    m_backend.download(stars.normals.data(), arrays.normals.data(), stars.normals.size());
-    m_backend.download(stars.facets.data(), arrays.facets.data(), stars.facets.size());
+    m_backend.for_each(stars.size, internal::Find_doubtful_stars{stars, m_stars.flags.data()});
+    result.doubtful.resize(
+        m_backend.select(stars.size, m_stars.flags.data(), m_stars.order.data()));
+    m_backend.download(result.doubtful.data(), m_stars.order.data(), result.doubtful.size());
+    const auto take_all = [&](auto& to, const auto& from) {
+      to.resize(from.size());
+      m_backend.download(to.data(), from.data(), from.size());
+    };
+    take_all(result.points, m_stars.points);
+    take_all(result.normals, m_stars.normals);
+    take_all(result.facets, m_stars.facets);
   }
 
   Backend& m_backend;
   Surface_descent m_surface;
   double m_grid;
+  internal::Star_arrays<Backend> m_stars;
   typename Backend::template Buffer<int> m_colors; // of the vertices, as they were last
 };
 

@@ -13,15 +13,21 @@
 namespace CGAL::PowerRTF {
 
 /// Looks at all vertices of a mesh again and again, where an engine works, and in the end tells
-/// which are doubtful. What returns `false` has done nothing, as the memory does not suffice.
+/// which are doubtful. The mesh stays there. What returns `false` has done nothing, as the memory
+/// does not suffice.
 class Star_sweeps_base {
 public:
   virtual ~Star_sweeps_base() = default;
+  /// Takes the stars of a mesh; or, of the mesh that is there, those that have changed since it
+  /// came, or since its vertices were moved as here.
+  virtual bool take(const internal::Flat_stars& stars) = 0;
+  /// Where the spokes of each vertex begin, and the end.
+  virtual internal::Unset_vector<int> first_spokes() = 0;
   /// So many steps of each vertex; see `smooth_vertex()`.
-  virtual bool smooth(internal::Flat_stars& stars, int steps) = 0;
+  virtual void smooth(int steps, internal::Swept_vertices& result) = 0;
   /// Moves the vertices, off the surface too, so that the mesh is nearer to it; see
   /// `Fit_equations`.
-  virtual bool fit(internal::Flat_stars& stars, internal::Flat_fit& fit) = 0;
+  virtual bool fit(internal::Flat_fit& fit, internal::Swept_vertices& result) = 0;
   /// Of n `vertices` of the surface, writes the faces of `mesh` that are nearest, of those whose
   /// normals agree (`Surface_descent::min_cosine`); -1 where none does. \pre `mesh` has a face
   virtual bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) = 0;

@@ -107,13 +107,23 @@ private:
 
 CGAL_POWER_RTF_HD inline Star_view::Star Star_view::star(int v) const { return {*this, v}; }
 
-/// Owns what a `Star_view` needs of the mesh.
+/// What a `Star_view` needs of the mesh, of all vertices or of some.
 struct Flat_stars {
+  bool are_all = true;
+  std::vector<int> vertices; ///< of which they are, sorted, if not of all
   Unset_vector<int> first, neighbors;
   Unset_vector<unsigned char> kinds;
   Unset_vector<Vec3d> points, normals;
   Unset_vector<int> facets;
-  std::vector<int> doubtful; ///< what sweeps find: vertices, sorted; see `Find_doubtful_stars`
+
+  int size() const { return static_cast<int>(points.size()); }
+};
+
+/// What sweeps make of all vertices.
+struct Swept_vertices {
+  Unset_vector<Vec3d> points, normals;
+  Unset_vector<int> facets;
+  std::vector<int> doubtful; ///< vertices, sorted; see `Find_doubtful_stars`
 
   int size() const { return static_cast<int>(points.size()); }
 };

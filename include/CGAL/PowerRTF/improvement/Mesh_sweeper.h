@@ -1,0 +1,88 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_MESH_SWEEPER_H
+#define CGAL_POWER_RTF_IMPROVEMENT_MESH_SWEEPER_H
+
+#include <CGAL/PowerRTF/improvement/Changed_vertices.h>
+#include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/improvement/flat_stars.h>
+#include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL::PowerRTF::internal {
+
+/// Sweeps over a mesh where an engine works, if it has the room; else on the host. Each has the
+/// stars from when it was last asked: then only those go there that have changed.
+class Mesh_sweeper {
+public:
+  /// `there`: null, if no engine does that.
+  Mesh_sweeper(Star_mesh& mesh, Star_sweeps_base* there, Star_sweeps_base& here)
+      : m(mesh), m_there{there, {}}, m_here{&here, {}}
+  {}
+
+  /// Moves all vertices so many times. \returns those that are left doubtful.
+  std::vector<int> smooth(int steps)
+  {
+    return sweep([&](Star_sweeps_base& sweeps, Swept_vertices& swept) {
+      sweeps.smooth(steps, swept);
+      m.move_all(swept);
+      return true;
+    });
+  }
+
+  /// Moves all vertices nearer to the surface. `equations(first_spokes)`: what
+  /// `Star_sweeps_base::fit()` has to know. \returns those that are left doubtful.
+  template <class Equations>
+  std::vector<int> fit(const Equations& equations)
+  {
+    return sweep([&](Star_sweeps_base& sweeps, Swept_vertices& swept) {
+      Flat_fit fit = equations(sweeps.first_spokes());
+      if (!sweeps.fit(fit, swept)) return false;
+      m.move_all(swept, fit.heights.data());
+      return true;
+    });
+  }
+
+private:
+  // What has the stars as they were before the changes.
+  struct Place {
+    Star_sweeps_base* sweeps;
+    std::optional<Changed_vertices> changed; // none: it has no stars
+  };
+
+  // Where `f(sweeps, swept)` does not return `false`.
+  template <class F>
+  std::vector<int> sweep(const F& f)
+  {
+    Swept_vertices swept;
+    if (!m_there.sweeps || !is_swept(m_there, swept, f)) is_swept(m_here, swept, f);
+    return std::move(swept.doubtful);
+  }
+
+  template <class F>
+  bool is_swept(Place& place, Swept_vertices& swept, const F& f)
+  {
+    if (!place.changed) place.changed.emplace(m);
+    constexpr std::size_t vertices_per_change = 2;
+    std::vector<int> changed = place.changed->find();
+    const bool is_done = place.sweeps->take(place.changed->are_few(changed, vertices_per_change)
+                                                ? flat_stars(m, std::move(changed))
+                                                : flat_stars(m)) &&
+                         f(*place.sweeps, swept);
+    if (is_done)
+      place.changed->assign({});
+    else
+      place.changed.reset();
+    return is_done;
+  }
+
+  Star_mesh& m;
+  Place m_there, m_here;
+};
+
+} // namespace CGAL::PowerRTF::internal
+
+#endif // CGAL_POWER_RTF_IMPROVEMENT_MESH_SWEEPER_H
