@@ -70,7 +70,7 @@ public:
     const internal::Surface_fitter fitter(mesh, tracker, flat, 0.3);
     Stars swept;
     if (!sweeps.take(flat_stars(mesh))) return swept;
-    internal::Flat_fit fit = fitter.equations(sweeps.first_spokes());
+    internal::Flat_fit fit = fitter.equations();
     if (!sweeps.fit(fit, swept)) return {};
     mesh.move_all(swept, fit.heights.data());
     tracker.update();

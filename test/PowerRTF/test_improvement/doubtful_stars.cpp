@@ -66,7 +66,6 @@ public:
   {}
 
   bool take(const internal::Flat_stars& stars) override { return m_sweeps->take(stars); }
-  internal::Unset_vector<int> first_spokes() override { return m_sweeps->first_spokes(); }
   void smooth(int steps, internal::Swept_vertices& result) override
   {
     m_sweeps->smooth(steps, result);

@@ -122,7 +122,6 @@ public:
     taken.push_back(stars.are_all ? -1 : stars.size());
     return has_room && m_sweeps->take(stars);
   }
-  internal::Unset_vector<int> first_spokes() override { return m_sweeps->first_spokes(); }
   void smooth(int steps, internal::Swept_vertices& swept) override
   {
     m_sweeps->smooth(steps, swept);

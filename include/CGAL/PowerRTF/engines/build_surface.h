@@ -16,6 +16,7 @@
 #include <CGAL/PowerRTF/geometry/facet_shape.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/internal/mark_firsts.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <cstddef>
@@ -55,26 +56,6 @@ struct Renumber_facet {
     for (int k = 0; k < 3; ++k) v[k] = places[v[k]];
     const int least = v[0] < v[1] ? v[0] : v[1];
     keys[f] = std::uint64_t(least < v[2] ? least : v[2]);
-  }
-};
-
-struct Set_vertex_key {
-  const int* vertices;
-  std::uint64_t* keys;
-  CGAL_POWER_RTF_HD void operator()(int c) const { keys[c] = std::uint64_t(vertices[c]); }
-};
-
-/// Where the lists of corners begin that do so at place k.
-struct Mark_first_corners {
-  const int *vertices, *corners;
-  int number_of_corners, number_of_vertices;
-  int* first;
-
-  CGAL_POWER_RTF_HD void operator()(int k) const
-  {
-    const int before = k > 0 ? vertices[corners[k - 1]] : -1,
-              here = k < number_of_corners ? vertices[corners[k]] : number_of_vertices;
-    for (int v = before + 1; v <= here; ++v) first[v] = k;
   }
 };
 
@@ -236,11 +217,10 @@ bool build_surface(Backend& backend, const std::vector<Vec3d>& points,
                                             there.facet_areas.data(), there.facet_normals.data(),
                                             a.angles.data()},
                                 Keep_totals{sums});
-  backend.for_each(corners, Set_vertex_key{there.corners.data(), a.keys.data()});
+  backend.for_each(corners, Set_key{there.corners.data(), a.keys.data()});
   backend.sort_order(corners, a.keys.data(), there.vertex_corners.data());
-  backend.for_each(corners + 1,
-                   Mark_first_corners{there.corners.data(), there.vertex_corners.data(), corners,
-                                      vertices, there.first_corner.data()});
+  backend.for_each(corners + 1, Mark_firsts{there.corners.data(), there.vertex_corners.data(),
+                                            corners, vertices, there.first_corner.data()});
   backend.for_each(vertices, Set_to_own_number{a.component.data()});
   const Corner_lists lists{there.first_corner.data(), nullptr, there.vertex_corners.data()};
   backend.template reduce<2, 0>(vertices,

@@ -33,13 +33,10 @@ public:
     });
   }
 
-  /// Moves all vertices nearer to the surface. `equations(first_spokes)`: what
-  /// `Star_sweeps_base::fit()` has to know. \returns those that are left doubtful.
-  template <class Equations>
-  std::vector<int> fit(const Equations& equations)
+  /// Moves all vertices nearer to the surface. \returns those that are left doubtful.
+  std::vector<int> fit(Flat_fit&& fit)
   {
     return sweep([&](Star_sweeps_base& sweeps, Swept_vertices& swept) {
-      Flat_fit fit = equations(sweeps.first_spokes());
       if (!sweeps.fit(fit, swept)) return false;
       m.move_all(swept, fit.heights.data());
       return true;

@@ -13,14 +13,11 @@
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Mesh_sweeper.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
-#include <CGAL/PowerRTF/improvement/flat_stars.h>
-#include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -28,9 +25,6 @@ namespace CGAL::PowerRTF::internal {
 class Surface_fitter {
 public:
   using Vertex = Star_mesh::Vertex;
-  using Halfedge = Star_mesh::Halfedge;
-  using Edge = Star_mesh::Edge;
-  using Face = Working_mesh::Face;
 
   /// `flat`: of the surface. `limit`: the badness that a move may bring upon a triangle that was
   /// better.
@@ -40,13 +34,10 @@ public:
   {}
 
   /// \returns the vertices that are left doubtful.
-  std::vector<int> run(Mesh_sweeper& sweeper) const
-  {
-    return sweeper.fit([this](const Unset_vector<int>& first) { return equations(first); });
-  }
+  std::vector<int> run(Mesh_sweeper& sweeper) const { return sweeper.fit(equations()); }
 
-  /// What `Star_sweeps_base::fit()` has to know. `first_spokes`: of each vertex, and the end.
-  Flat_fit equations(const Unset_vector<int>& first_spokes) const
+  /// What `Star_sweeps_base::fit()` has to know.
+  Flat_fit equations() const
   {
     const Surface& surface = m.projector().surface();
     Flat_fit fit;
@@ -56,7 +47,9 @@ public:
     fit.tangential_weight = has_uniform_density(surface) ? Parameters::even_tangential_weight
                                                          : Parameters::tangential_weight;
     fit.badness_limit = m_badness_limit;
-    add_mesh(first_spokes, fit);
+    fit.heights.resize(m.size());
+    for_each_index(m.concurrency(), int(m.size()),
+                   [&](int v) { fit.heights[v] = m.height(Vertex(v)); });
     add_tracked(fit);
     const double width = Parameters::flat_width * std::sqrt(surface.area / double(m.size()));
     fit.is_wide.resize(surface.triangles.size());
@@ -68,46 +61,17 @@ public:
 private:
   using Parameters = Improvement_parameters::Fitting;
 
-  void add_mesh(const Unset_vector<int>& first_spokes, Flat_fit& fit) const
-  {
-    const auto& mesh = m.working().mesh;
-    fit.heights.resize(m.size());
-    for_each_index(m.concurrency(), int(m.size()),
-                   [&](int v) { fit.heights[v] = m.height(Vertex(v)); });
-    for (auto array : {&fit.spoke_edges, &fit.spoke_faces}) array->resize(first_spokes.back());
-    for_each_spoke(m, first_spokes, [&](int k, Halfedge h) {
-      fit.spoke_edges[k] = int(mesh.edge(h));
-      fit.spoke_faces[k] = int(mesh.face(h));
-    });
-    fit.corners.resize(3 * mesh.num_faces());
-    for_each_index(m.concurrency(), int(mesh.num_faces()), [&](int f) {
-      const auto corners = m.working().corners(Face(f));
-      std::copy(corners.begin(), corners.end(), &fit.corners[3 * std::size_t(f)]);
-    });
-    fit.edges.resize(mesh.num_edges());
-    for_each_index(m.concurrency(), int(mesh.num_edges()), [&](int e) {
-      const Halfedge h = mesh.halfedge(Edge(e), 0), o = mesh.halfedge(Edge(e), 1);
-      const auto face = [&](Halfedge h) { return mesh.is_border(h) ? -1 : int(mesh.face(h)); };
-      fit.edges[e] = {int(mesh.source(h)), int(mesh.target(h)), face(h), face(o)};
-    });
-  }
-
   void add_tracked(Flat_fit& fit) const
   {
-    const int faces = fit.faces();
-    fit.first_tracked.resize(faces + 1);
-    fit.first_tracked[faces] = 0;
-    for_each_index(m.concurrency(), faces,
-                   [&](int f) { fit.first_tracked[f] = int(m_tracker.at_face(Face(f)).size()); });
-    exclusive_scan(m.concurrency(), faces + 1, fit.first_tracked.data());
-    fit.tracked.resize(m_tracker.size());
-    for_each_index(m.concurrency(), faces, [&](int f) {
-      int k = fit.first_tracked[f];
-      for (const int i : m_tracker.at_face(Face(f))) {
-        const auto& w = m_tracker[i];
-        fit.tracked[k++] = {
-            m_tracker.point(i), m_tracker.normal(i), w.nearest, w.distance, w.weight, w.facet};
-      }
+    const int n = m_tracker.size();
+    fit.tracked.resize(n);
+    fit.tracked_corners.resize(3 * std::size_t(n));
+    for_each_index(m.concurrency(), n, [&](int i) {
+      const auto& w = m_tracker[i];
+      fit.tracked[i] = {
+          m_tracker.point(i), m_tracker.normal(i), w.nearest, w.distance, w.weight, w.facet};
+      const auto corners = m.working().corners(w.face);
+      std::copy(corners.begin(), corners.end(), &fit.tracked_corners[3 * std::size_t(i)]);
     });
   }
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Loops over all stars of a mesh, and the stars as plain arrays.
+// The stars of a mesh as plain arrays, and a loop over all vertices that may move.
 #ifndef CGAL_POWER_RTF_IMPROVEMENT_FLAT_STARS_H
 #define CGAL_POWER_RTF_IMPROVEMENT_FLAT_STARS_H
 
@@ -16,19 +16,6 @@
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
-
-/// Calls `f(k, h)` for the spokes of all stars, many at once: their numbers, and the halfedges to
-/// the center. `first`: of each vertex, and the end.
-template <class F>
-void for_each_spoke(const Star_mesh& mesh, const Unset_vector<int>& first, F&& f)
-{
-  for_each_index(mesh.concurrency(), int(mesh.size()), [&](int v) {
-    if (first[v] == first[v + 1]) return;
-    int k = first[v];
-    for (const auto h : halfedges_around_target(Star_mesh::Vertex(v), mesh.working().mesh))
-      f(k++, h);
-  });
-}
 
 /// Of n vertices, as `vertex(i)` names them. \pre nothing is missing: no vertex has been collapsed
 template <class Vertex>

@@ -21,7 +21,7 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// An edge of a mesh and the faces to its left and right; -1: none.
+/// An edge of a mesh and the faces to its left and right.
 struct Mesh_edge {
   int source, target;
   int left, right;
@@ -84,9 +84,8 @@ struct Fit_equations {
   CGAL_POWER_RTF_HD void set_middle(int e) const
   {
     const Mesh_edge& edge = edges[e];
-    const double a =
-        (edge.left < 0 ? 0 : area(edge.left)) + (edge.right < 0 ? 0 : area(edge.right));
-    const int f = edge.left < 0 ? edge.right : edge.left;
+    const double a = area(edge.left) + area(edge.right);
+    const int f = edge.left;
     Weights w;
     for (int k = 0; k < 3; ++k) {
       const int v = corners[3 * f + k];
@@ -134,7 +133,6 @@ struct Fit_equations {
     };
     add(middles[e], 0.5, 0.5);
     const auto add_face = [&](int f) {
-      if (f < 0) return;
       add(centroids[f], 1 / 3., 1 / 3.);
       for (int t = first_tracked[f]; t < first_tracked[f + 1]; ++t)
         add(target(tracked[t]), weight_at(tracked[t], f, edge.source),
@@ -287,18 +285,13 @@ private:
   }
 };
 
-/// Owns what `Fit_equations` needs of the mesh, beside its stars, and of what is tracked.
+/// Owns what `Fit_equations` needs beside the mesh's stars.
 struct Flat_fit {
   Unset_vector<double> heights; ///< by vertex
-  Unset_vector<int> spoke_edges, spoke_faces;
-  Unset_vector<int> corners; ///< three per face
-  Unset_vector<Mesh_edge> edges;
-  Unset_vector<int> first_tracked;
   Unset_vector<Tracked_place> tracked;
+  Unset_vector<int> tracked_corners; ///< three per place: its face, counter-clockwise
   Unset_vector<unsigned char> is_wide;
   double tangential_weight = 0, tracked_weight = 0, badness_limit = 0;
-
-  int faces() const { return static_cast<int>(corners.size() / 3); }
 };
 
 } // namespace CGAL::PowerRTF::internal

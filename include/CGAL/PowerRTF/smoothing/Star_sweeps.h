@@ -3,7 +3,7 @@
 #ifndef CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_H
 #define CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_H
 
-#include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/smoothing/Fit_arrays.h>
 #include <CGAL/PowerRTF/smoothing/Star_arrays.h>
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 #include <CGAL/PowerRTF/smoothing/color_vertices.h>
@@ -17,67 +17,6 @@
 namespace CGAL::PowerRTF {
 
 namespace internal {
-
-/// The arrays of `Fit_equations` where a backend works.
-template <class Backend>
-struct Fit_arrays {
-  template <class T>
-  using Buffer = typename Backend::template Buffer<T>;
-
-  Buffer<double> heights;
-  Buffer<int> spoke_edges, spoke_faces, corners, first_tracked;
-  Buffer<Mesh_edge> edges;
-  Buffer<Tracked_place> tracked;
-  Buffer<unsigned char> is_wide;
-  Buffer<Fit_target> centroids, middles;
-  Buffer<Fit_unknown> unknowns;
-  Buffer<Symmetric_matrix<float>> couplings;
-  Buffer<Vec3<float>> steps;
-
-  /// See listed_arrays.h.
-  template <class F>
-  static void for_each_array(F&& f, const Flat_fit& fit)
-  {
-    using A = Fit_arrays;
-    const std::size_t vertices = fit.heights.size(), faces = fit.faces(), edges = fit.edges.size();
-    f(&A::heights, vertices);
-    for (auto array : {&A::spoke_edges, &A::spoke_faces}) f(array, fit.spoke_edges.size());
-    f(&A::corners, 3 * faces);
-    f(&A::first_tracked, faces + 1);
-    f(&A::edges, edges);
-    f(&A::tracked, fit.tracked.size());
-    f(&A::is_wide, fit.is_wide.size());
-    f(&A::centroids, faces);
-    f(&A::middles, edges);
-    f(&A::unknowns, vertices);
-    f(&A::couplings, edges);
-    f(&A::steps, vertices);
-  }
-
-  Fit_equations upload(Backend& backend, const Star_view& stars, const Flat_fit& fit)
-  {
-    allocate_listed(backend, *this, fit);
-    Fit_equations equations;
-    equations.stars = stars;
-    equations.stars.heights = uploaded(backend, heights, fit.heights.data());
-    equations.spoke_edges = uploaded(backend, spoke_edges, fit.spoke_edges.data());
-    equations.spoke_faces = uploaded(backend, spoke_faces, fit.spoke_faces.data());
-    equations.corners = uploaded(backend, corners, fit.corners.data());
-    equations.edges = uploaded(backend, edges, fit.edges.data());
-    equations.first_tracked = uploaded(backend, first_tracked, fit.first_tracked.data());
-    equations.tracked = uploaded(backend, tracked, fit.tracked.data());
-    equations.is_wide = uploaded(backend, is_wide, fit.is_wide.data());
-    equations.tangential_weight = fit.tangential_weight;
-    equations.tracked_weight = fit.tracked_weight;
-    equations.badness_limit = fit.badness_limit;
-    equations.centroids = centroids.data();
-    equations.middles = middles.data();
-    equations.unknowns = unknowns.data();
-    equations.couplings = couplings.data();
-    equations.steps = steps.data();
-    return equations;
-  }
-};
 
 struct Smooth_vertices {
   Star_view stars;
@@ -126,13 +65,6 @@ public:
     return stars.are_all ? m_stars.upload(m_backend, stars) : m_stars.update(m_backend, stars);
   }
 
-  internal::Unset_vector<int> first_spokes() override
-  {
-    internal::Unset_vector<int> first(m_stars.first.size());
-    m_backend.download(first.data(), m_stars.first.data(), first.size());
-    return first;
-  }
-
   void smooth(int steps, internal::Swept_vertices& result) override
   {
     const internal::Star_view stars = view();
@@ -146,11 +78,11 @@ public:
   {
     using Part = internal::Fit_part;
     using internal::Fit_rule;
-    if (!m_backend.has_room(internal::bytes_of_listed<Fit_arrays>(fit))) return false;
-    Fit_arrays arrays;
-    const internal::Fit_equations equations = arrays.upload(m_backend, view(), fit);
-    const int edges = static_cast<int>(fit.edges.size());
-    m_backend.for_each(fit.faces(), Fit_rule<Part::centroid>{equations});
+    internal::Fit_arrays<Backend> arrays;
+    internal::Fit_equations equations;
+    if (!arrays.make(m_backend, view(), number_of_spokes(), fit, equations)) return false;
+    const int faces = arrays.mesh.number_of_faces(), edges = arrays.mesh.number_of_edges();
+    m_backend.for_each(faces, Fit_rule<Part::centroid>{equations});
     m_backend.for_each(edges, Fit_rule<Part::middle>{equations});
     m_backend.for_each(m_stars.size(), Fit_rule<Part::unknown>{equations});
     m_backend.for_each(edges, Fit_rule<Part::coupling>{equations});
@@ -171,7 +103,12 @@ public:
   }
 
 private:
-  using Fit_arrays = internal::Fit_arrays<Backend>;
+  int number_of_spokes()
+  {
+    int spokes;
+    m_backend.download(&spokes, m_stars.first.data() + m_stars.size(), 1);
+    return spokes;
+  }
 
   internal::Star_view view()
   {

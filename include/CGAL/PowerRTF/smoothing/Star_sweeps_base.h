@@ -21,8 +21,6 @@ public:
   /// Takes the stars of a mesh; or, of the mesh that is there, those that have changed since it
   /// came, or since its vertices were moved as here.
   virtual bool take(const internal::Flat_stars& stars) = 0;
-  /// Where the spokes of each vertex begin, and the end.
-  virtual internal::Unset_vector<int> first_spokes() = 0;
   /// So many steps of each vertex; see `smooth_vertex()`.
   virtual void smooth(int steps, internal::Swept_vertices& result) = 0;
   /// Moves the vertices, off the surface too, so that the mesh is nearer to it; see
