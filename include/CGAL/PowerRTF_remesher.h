@@ -234,6 +234,7 @@ private:
         result = judged(std::move(mesh));
       }
     });
+    m_report.device = m_engine.device_report(); // with what was held since
     return result;
   }
 
