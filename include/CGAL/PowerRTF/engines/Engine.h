@@ -171,6 +171,8 @@ private:
   static constexpr int short_memory = 5; // of L-BFGS: the default
 
   void make_builder();
+  /// Made anew if its memory has been released.
+  Cells& builder();
   void sort(const Engine_samples& samples);
   void upload_boundaries(const Engine_samples& samples);
   void update_attributes();

@@ -69,6 +69,16 @@ void Engine<R, B, C>::make_builder()
   m_builder.emplace(m_backend, m_size, m_cos_angle, R(radius), m_options);
 }
 
+template <class R, class B, class C>
+C& Engine<R, B, C>::builder()
+{
+  if (!m_builder) {
+    make_builder();
+    m_builder->set_sites(sites());
+  }
+  return *m_builder;
+}
+
 /// The samples with cells along a space-filling curve. Those that only clip are not sorted, so that
 /// their numbers stay.
 template <class R, class B, class C>
@@ -136,6 +146,7 @@ void Engine<R, B, C>::update_attributes()
 template <class R, class B, class C>
 void Engine<R, B, C>::set_sites()
 {
+  if (!m_builder) make_builder();
   m_builder->set_sites(sites());
   m_are_distances_known = m_are_components_known = m_is_left_out_known = false;
   m_has_newton_overshot = false;
@@ -176,7 +187,7 @@ std::vector<Cell_polygon> Engine<R, B, C>::cells()
 {
   const Engine_samples s = samples();
   std::vector<Cell_polygon> cells(m_cells);
-  m_builder->for_each_cell([&](int i, Cell_status status, const auto& polygon, const auto&) {
+  builder().for_each_cell([&](int i, Cell_status status, const auto& polygon, const auto&) {
     cells[i] = cell_polygon(s, i, status, polygon);
   });
   return cells;
@@ -192,9 +203,9 @@ Neighbor_cycles Engine<R, B, C>::neighbors()
   copy_without_weights(m_backend, m_size, m_sites.data(), plain.data());
   Sites_arrays<R> in = sites();
   in.sites = plain.data();
-  m_builder->set_weights(in);
-  Neighbor_cycles neighbors = m_builder->neighbors();
-  m_builder->set_weights(sites());
+  builder().set_weights(in);
+  Neighbor_cycles neighbors = builder().neighbors();
+  builder().set_weights(sites());
   return neighbors;
 }
 
@@ -205,8 +216,7 @@ void Engine<R, B, C>::release_memory()
   forget_lbfgs();
   forget_newton();
   m_best = {};
-  make_builder();
-  m_builder->set_sites(sites());
+  m_builder.reset();
 }
 
 } // namespace CGAL::PowerRTF

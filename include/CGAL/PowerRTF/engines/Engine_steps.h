@@ -52,7 +52,7 @@ template <class R, class B, class C>
 void Engine<R, B, C>::finish_cells()
 {
   if (!m_are_cells_due) return;
-  m_builder->build(outputs());
+  builder().build(outputs());
   m_are_edges_known = m_are_edges_wanted;
   m_are_cells_due = false;
 }
@@ -95,14 +95,14 @@ void Engine<R, B, C>::use_weights()
 {
   // With features the weights are relative to theirs.
   if (!has_features()) center_weights(m_backend, m_cells, m_sites.data(), m_scalar.data());
-  m_builder->set_weights(sites());
+  builder().set_weights(sites());
 }
 
 template <class R, class B, class C>
 void Engine<R, B, C>::find_distances()
 {
   if (m_are_distances_known) return;
-  m_builder->neighbor_distances(m_nearest.data(), m_sixth.data());
+  builder().neighbor_distances(m_nearest.data(), m_sixth.data());
   m_are_distances_known = true;
 }
 
@@ -119,8 +119,8 @@ void Engine<R, B, C>::update_weights()
 template <class R, class B, class C>
 bool Engine<R, B, C>::optimize_weights(int passes)
 {
-  m_passes_made = m_builder->start_weight_passes(sites(), m_sites.data(), m_density.data(),
-                                                 weight_rule(), passes, outputs());
+  m_passes_made = builder().start_weight_passes(sites(), m_sites.data(), m_density.data(),
+                                                weight_rule(), passes, outputs());
   if (m_passes_made) { // all in one kernel, the first cells too
     m_are_cells_due = false;
     forget_summary();
@@ -188,7 +188,7 @@ template <class R, class B, class C>
 void Engine<R, B, C>::clear_weights()
 {
   reset_weights(m_backend, m_cells, m_sites.data());
-  m_builder->set_weights(sites());
+  builder().set_weights(sites());
   build_cells();
 }
 
@@ -270,7 +270,7 @@ void Engine<R, B, C>::move_samples(Position_method method)
   else
     with_lbfgs([&](auto& l) { lbfgs_steps(m_backend, m_cells, l, m_sites.data(), lloyd, steps); });
   if (may_part) {
-    m_builder->empty_cells_distances(m_status.data(), nearest, sixth);
+    builder().empty_cells_distances(m_status.data(), nearest, sixth);
     m_are_distances_known = false;
     part_duplicates(m_backend, m_cells, m_status.data(), m_normals.data(), nearest, sixth, steps);
   }
