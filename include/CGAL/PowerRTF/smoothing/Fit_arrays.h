@@ -52,7 +52,7 @@ struct Fit_arrays {
   Buffer<Symmetric_matrix<float>> couplings;
   Buffer<Vec3<float>> steps;
 
-  /// See listed_arrays.h. But for those of the mesh.
+  /// See listed_arrays.h. But for those of the mesh, and the couplings.
   template <class F>
   static void for_each_array(F&& f, const Flat_fit& fit, std::size_t faces, std::size_t edges)
   {
@@ -65,7 +65,6 @@ struct Fit_arrays {
     f(&A::centroids, faces);
     f(&A::middles, edges);
     f(&A::unknowns, vertices);
-    f(&A::couplings, edges);
     f(&A::steps, vertices);
   }
 
@@ -77,6 +76,7 @@ struct Fit_arrays {
     const std::size_t faces = mesh.number_of_faces(), edges = mesh.number_of_edges();
     const int n = static_cast<int>(fit.tracked.size());
     if (!backend.has_room(bytes_of_listed<Fit_arrays>(fit, faces, edges) +
+                          edges * item_size(&Fit_arrays::couplings) +
                           bytes_of_listed<Tracked_order>(std::size_t(n)) + Backend::sort_bytes(n)))
       return false;
     allocate_listed(backend, *this, fit, faces, edges);
@@ -96,9 +96,17 @@ struct Fit_arrays {
     equations.centroids = centroids.data();
     equations.middles = middles.data();
     equations.unknowns = unknowns.data();
-    equations.couplings = couplings.data();
     equations.steps = steps.data();
     return true;
+  }
+
+  /// The couplings get memory, and the faces at the spokes, of use to the unknowns alone, lose it.
+  void make_couplings(Backend& backend, Fit_equations& equations)
+  {
+    mesh.spoke_faces = {};
+    couplings.allocate(backend, mesh.edges.size());
+    equations.spoke_faces = nullptr;
+    equations.couplings = couplings.data();
   }
 
 private:

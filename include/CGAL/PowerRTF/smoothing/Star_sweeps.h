@@ -85,6 +85,7 @@ public:
     m_backend.for_each(faces, Fit_rule<Part::centroid>{equations});
     m_backend.for_each(edges, Fit_rule<Part::middle>{equations});
     m_backend.for_each(m_stars.size(), Fit_rule<Part::unknown>{equations});
+    arrays.make_couplings(m_backend, equations);
     m_backend.for_each(edges, Fit_rule<Part::coupling>{equations});
     const std::vector<int> first = order(equations.stars);
     for (int sweep = 0; sweep < internal::Fitting_parameters::sweeps; ++sweep)
