@@ -9,7 +9,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -115,6 +117,53 @@ TEST_CASE("the engine: cells of the surface, Lloyd's steps, statistics")
     CHECK(length(q - samples.points[i]) < 1e-12);
   }
   CHECK(area == Approx(surface.area).epsilon(0.03)); // tangent planes lie outside of the sphere
+}
+
+TEST_CASE("what has been released is made anew where it is asked for")
+{
+  for (const bool paper : {false, true}) {
+    CAPTURE(paper);
+    const engine_comparison::Case c{"", shapes::icosphere(4),
+                                    engine_comparison::options_of(paper, Density::uniform, 300)};
+    const engine_comparison::Start start(c);
+    Cpu_engine<Sequential_tag> engine(start.patches->surface(), c.options),
+        kept(start.patches->surface(), c.options);
+    const auto step = [&](auto& e) {
+      e.build_cells();
+      e.optimize_weights(3);
+      e.move_samples(Position_method::lloyd);
+    };
+    for (auto* const e : {&engine, &kept}) {
+      e->set_samples(start.samples);
+      step(*e);
+      e->build_cells();
+      e->optimize_weights(3);
+    }
+    constexpr double rounding = 1e-12; // another one: cells are cut in another order
+    const auto cycle = [](std::vector<int> around) {
+      std::rotate(around.begin(), std::min_element(around.begin(), around.end()), around.end());
+      return around;
+    };
+    engine.release_memory();
+    const std::vector<Cell_polygon> cells = engine.cells(), expected = kept.cells();
+    REQUIRE(cells.size() == 300);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      CHECK(cells[i].weight == expected[i].weight);
+      CHECK(cycle(cells[i].neighbors) == cycle(expected[i].neighbors));
+      CHECK(std::abs(cells[i].area - expected[i].area) < rounding);
+    }
+    engine.release_memory();
+    const Neighbor_cycles neighbors = engine.neighbors(), as_kept = kept.neighbors();
+    const auto around = [&](const Neighbor_cycles& all, int i) {
+      return cycle(std::vector<int>(all[i].begin(), all[i].end()));
+    };
+    for (int i = 0; i < 300; ++i) CHECK(around(neighbors, i) == around(as_kept, i));
+    engine.release_memory();
+    for (auto* const e : {&engine, &kept}) step(*e);
+    const std::vector<Vec3d> points = engine.samples().points, with_kept = kept.samples().points;
+    for (int i = 0; i < 300; ++i) CHECK(length(points[i] - with_kept[i]) < 1000 * rounding);
+    CHECK(length(points[0] - start.samples.points[0]) > 1e-6);
+  }
 }
 
 TEST_CASE("L-BFGS gets nearer to centroidal samples than Lloyd's method does in as many steps")
