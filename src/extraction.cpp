@@ -13,12 +13,12 @@ namespace CGAL::PowerRTF {
 template Extracted_mesh
 extract_from_cells<Sequential_tag>(const Surface&, const Samples&, const Feature_samples&,
                                    Neighbor_cycles&&, Cell_extraction_statistics*,
-                                   const Find_close_faces&, const Find_sound_stars&);
+                                   const Bring_mesh&, const Find_sound_stars&);
 #ifdef CGAL_LINKED_WITH_TBB
 template Extracted_mesh extract_from_cells<Parallel_tag>(const Surface&, const Samples&,
                                                          const Feature_samples&, Neighbor_cycles&&,
                                                          Cell_extraction_statistics*,
-                                                         const Find_close_faces&,
+                                                         const Bring_mesh&,
                                                          const Find_sound_stars&);
 #endif
 

@@ -131,9 +131,8 @@ public:
     return m_whole ? PowerRTF::mesh_parts(mesh, Tag()).first
                    : PowerRTF::mesh_patches(mesh, m_patches.surface(), Tag());
   }
-  /// What finds the topology of meshes where the engine works; empty: on the host. It lives as long
-  /// as this.
-  PowerRTF::Find_topology topology_finder() { return m_engine.topology_finder(); }
+  /// Brings meshes to where the engine works; empty: on the host. It lives as long as this.
+  PowerRTF::Bring_mesh mesh_bringer() { return m_engine.mesh_bringer(); }
   /// The precision of the cells' numbers: the machine epsilon of double, or of float.
   double epsilon() const { return m_engine.epsilon(); }
 
@@ -292,8 +291,7 @@ private:
     const typename Traits::Concurrency_tag concurrency;
     if (!m_whole) {
       PowerRTF::assess(m_surface, m_patches.surface(), m_engine.facet_tree(), mesh, m_report,
-                       concurrency, m_engine.distance_finder(), m_engine.close_face_finder(),
-                       m_engine.topology_finder());
+                       concurrency, m_engine.mesh_bringer());
     } else {
       const std::size_t of_half = mesh.points.size();
       mesh = PowerRTF::mirrored_mesh(std::move(mesh), m_surface, concurrency);
@@ -376,8 +374,8 @@ private:
       PowerRTF::improve_mesh(
           m_patches.surface(), m_engine.facet_tree(), mesh, typename Traits::Concurrency_tag(),
           {m_options.dislocations, m_report.max_distance * surface.normalization.scale,
-           std::move(carriers), m_engine.close_face_finder(), m_engine.topology_finder(),
-           m_engine.star_sweeps_maker(), std::move(m_prepared)});
+           std::move(carriers), m_engine.mesh_bringer(), m_engine.star_sweeps_maker(),
+           std::move(m_prepared)});
     }
     return mesh;
   }
@@ -421,7 +419,7 @@ private:
     if (!by_cells) return PowerRTF::extract_by_insertion(surface, samples, features, seams);
     PowerRTF::Cell_extraction_statistics statistics;
     PowerRTF::Extracted_mesh mesh = PowerRTF::extract_from_cells<typename Traits::Concurrency_tag>(
-        surface, samples, features, std::move(neighbors), &statistics, m_engine.close_face_finder(),
+        surface, samples, features, std::move(neighbors), &statistics, m_engine.mesh_bringer(),
         m_engine.sound_star_finder());
     m_report.mended_samples =
         statistics.is_from_insertion ? samples.size() : statistics.open_samples;

@@ -376,7 +376,10 @@ power_rtf_remeshing(const InputMesh& input, const PowerRTF::Resolution& resoluti
         PowerRTF::internal::export_with_sources(
             input, np_in, mesh, remesher.surface().normalization,
             [&] { return remesher.patches(mesh); }, output, np_out, report, ConcurrencyTag(),
-            remesher.topology_finder());
+            [&](PowerRTF::Triangle_links& links) {
+              const auto there = mesh.there(remesher.mesh_bringer());
+              return there && there->topology(&links);
+            });
       });
 }
 

@@ -32,10 +32,8 @@ public:
   Samples sites() const;
   std::vector<Cell_polygon> cells();
   void release_memory();
-  Find_distances distance_finder();
-  Find_close_faces close_face_finder();
+  Bring_mesh mesh_bringer();
   Find_sound_stars sound_star_finder();
-  Find_topology topology_finder();
   Make_star_sweeps star_sweeps_maker();
   Neighbor_cycles neighbors();
   double epsilon() const;

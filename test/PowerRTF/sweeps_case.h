@@ -80,15 +80,16 @@ public:
 
   int vertices_of_surface() const { return int(m_case.surface.points.size()); }
   int faces() const { return int(m_case.raw.triangles.size()); }
-  /// The faces that are nearest to the surface's vertices; none where they are not found.
-  internal::Unset_vector<int> nearest_faces(Star_sweeps_base& sweeps) const
+  /// The faces that are nearest to the surface's vertices, as an engine finds them; none where it
+  /// does not.
+  internal::Unset_vector<int> nearest_faces(const Bring_mesh& bring) const
   {
+    using Projection = internal::Improvement_parameters::Projection;
     internal::Unset_vector<int> nearest(vertices_of_surface());
     std::iota(nearest.begin(), nearest.end(), 0);
-    const Extracted_mesh& raw = m_case.raw;
-    const Mesh_arrays mesh{int(raw.points.size()), raw.points.data(), faces(),
-                           raw.triangles.data()->data()};
-    if (!sweeps.find_faces(mesh, int(nearest.size()), nearest.data(), nearest.data()))
+    const std::shared_ptr<Resident_mesh> there = bring(m_case.raw.arrays());
+    if (!there || !there->find_faces(Projection::min_normal_cosine, int(nearest.size()),
+                                     nearest.data(), nearest.data()))
       nearest.clear();
     return nearest;
   }

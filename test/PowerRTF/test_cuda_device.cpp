@@ -5,6 +5,7 @@
 // the engine is not built.
 #include "engine_comparison.h"
 #include "relative_distances.h"
+#include "unknown_mesh.h"
 
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/engines/close_faces.h>
@@ -318,18 +319,14 @@ TEST_CASE("distances are those that the CPU finds")
     for (const shapes::Soup& s : {c.soup, shapes::torus(200, 100, 0.6, 0.2), single,
                                   shapes::torus(800, 400, 0.6, 0.2)}) { // a thread for each vertex
       CAPTURE(s.triangles.size());
-      const auto distance = [&](const Find_distances& find) {
+      const auto distance = [&](Resident_mesh* there) {
         return surface_distance(surface.points, surface.triangles, engine.facet_tree(), s.points,
-                                s.triangles, CGAL::Parallel_if_available_tag(), false, find);
+                                s.triangles, CGAL::Parallel_if_available_tag(), false, there);
       };
-      int found = 0;
-      const Find_distances find = engine.distance_finder();
-      const Distance_statistics expected = distance({}), d = distance([&](auto&&... arguments) {
-                                                           const bool is_found = find(arguments...);
-                                                           found += is_found;
-                                                           return is_found;
-                                                         });
-      CHECK(found == 1);
+      const auto there = engine.mesh_bringer()(shapes::arrays(s));
+      Two_sided_distances some;
+      REQUIRE(there->find_distances(1, some));
+      const Distance_statistics expected = distance(nullptr), d = distance(there.get());
       constexpr double rounding = 1e-5; // per cent; it may take a sample to the next facet
       CHECK(std::fabs(d.mean - expected.mean) < rounding);
       CHECK(std::fabs(d.rms - expected.rms) < rounding);
@@ -383,7 +380,6 @@ TEST_CASE("faces that may intersect are those that the host's loops find")
   const Start start(c);
   Cuda_engine<float> engine(start.patches->surface(), c.options);
   engine.set_samples(start.samples, start.patches->features());
-  const Find_close_faces find = engine.close_face_finder();
   for (const shapes::Soup& s : {c.soup, shapes::torus(400, 200, 0.6, 0.2),
                                 shapes::two_spheres(2, 1.3), shapes::two_spheres(5, 1.3)}) {
     CAPTURE(s.triangles.size());
@@ -395,10 +391,9 @@ TEST_CASE("faces that may intersect are those that the host's loops find")
     };
     Host_backend<CGAL::Parallel_if_available_tag> host;
     Face_pairs pairs, expected;
-    const int vertices = int(s.points.size()), n = int(s.triangles.size());
-    REQUIRE(find(vertices, s.points.data(), n, s.triangles.front().data(), pairs));
-    REQUIRE(internal::close_faces(host, vertices, s.points.data(), n, s.triangles.front().data(),
-                                  expected));
+    const Mesh_arrays mesh = shapes::arrays(s);
+    REQUIRE(engine.mesh_bringer()(mesh)->find_close_faces(pairs));
+    REQUIRE(internal::close_faces(host, mesh, expected));
     CHECK(sorted(pairs) == sorted(expected));
   }
 }

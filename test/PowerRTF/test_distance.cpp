@@ -3,6 +3,7 @@
 //
 // The distance of two surfaces against closed forms.
 #include "shapes.h"
+#include "unknown_mesh.h"
 
 #include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/geometry/curve_order.h>
@@ -174,12 +175,19 @@ TEST_CASE("distance: samples share the area evenly")
 
 namespace {
 
-/// As an engine finds them.
+/// Distances as an engine finds them, on the host.
 template <class Tag>
-Find_distances finder(const Soup& surface, const Facet_tree& tree,
-                      const std::vector<int>& corners_by_place)
-{
-  return [&](const Mesh_arrays& mesh, int samples, Two_sided_distances& result) {
+struct Mesh_there : unknown::Mesh {
+  const Soup &mesh, &surface;
+  const Facet_tree& tree;
+  const std::vector<int>& corners_by_place;
+
+  Mesh_there(const Soup& m, const Soup& s, const Facet_tree& t, const std::vector<int>& corners)
+      : mesh(m), surface(s), tree(t), corners_by_place(corners)
+  {}
+
+  bool find_distances(int samples, Two_sided_distances& result) override
+  {
     Host_backend<Tag> backend;
     Surface_view<double> there = tree.view();
     there.facet_vertices = corners_by_place.data();
@@ -187,9 +195,10 @@ Find_distances finder(const Soup& surface, const Facet_tree& tree,
     facets.vertices = int(surface.points.size());
     facets.facets = int(surface.triangles.size());
     facets.points = surface.points.data();
-    return internal::surface_distances(backend, facets, there, mesh, samples, result);
-  };
-}
+    return internal::surface_distances(backend, facets, there, shapes::arrays(mesh), samples,
+                                       result);
+  }
+};
 
 void check_same(const Distance_statistics& a, const Distance_statistics& b)
 {
@@ -216,14 +225,16 @@ TEST_CASE("distance: found by a backend, to the last bit")
     for (const int f : tree.order())
       corners.insert(corners.end(), in.triangles[f].begin(), in.triangles[f].end());
     for (const Soup& out : {fine, coarse, with_unused, small, single}) {
-      const auto run = [&](bool is_bound_wanted, const Find_distances& find) {
+      const auto run = [&](bool is_bound_wanted, Resident_mesh* there) {
         return surface_distance(in.points, in.triangles, tree, out.points, out.triangles, Tag(),
-                                is_bound_wanted, find);
+                                is_bound_wanted, there);
       };
+      Mesh_there<Tag> parallel(out, in, tree, corners);
+      Mesh_there<CGAL::Sequential_tag> sequential(out, in, tree, corners);
       const bool is_bound_wanted = in.triangles.size() < 20 && out.triangles.size() < 20;
-      const Distance_statistics expected = run(is_bound_wanted, {});
-      check_same(run(is_bound_wanted, finder<Tag>(in, tree, corners)), expected);
-      check_same(run(is_bound_wanted, finder<CGAL::Sequential_tag>(in, tree, corners)), expected);
+      const Distance_statistics expected = run(is_bound_wanted, nullptr);
+      check_same(run(is_bound_wanted, &parallel), expected);
+      check_same(run(is_bound_wanted, &sequential), expected);
     }
   }
 }
@@ -231,10 +242,13 @@ TEST_CASE("distance: found by a backend, to the last bit")
 TEST_CASE("distance: where a backend finds none, the host does")
 {
   const Soup fine = shapes::icosphere(4), coarse = shapes::icosphere(2);
-  int calls = 0;
+  struct : unknown::Mesh {
+    int calls = 0;
+    bool find_distances(int, Two_sided_distances&) override { return ++calls == 0; }
+  } there;
   check_same(surface_distance(fine.points, fine.triangles, Facet_tree(fine.points, fine.triangles),
                               coarse.points, coarse.triangles, CGAL::Sequential_tag(), false,
-                              [&](auto&&...) { return ++calls == 0; }),
+                              &there),
              distance(fine, coarse));
-  CHECK(calls == 1);
+  CHECK(there.calls == 1);
 }

@@ -3,6 +3,7 @@
 //
 // Self-intersections against exact predicates and CGAL's own count.
 #include "mesh_of_shape.h"
+#include "unknown_mesh.h"
 
 #include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
@@ -59,18 +60,22 @@ std::size_t cgal_self_intersections(const Soup& s)
 bool find_close(const Soup& s, Face_pairs& pairs)
 {
   Host_backend<CGAL::Parallel_if_available_tag> backend;
-  return internal::close_faces(backend, int(s.points.size()), s.points.data(),
-                               int(s.triangles.size()), s.triangles.front().data(), pairs);
+  return internal::close_faces(backend, shapes::arrays(s), pairs);
 }
+
+// A soup that a backend looks at.
+struct Soup_there : unknown::Mesh {
+  explicit Soup_there(const Soup& soup) : s(soup) {}
+  bool find_close_faces(Face_pairs& pairs) override { return find_close(s, pairs); }
+  const Soup& s;
+};
 
 // With a backend's help or without.
 std::size_t self_intersections(const Soup& s)
 {
   const Face_pairs pairs = intersecting_facets(s.points, s.triangles);
-  const Find_close_faces find = [&](int, const Vec3d*, int, const int*, Face_pairs& close) {
-    return find_close(s, close);
-  };
-  CHECK(intersecting_facets(s.points, s.triangles, CGAL::Parallel_if_available_tag(), find) ==
+  Soup_there there(s);
+  CHECK(intersecting_facets(s.points, s.triangles, CGAL::Parallel_if_available_tag(), &there) ==
         pairs);
   return pairs.size();
 }

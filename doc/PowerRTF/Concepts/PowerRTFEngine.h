@@ -97,15 +97,12 @@ public:
   /// Frees what only further steps need. They would make it again.
   void release_memory();
 
-  /// What finds distances between the surface and a mesh where the engine works; or empty. Where it
-  /// returns `false`, the caller finds them.
-  CGAL::PowerRTF::Find_distances distance_finder();
-  /// The same of faces that may intersect.
-  CGAL::PowerRTF::Find_close_faces close_face_finder();
-  /// The same of cells whose triangles are sound.
+  /// What brings a mesh to where the engine works, once for all that is asked of it; or empty. What
+  /// is not found there, the caller finds.
+  CGAL::PowerRTF::Bring_mesh mesh_bringer();
+  /// What finds cells whose triangles are sound there; or empty. Where it returns `false`, the
+  /// caller finds them.
   CGAL::PowerRTF::Find_sound_stars sound_star_finder();
-  /// The same of the topology of a mesh.
-  CGAL::PowerRTF::Find_topology topology_finder();
   /// The same of sweeps over the vertices of a mesh.
   CGAL::PowerRTF::Make_star_sweeps star_sweeps_maker();
 

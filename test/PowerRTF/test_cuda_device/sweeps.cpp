@@ -6,6 +6,7 @@
 
 #ifdef CGAL_POWER_RTF_WITH_CUDA
 
+#include "../counting_backend.h"
 #include "../odd_shapes.h"
 #include "../sweeps_case.h"
 
@@ -26,6 +27,7 @@ public:
   {
     m_engine.facet_finder(); // the surface is there
   }
+  Bring_mesh bringer() { return m_engine.mesh_bringer(); }
   Make_star_sweeps maker() { return m_engine.star_sweeps_maker(); }
 
 private:
@@ -81,8 +83,11 @@ TEST_CASE("the faces that are nearest to a surface's vertices are as near as the
     CAPTURE(n);
     const Sweeps_case mesh(soup, n);
     Device device(mesh.surface());
-    const auto nearest = mesh.nearest_faces(*mesh.sweeps(device.maker())),
-               on_host = mesh.nearest_faces(*mesh.host_sweeps(CGAL::Parallel_if_available_tag()));
+    counting::Counted_engine<float, CGAL::Parallel_if_available_tag> host(mesh.surface(),
+                                                                          Remeshing_options());
+    host.facet_finder();
+    const auto nearest = mesh.nearest_faces(device.bringer()),
+               on_host = mesh.nearest_faces(host.mesh_bringer());
     REQUIRE(int(nearest.size()) == mesh.vertices_of_surface());
     for (int v = 0; v < int(nearest.size()); ++v) {
       REQUIRE((nearest[v] < 0) == (on_host[v] < 0)); // no normal is at the limit

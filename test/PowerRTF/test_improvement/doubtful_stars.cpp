@@ -77,10 +77,6 @@ public:
     change(result);
     return is_done;
   }
-  bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) override
-  {
-    return m_sweeps->find_faces(mesh, n, vertices, faces);
-  }
 
 private:
   void change(internal::Swept_vertices& swept) const

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sweeps over all vertices of a mesh, as loops that a backend runs.
+#include "../counting_backend.h"
 #include "../odd_shapes.h"
 #include "../sweeps_case.h"
 
@@ -130,7 +131,6 @@ public:
   {
     return has_room_to_fit && m_sweeps->fit(fit, swept);
   }
-  bool find_faces(const Mesh_arrays&, int, const int*, int*) override { return false; }
 
   std::vector<int> taken; // so many stars; -1: all
   bool has_room = true, has_room_to_fit = true;
@@ -138,6 +138,15 @@ public:
 private:
   std::unique_ptr<Star_sweeps_base> m_sweeps;
 };
+
+// As an engine finds them.
+template <class Tag>
+internal::Unset_vector<int> nearest_faces(const Sweeps_case& c)
+{
+  counting::Counted_engine<float, Tag> engine(c.surface(), Remeshing_options());
+  engine.facet_finder(); // the surface is there
+  return c.nearest_faces(engine.mesh_bringer());
+}
 
 } // namespace
 
@@ -283,9 +292,9 @@ TEST_CASE("the faces that are nearest to the surface's vertices are those of a s
                          {"few vertices", {shapes::icosphere(2), 12}, false}};
   for (const auto& [name, c, has_sheets] : meshes) {
     CAPTURE(name);
-    const auto nearest = c.nearest_faces(*c.host_sweeps(CGAL::Sequential_tag()));
+    const auto nearest = nearest_faces<CGAL::Sequential_tag>(c);
     REQUIRE(int(nearest.size()) == c.vertices_of_surface());
-    CHECK(nearest == c.nearest_faces(*c.host_sweeps(CGAL::Parallel_if_available_tag())));
+    CHECK(nearest == nearest_faces<CGAL::Parallel_if_available_tag>(c));
     const double rounding = 1e-12 * c.spacing();
     int on_other_sheet = 0;
     std::vector<double> least(nearest.size(), std::numeric_limits<double>::infinity());

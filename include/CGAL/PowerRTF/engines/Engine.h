@@ -8,12 +8,10 @@
 
 #include <CGAL/PowerRTF/cells/Cell_arrays.h>
 #include <CGAL/PowerRTF/engines/Engine_base.h>
-#include <CGAL/PowerRTF/engines/close_faces.h>
+#include <CGAL/PowerRTF/engines/Engine_mesh.h>
 #include <CGAL/PowerRTF/engines/nearest_facets.h>
-#include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
 #include <CGAL/PowerRTF/engines/sound_stars.h>
-#include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/geometry/Surface_arrays.h>
 #include <CGAL/PowerRTF/geometry/Surface_in_tree.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
@@ -93,26 +91,19 @@ public:
   std::vector<Cell_polygon> cells() override;
   Neighbor_cycles neighbors() override;
   void release_memory() override;
-  Find_distances distance_finder() override
+  Bring_mesh mesh_bringer() override
   {
     if constexpr (Backend::is_host)
       return {};
     else
-      return [this](const Mesh_arrays& mesh, int samples, Two_sided_distances& result) {
-        const std::optional<Surface_view<double>> there = m_surface.view_in_double(m_backend);
-        return there && internal::surface_distances(m_backend, m_surface.facets(), *there, mesh,
-                                                    samples, result);
+      return [this](const Mesh_arrays& mesh) -> std::shared_ptr<Resident_mesh> {
+        using Mesh = Engine_mesh<Real, Backend>;
+        if (m_mesh) m_mesh->release();
+        m_mesh.reset();
+        if (m_backend.has_room(internal::bytes_of_listed<Mesh>(mesh)))
+          m_mesh = std::make_shared<Mesh>(m_backend, m_surface, mesh);
+        return m_mesh;
       };
-  }
-  Find_close_faces close_face_finder() override
-  {
-    if constexpr (Backend::is_host)
-      return {};
-    else
-      return
-          [this](int vertices, const Vec3d* points, int n, const int* corners, Face_pairs& pairs) {
-            return internal::close_faces(m_backend, vertices, points, n, corners, pairs);
-          };
   }
   Find_sound_stars sound_star_finder() override
   {
@@ -123,15 +114,6 @@ public:
           [this](const Surface& surface, const Cell_triangles& triangles, unsigned char* is_sound) {
             return internal::find_sound_stars(m_backend, surface, triangles, is_sound);
           };
-  }
-  Find_topology topology_finder() override
-  {
-    if constexpr (Backend::is_host)
-      return {};
-    else
-      return [this](int vertices, int n, const int* corners, Triangle_links* links) {
-        return internal::oriented_topology(m_backend, vertices, n, corners, links);
-      };
   }
   Find_facets facet_finder() override
   {
@@ -240,6 +222,7 @@ private:
   Backend m_backend;
   Surface_arrays<Real, Backend> m_surface;
   double m_area_of_surface;
+  std::shared_ptr<Resident_mesh> m_mesh; // the last one; or null
   std::optional<Cells> m_builder;
   // Made when they are needed.
   std::optional<Lbfgs<Real, Backend, short_memory>> m_lbfgs;

@@ -10,10 +10,8 @@
 #include <CGAL/PowerRTF/cells/Cell_polygon.h>
 #include <CGAL/PowerRTF/cells/Find_sound_stars.h>
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
-#include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
-#include <CGAL/PowerRTF/geometry/Find_topology.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
@@ -74,16 +72,12 @@ public:
   virtual std::vector<Cell_polygon> cells() = 0;
   virtual Neighbor_cycles neighbors() = 0;
   virtual void release_memory() = 0;
-  /// Finds distances between its surface and meshes where the engine works, or empty: on the host,
-  /// where it is done by groups. The engine has to live as long as the result.
-  virtual Find_distances distance_finder() = 0;
-  /// The same for faces that may intersect.
-  virtual Find_close_faces close_face_finder() = 0;
-  /// The same for the triangles of cells.
+  /// Brings meshes to where the engine works, or empty: on the host, where what is asked of them is
+  /// found by groups. The engine has to live as long as the result.
+  virtual Bring_mesh mesh_bringer() = 0;
+  /// The same for what finds cells whose triangles are sound.
   virtual Find_sound_stars sound_star_finder() = 0;
-  /// The same for the topology of meshes.
-  virtual Find_topology topology_finder() = 0;
-  /// The same for facets of its surface.
+  /// The same for what finds facets of its surface.
   virtual Find_facets facet_finder() = 0;
   /// The same for what moves the vertices of meshes.
   virtual Make_star_sweeps star_sweeps_maker() = 0;

@@ -8,10 +8,8 @@
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/fields/Surface_work.h>
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
-#include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
-#include <CGAL/PowerRTF/geometry/Find_topology.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_in_tree.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
@@ -56,26 +54,13 @@ public:
   std::vector<Cell_polygon> cells() { return m_engine->cells(); }
   Neighbor_cycles neighbors() { return m_engine->neighbors(); }
   void release_memory() { m_engine->release_memory(); }
-  /// Finds distances between the surface and meshes where the engine works; it has to live as long
-  /// as the result. Empty: it works on the host, or there were no samples for it to work on.
-  Find_distances distance_finder()
-  {
-    return m_engine ? m_engine->distance_finder() : Find_distances();
-  }
-  /// The same for faces that may intersect.
-  Find_close_faces close_face_finder()
-  {
-    return m_engine ? m_engine->close_face_finder() : Find_close_faces();
-  }
-  /// The same for the triangles of cells.
+  /// Brings meshes to where the engine works; it has to live as long as the result. Empty: it works
+  /// on the host, or there were no samples for it to work on.
+  Bring_mesh mesh_bringer() { return m_engine ? m_engine->mesh_bringer() : Bring_mesh(); }
+  /// The same for what finds cells whose triangles are sound.
   Find_sound_stars sound_star_finder()
   {
     return m_engine ? m_engine->sound_star_finder() : Find_sound_stars();
-  }
-  /// The same for the topology of meshes.
-  Find_topology topology_finder()
-  {
-    return m_engine ? m_engine->topology_finder() : Find_topology();
   }
   /// The same for what moves the vertices of meshes.
   Make_star_sweeps star_sweeps_maker()

@@ -6,15 +6,13 @@
 #ifndef CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 #define CGAL_POWER_RTF_ENGINES_CLOSE_FACES_H
 
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
 #include <CGAL/PowerRTF/geometry/Parting_plane.h>
-#include <CGAL/PowerRTF/geometry/box_around.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/curve_order.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/atomics.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
-#include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -38,10 +36,9 @@ struct Into_unit_box {
   }
 };
 
-/// The one for `n` points. \pre `n` > 0
-inline Into_unit_box into_unit_box(const Vec3d* points, int n, Concurrency concurrency)
+/// The one for points in a box.
+inline Into_unit_box into_unit_box(const Box3<double>& box)
 {
-  const Box3<double> box = box_around(concurrency, n, points);
   const Vec3d half = 0.5 * box.hi - 0.5 * box.lo;
   const double reach = std::max({half.x, half.y, half.z});
   return {0.5 * box.lo + 0.5 * box.hi, reach > 0 ? 1 / reach : 1};
@@ -118,20 +115,17 @@ struct Close_faces_arrays {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Buffer<Vec3d> points;
-  Buffer<int> corners, order, count, pairs;
+  Buffer<int> order, count, pairs;
   Buffer<Numbered_face> faces;
-  Buffer<Box3<double>> boxes;
+  Buffer<Box3<double>> boxes; // the root's is that of all points, first of all
   Buffer<Child_boxes> nodes;
 
   /// See listed_arrays.h. `n`: faces.
   template <class F>
-  static void for_each_array(F&& f, std::size_t vertices, std::size_t n, std::size_t pairs)
+  static void for_each_array(F&& f, std::size_t n, std::size_t pairs)
   {
     using A = Close_faces_arrays;
     const std::size_t nodes = Packed_tree_layout(static_cast<int>(n)).nodes();
-    f(&A::points, vertices);
-    f(&A::corners, 3 * n);
     f(&A::order, n);
     f(&A::count, std::size_t(1));
     f(&A::pairs, 2 * pairs);
@@ -141,26 +135,28 @@ struct Close_faces_arrays {
   }
 };
 
-/// As `Find_close_faces`: `false` where the memory does not suffice, or there is more than one pair
-/// for each face.
+/// As `Resident_mesh::find_close_faces()`, of a mesh that is where the backend works: `false` where
+/// the memory does not suffice, or there is more than one pair for each face.
 template <class Backend>
-bool close_faces(Backend& backend, int vertices, const Vec3d* points, int n, const int* corners,
-                 Face_pairs& pairs)
+bool close_faces(Backend& backend, const Mesh_arrays& mesh, Face_pairs& pairs)
 {
   using Arrays = Close_faces_arrays<Backend>;
   pairs.clear();
+  const int n = mesh.faces;
   if (n == 0) return true;
-  const std::size_t capacity = n, bytes = bytes_of_listed<Arrays>(vertices, n, capacity);
+  const std::size_t capacity = n, bytes = bytes_of_listed<Arrays>(n, capacity);
   if (!backend.has_room(bytes + order_bytes<Backend>(n))) return false;
   Arrays a;
-  allocate_listed(backend, a, vertices, n, capacity);
-  backend.upload(a.points.data(), points, vertices);
-  backend.upload(a.corners.data(), corners, 3 * std::size_t(n));
-  order_along_curve(backend, n, Face_centers{a.points.data(), a.corners.data()}, a.order.data());
-  backend.for_each(n,
-                   Gather_faces{a.points.data(), a.corners.data(), a.order.data(), a.faces.data()});
+  allocate_listed(backend, a, n, capacity);
+  order_along_curve(backend, n, Face_centers{mesh.points, mesh.corners}, a.order.data());
+  backend.for_each(n, Gather_faces{mesh.points, mesh.corners, a.order.data(), a.faces.data()});
   const Packed_tree_layout tree(n);
-  const Into_unit_box into = into_unit_box(points, vertices, Backend::concurrency());
+  backend.template reduce<0, 6>(mesh.vertices,
+                                Raise_box<Points_themselves>{Points_themselves{mesh.points}},
+                                Keep_box{a.boxes.data()});
+  Box3<double> box;
+  backend.download(&box, a.boxes.data(), 1);
+  const Into_unit_box into = into_unit_box(box);
   const Box_of_face box_of{a.faces.data(), into};
   fit_tree(backend, tree, box_of, a.boxes.data(), a.nodes.data());
   backend.fill(a.count.data(), 0, 1);

@@ -6,7 +6,7 @@
 #ifndef CGAL_POWER_RTF_ENGINES_ORIENTED_TOPOLOGY_H
 #define CGAL_POWER_RTF_ENGINES_ORIENTED_TOPOLOGY_H
 
-#include <CGAL/PowerRTF/geometry/Find_topology.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Vertex_fan.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/Totals.h>
@@ -133,7 +133,7 @@ struct Topology_arrays {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  Buffer<int> vertices, degree, corners; // where the backend has no lists of the host's
+  Buffer<int> degree, corners;           // where the backend has no lists of the host's
   Buffer<int> opposite, last_corner;     // the same of links
   Buffer<int> component, next_on_border; // `component` is that of borders, too, in the end
   Buffer<double> sums;
@@ -144,7 +144,6 @@ struct Topology_arrays {
   {
     using A = Topology_arrays;
     if (!Backend::is_host) {
-      f(&A::vertices, 3 * n);
       f(&A::degree, vertices);
       f(&A::corners, Corner_lists::most * vertices);
       if (has_links) f(&A::opposite, 3 * n);
@@ -155,8 +154,9 @@ struct Topology_arrays {
   }
 };
 
-/// As `Find_topology`: none, too, where the memory does not suffice or a vertex has very many
-/// triangles.
+/// As `Resident_mesh::topology()`, of `n` triangles that are where the backend works: none, too,
+/// where the memory does not suffice or a vertex has very many triangles. `opposite_there`: gets
+/// that of `links` where the backend works, if that is not on the host; or null.
 template <class Backend>
 std::optional<Topology_statistics> oriented_topology(Backend& backend, int vertices, int n,
                                                      const int* corners,
@@ -181,7 +181,6 @@ std::optional<Topology_statistics> oriented_topology(Backend& backend, int verti
                [=](int c) { return corners[c]; }, [](int c) { return c; }};
     lists = {buckets.first.data(), nullptr, buckets.entries.data()};
   } else {
-    corners = uploaded(backend, a.vertices, corners);
     backend.fill(a.degree.data(), 0, vertices);
     backend.for_each(3 * n, List_corner{corners, a.degree.data(), a.corners.data()});
   }

@@ -8,7 +8,7 @@
 #define CGAL_POWER_RTF_ENGINES_SURFACE_DISTANCES_H
 
 #include <CGAL/PowerRTF/geometry/Area_samples.h>
-#include <CGAL/PowerRTF/geometry/Find_distances.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface_facets.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/geometry/placed_facets.h>
@@ -159,39 +159,34 @@ void find_sampled_distances(Backend& backend, Sampled_distance_arrays<Backend>& 
       n, Distance_totals_rule{a.squared_distances.data(), a.points.data(), samples, result});
 }
 
-/// As `Find_distances`: `false` where the memory does not suffice. `surface`, `there`: the surface
-/// where the backend works, and its facets by their places in a tree.
+/// As `Resident_mesh::find_distances()`, of a mesh that is where the backend works: `false` where
+/// the memory does not suffice. `surface`, `there`: the surface there, and its facets by their
+/// places in a tree.
 template <class Backend>
 bool surface_distances(Backend& backend, const Surface_facets& surface,
                        const Surface_view<double>& there, const Mesh_arrays& mesh, int samples,
                        Two_sided_distances& result)
 {
   using Points = Sampled_distance_arrays<Backend>;
-  using Facets = Facet_arrays<Backend>;
   using Tree = Mesh_tree_arrays<Backend>;
   const auto points_bytes = [&](int vertices, int facets) {
     return bytes_of_listed<Points>(std::size_t(vertices), std::size_t(facets),
                                    std::size_t(samples));
   };
   const Packed_tree_layout layout(mesh.faces);
-  if (!backend.has_room(bytes_of_listed<Facets>(mesh) + Tree::bytes(layout) +
-                        points_bytes(surface.vertices, surface.facets) +
+  if (!backend.has_room(Tree::bytes(layout) + points_bytes(surface.vertices, surface.facets) +
                         points_bytes(mesh.vertices, mesh.faces)))
     return false;
-  Facets of_mesh;
   Tree tree;
   typename Backend::template Buffer<Two_sided_distances> found;
-  allocate_listed(backend, of_mesh, mesh);
-  allocate_listed(backend, tree, layout);
   found.allocate(backend, 1);
   Surface_view<double> a = there;
   a.patches = nullptr;
-  const Vec3d* const mesh_points = uploaded(backend, of_mesh.points, mesh.points);
-  const Surface_view<double> b = placed_mesh(backend, mesh, of_mesh, tree);
+  const Surface_view<double> b = placed_mesh(backend, mesh, tree);
   Points from_surface, from_mesh;
   const int n_surface =
                 place_points(backend, a, surface.vertices, surface.points, samples, from_surface),
-            n_mesh = place_points(backend, b, mesh.vertices, mesh_points, samples, from_mesh);
+            n_mesh = place_points(backend, b, mesh.vertices, mesh.points, samples, from_mesh);
   find_sampled_distances(backend, from_surface, n_surface, samples, b, &found.data()->from_surface);
   find_sampled_distances(backend, from_mesh, n_mesh, samples, a, &found.data()->from_mesh);
   backend.download(&result, found.data(), 1);

@@ -5,11 +5,13 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
 #define CGAL_POWER_RTF_EXTRACTION_EXTRACTED_MESH_H
 
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/Buckets.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -34,6 +36,9 @@ struct Extracted_mesh {
   std::vector<int> places{};
   /// By point, the others have none: that of the input that it is, where it has to stay.
   std::vector<Input_point> input_points{};
+  /// Where an engine has the points and triangles as they are: see `there()`. What changes them
+  /// resets it.
+  mutable internal::Known<Resident_mesh, std::weak_ptr<Resident_mesh>> resident{};
 
   /// Whether point `v` has to stay.
   bool is_kept(int v) const { return v < int(input_points.size()) && input_points[v].number >= 0; }
@@ -52,9 +57,34 @@ struct Extracted_mesh {
     return result;
   }
 
+  Mesh_arrays arrays() const
+  {
+    return {int(points.size()), points.data(), int(triangles.size()),
+            triangles.empty() ? nullptr : triangles.front().data()};
+  }
+  /// Where an engine has the mesh: it goes up if it is not there. Null: it has no triangles, or
+  /// `bring` is empty or does not bring it.
+  std::shared_ptr<Resident_mesh> there(const Bring_mesh& bring) const
+  {
+    std::shared_ptr<Resident_mesh> known = resident.value.lock();
+    if (known || !bring || triangles.empty()) return known;
+    known = bring(arrays());
+    resident.value = known;
+    return known;
+  }
+
+  /// Gets other points and triangles, those of `mesh`.
+  void take(Extracted_mesh&& mesh)
+  {
+    points.swap(mesh.points);
+    triangles.swap(mesh.triangles);
+    resident = std::move(mesh.resident);
+  }
+
   /// Puts the triangles into an order that depends on nothing but which triangles there are.
   void sort_triangles(internal::Concurrency concurrency = Sequential_tag())
   {
+    resident = {};
     internal::for_each_index(concurrency, int(triangles.size()), [this](int f) {
       Triangle& t = triangles[f];
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

@@ -36,9 +36,9 @@ class Mended_stars {
 public:
   /// Keeps references to all but `neighbors`; see `extract_from_cells()`.
   Mended_stars(const Surface& surface, const Samples& samples, const Feature_samples& features,
-               Neighbor_cycles&& neighbors, const Find_close_faces& find,
+               Neighbor_cycles&& neighbors, const Bring_mesh& bring,
                const Find_sound_stars& find_sound)
-      : m_surface(surface), m_samples(samples), m_features(features), m_find(find),
+      : m_surface(surface), m_samples(samples), m_features(features), m_bring(bring),
         m_stars(surface, samples, features, std::move(neighbors), find_sound),
         m_size(static_cast<int>(samples.size())), m_openings(samples.size(), 0),
         m_has_made(samples.size(), 0), m_on_curves(features.size()),
@@ -309,6 +309,7 @@ private:
 
   void make_mesh()
   {
+    m_mesh.resident = {};
     Unset_vector<int> first(m_size + 1);
     first[m_size] = 0;
     for_each_index<ConcurrencyTag>(m_size, [&](int v) {
@@ -348,8 +349,9 @@ private:
   {
     std::vector<int> found;
     const std::vector<Triangle>& triangles = m_mesh.triangles;
+    const std::shared_ptr<Resident_mesh> there = m_mesh.there(m_bring);
     for (const auto& [t, u] :
-         intersecting_facets(m_mesh.points, triangles, ConcurrencyTag(), m_find))
+         intersecting_facets(m_mesh.points, triangles, ConcurrencyTag(), there.get()))
       for (const int face : {t, u})
         found.insert(found.end(), triangles[face].begin(), triangles[face].end());
     sort_uniquely(found);
@@ -359,7 +361,7 @@ private:
   const Surface& m_surface;
   const Samples& m_samples;
   const Feature_samples& m_features;
-  const Find_close_faces& m_find;
+  const Bring_mesh& m_bring;
   std::optional<Sample_places> m_places; // once they are needed
   Cell_stars<ConcurrencyTag> m_stars;
   int m_size;

@@ -111,6 +111,7 @@ CGAL_POWER_RTF_INLINE void Opened_surface::sew_up(Extracted_mesh& mesh)
     if (name[v] == static_cast<int>(points.size())) points.push_back(mesh.points[v]);
   }
   mesh.points.swap(points);
+  mesh.resident = {};
   mesh.places.clear();
   for (Triangle& t : mesh.triangles)
     for (int& v : t) v = name[v];

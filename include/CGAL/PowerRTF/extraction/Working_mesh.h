@@ -61,7 +61,7 @@ struct Working_mesh {
   /// The same of triangles alone. `find`: what finds their links instead, where it does. `memory`:
   /// a mesh whose memory is used, or an empty one.
   Working_mesh(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles,
-               Concurrency concurrency, const Find_topology& find = {}, Mesh&& memory = Mesh())
+               Concurrency concurrency, const Find_links& find = {}, Mesh&& memory = Mesh())
       : mesh(std::move(memory))
   {
     if (!connect_halfedges(mesh, triangles, int(points.size()), concurrency, find))

@@ -5,7 +5,6 @@
 #ifndef CGAL_POWER_RTF_EXTRACTION_CONNECT_HALFEDGES_H
 #define CGAL_POWER_RTF_EXTRACTION_CONNECT_HALFEDGES_H
 
-#include <CGAL/PowerRTF/geometry/Find_topology.h>
 #include <CGAL/PowerRTF/geometry/Triangle_links.h>
 #include <CGAL/PowerRTF/geometry/facet_adjacency.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
@@ -47,11 +46,11 @@ inline Triangle_links triangle_links(const std::vector<Triangle>& triangles, int
 /// been resized; its points are not set. The halfedges of edge e are 2 e, of the first of its
 /// triangles, and 2 e + 1; the edges count in the order of these.
 ///
-/// \param find what finds how the triangles hang together instead, where it does
+/// \param find what finds the links of the triangles instead, where it does
 /// \returns `false`, with nothing done, if the triangles are no oriented 2-manifold.
 template <class Point>
 bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triangle>& triangles,
-                       int vertices, Concurrency concurrency, const Find_topology& find = {})
+                       int vertices, Concurrency concurrency, const Find_links& find = {})
 {
   using Mesh = CGAL::Surface_mesh<Point>;
   using Vertex = typename Mesh::Vertex_index;
@@ -77,9 +76,7 @@ bool connect_halfedges(CGAL::Surface_mesh<Point>& mesh, const std::vector<Triang
   call_at_once(
       concurrency,
       [&] {
-        if (!find || halfedges == 0 ||
-            !find(vertices, halfedges / 3, triangles.data()->data(), &links))
-          links = triangle_links(triangles, vertices, concurrency);
+        if (!find || !find(links)) links = triangle_links(triangles, vertices, concurrency);
         if (links.are_known()) number_edges();
       },
       [&] { resize(halfedges / 2 + halfedges / 128); });

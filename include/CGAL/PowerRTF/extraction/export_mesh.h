@@ -98,7 +98,7 @@ bool add_polygons(const std::vector<Vec3d>& points,
 /// one by one: not here.
 template <class OutputMesh, class PointMap>
 bool add_triangles(const Extracted_mesh&, const Normalization&, OutputMesh&, const PointMap&,
-                   Exported_mesh<OutputMesh>&, Concurrency, const Find_topology&)
+                   Exported_mesh<OutputMesh>&, Concurrency, const Find_links&)
 {
   return false;
 }
@@ -106,7 +106,7 @@ template <class MeshPoint, class PointMap>
 bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalization,
                    CGAL::Surface_mesh<MeshPoint>& output, const PointMap& point_map,
                    Exported_mesh<CGAL::Surface_mesh<MeshPoint>>& exported, Concurrency concurrency,
-                   const Find_topology& find)
+                   const Find_links& find)
 {
   using Mesh = CGAL::Surface_mesh<MeshPoint>;
   using Vertex = typename Mesh::Vertex_index;
@@ -130,7 +130,9 @@ bool add_triangles(const Extracted_mesh& mesh, const Normalization& normalizatio
     });
   }
   const std::vector<Triangle>& triangles = vertices < points ? renamed : mesh.triangles;
-  if (!connect_halfedges(output, triangles, vertices, concurrency, find)) return false;
+  if (!connect_halfedges(output, triangles, vertices, concurrency,
+                         vertices < points ? Find_links() : find))
+    return false;
   resize_in_parallel(concurrency, exported.vertices, vertices);
   const bool is_own = std::is_same<PointMap, typename Mesh::template Property_map<Vertex, Point>>();
   for_each_index(is_own ? concurrency : Sequential_tag(), vertices, [&](int v) {
@@ -171,7 +173,7 @@ void name_originals(const Extracted_mesh& mesh, const std::vector<Vec3d>& points
 /// \param np may contain `vertex_point_map` (default: the output's own), whose points are
 ///   constructible from three coordinates
 /// \param concurrency of what is done beside the calls of the maps; the result is the same for all
-/// \param find what finds how triangles hang together instead, where it does
+/// \param find what finds the links of the triangles of `mesh` instead, where it does
 /// \returns which vertices and faces these are
 ///
 /// A halfedge structure holds 2-manifolds only. Where the triangles form none (those of
@@ -180,7 +182,7 @@ template <class OutputMesh, class NamedParameters = CGAL::parameters::Default_na
 Exported_mesh<OutputMesh>
 export_mesh(const Extracted_mesh& mesh, const Normalization& normalization, OutputMesh& output,
             const NamedParameters& np = NamedParameters(),
-            internal::Concurrency concurrency = Sequential_tag(), const Find_topology& find = {})
+            internal::Concurrency concurrency = Sequential_tag(), const Find_links& find = {})
 {
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;

@@ -10,7 +10,7 @@
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
 #include <CGAL/PowerRTF/features/Feature_samples.h>
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 
 #include <cstddef>
@@ -33,14 +33,14 @@ struct Cell_extraction_statistics {
 /// self-intersections; otherwise all is done by `extract_by_insertion()`.
 ///
 /// `neighbors`: of the cells of the samples that lie on no feature, as
-/// `PowerRTFEngine::neighbors()` has them. `find`: what finds intersections instead, where it does;
-/// `find_sound`: the same for cells whose triangles are sound.
+/// `PowerRTFEngine::neighbors()` has them. `bring`: brings the mesh to where an engine works, or is
+/// empty; `find_sound`: what finds cells whose triangles are sound instead, where it does.
 /// The result is the same for any number of threads.
 template <class ConcurrencyTag>
 Extracted_mesh
 extract_from_cells(const Surface& surface, const Samples& samples, const Feature_samples& features,
                    Neighbor_cycles&& neighbors, Cell_extraction_statistics* statistics = nullptr,
-                   const Find_close_faces& find = {}, const Find_sound_stars& find_sound = {});
+                   const Bring_mesh& bring = {}, const Find_sound_stars& find_sound = {});
 
 } // namespace CGAL::PowerRTF
 

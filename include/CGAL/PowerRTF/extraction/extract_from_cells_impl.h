@@ -19,12 +19,12 @@ namespace CGAL::PowerRTF {
 template <class ConcurrencyTag>
 Extracted_mesh extract_from_cells(const Surface& surface, const Samples& samples,
                                   const Feature_samples& features, Neighbor_cycles&& neighbors,
-                                  Cell_extraction_statistics* statistics,
-                                  const Find_close_faces& find, const Find_sound_stars& find_sound)
+                                  Cell_extraction_statistics* statistics, const Bring_mesh& bring,
+                                  const Find_sound_stars& find_sound)
 {
   internal::Progress_part part(0.3);
   internal::Mended_stars<ConcurrencyTag> stars(surface, samples, features, std::move(neighbors),
-                                               find, find_sound);
+                                               bring, find_sound);
   part.next(0.95); // what follows is rare
   const bool is_mended = stars.mend();
   if (statistics) *statistics = {stars.open_samples(), stars.pieces(), !is_mended};

@@ -7,9 +7,8 @@
 #define CGAL_POWER_RTF_EXTRACTION_INTERSECTING_FACES_H
 
 #include <CGAL/PowerRTF/extraction/Working_mesh.h>
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/intersecting_pairs.h>
-#include <CGAL/PowerRTF/internal/Unset_vector.h>
 
 #include <algorithm>
 #include <array>
@@ -87,12 +86,18 @@ public:
       : Intersecting_pairs(Face_triangles(mesh), concurrency), m_mesh(mesh)
   {}
 
-  /// All of them, sorted. `close_faces`: what finds most of the others instead, where it does.
-  std::vector<Face_pair> all(const Find_close_faces& close_faces = {}) const
+  /// All of them, sorted.
+  std::vector<Face_pair> all() const { return find(m_mesh.mesh.faces()); }
+
+  /// The same, where an engine has the faces, in the order of `triangles`.
+  std::vector<Face_pair> all(const std::vector<Triangle>& triangles, Resident_mesh& there) const
   {
     Face_pairs close;
-    return close_faces && find_close(close_faces, close) ? find_among(close)
-                                                         : find(m_mesh.mesh.faces());
+    if (!there.find_close_faces(close)) return all();
+    std::vector<Face_pair> pairs;
+    pairs.reserve(close.size());
+    for (const auto& [t, u] : close) pairs.emplace_back(face(triangles[t]), face(triangles[u]));
+    return find_among(pairs);
   }
 
   /// Those of `pairs`, all that there were before the faces with `has_changed[f]` changed, as they
@@ -113,23 +118,10 @@ public:
   }
 
 private:
-  bool find_close(const Find_close_faces& close_faces, Face_pairs& pairs) const
+  Face face(const Triangle& t) const
   {
-    const std::vector<int> faces =
-        select(concurrency(), int(m_mesh.mesh.num_faces()),
-               [this](int f) { return !m_mesh.mesh.is_removed(Working_mesh::Face(f)); });
-    Unset_vector<Vec3d> points(m_mesh.mesh.num_vertices());
-    for_each_index(concurrency(), int(points.size()),
-                   [&](int v) { points[v] = m_mesh.point(Working_mesh::Vertex(v)); });
-    Unset_vector<int> corners(3 * faces.size());
-    for_each_index(concurrency(), int(faces.size()), [&](int k) {
-      const auto at = m_mesh.corners(Working_mesh::Face(faces[k]));
-      std::copy(at.begin(), at.end(), &corners[3 * k]);
-    });
-    if (!close_faces(int(points.size()), points.data(), int(faces.size()), corners.data(), pairs))
-      return false;
-    for (auto& [f, g] : pairs) f = faces[f], g = faces[g];
-    return true;
+    return m_mesh.mesh.face(
+        m_mesh.mesh.halfedge(Working_mesh::Vertex(t[0]), Working_mesh::Vertex(t[1])));
   }
 
   const Working_mesh& m_mesh;

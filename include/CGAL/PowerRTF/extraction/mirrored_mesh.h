@@ -93,6 +93,7 @@ inline Extracted_mesh mirrored_mesh(Extracted_mesh mesh, const Surface& half,
     images.push_back(is_shared[v] ? v : static_cast<int>(mesh.points.size()));
     if (!is_shared[v]) mesh.points.push_back(mirror.image(mesh.points[v]));
   }
+  mesh.resident = {};
   const std::size_t facets = mesh.triangles.size();
   for (std::size_t f = 0; f < facets; ++f) {
     const auto [a, b, c] = mesh.triangles[f];

@@ -45,11 +45,11 @@ namespace internal {
 
 struct Topology;
 
-/// What is known of a surface as it is, or nothing. A copy has nothing: what is copied is going to
-/// change.
-template <class T>
+/// What is known of a surface or a mesh as it is, or nothing. A copy has nothing: what is copied is
+/// going to change.
+template <class T, class Pointer = std::shared_ptr<const T>>
 struct Known {
-  std::shared_ptr<const T> value;
+  Pointer value;
 
   Known() = default;
   Known(const Known&) {}

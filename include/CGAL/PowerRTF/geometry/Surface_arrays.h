@@ -90,6 +90,8 @@ public:
   const Surface_view<Real>& view() const { return m_view; }
   /// By number.
   const Surface_facets& facets() const { return m_facets; }
+  /// Not on the host.
+  const Vec3d* vertex_normals() const { return m_normals.data(); }
 
   /// The facets alone, in double precision; none: the memory does not suffice.
   std::optional<Surface_view<double>> view_in_double(Backend& backend)

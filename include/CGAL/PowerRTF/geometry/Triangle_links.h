@@ -5,6 +5,8 @@
 
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 
+#include <functional>
+
 namespace CGAL::PowerRTF {
 
 /// How the triangles of an oriented 2-manifold hang together. Halfedge `3 f + i` runs from corner
@@ -15,6 +17,10 @@ struct Triangle_links {
 
   bool are_known() const { return !opposite.empty(); }
 };
+
+/// Writes the links of some triangles. Returns `false` where it does not: then they are left to the
+/// caller.
+using Find_links = std::function<bool(Triangle_links& links)>;
 
 } // namespace CGAL::PowerRTF
 

@@ -7,7 +7,7 @@
 #ifndef CGAL_POWER_RTF_GEOMETRY_SELF_INTERSECTIONS_H
 #define CGAL_POWER_RTF_GEOMETRY_SELF_INTERSECTIONS_H
 
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/intersecting_pairs.h>
 
@@ -44,31 +44,28 @@ private:
 } // namespace internal
 
 /// The pairs of facets of the soup that meet in more than a shared vertex or edge, sorted; a facet
-/// without area counts as a pair with itself. `points` must be finite. `find`: what finds most of
-/// the others instead, where it does.
+/// without area counts as a pair with itself. `points` must be finite. `there`: where an engine has
+/// the soup, or null.
 inline Face_pairs intersecting_facets(const std::vector<Vec3d>& points,
                                       const std::vector<Triangle>& triangles,
                                       internal::Concurrency concurrency = Sequential_tag(),
-                                      const Find_close_faces& find = {})
+                                      Resident_mesh* there = nullptr)
 {
   const internal::Intersecting_pairs<internal::Soup_triangles> pairs({points, triangles},
                                                                      concurrency);
-  const int facets = static_cast<int>(triangles.size());
   Face_pairs close;
-  return find && facets > 0 &&
-                 find(static_cast<int>(points.size()), points.data(), facets,
-                      triangles.front().data(), close)
+  return there && there->find_close_faces(close)
              ? pairs.find_among(close)
-             : pairs.find(boost::irange(0, facets));
+             : pairs.find(boost::irange(0, static_cast<int>(triangles.size())));
 }
 
 /// Their number.
 inline std::size_t self_intersections(const std::vector<Vec3d>& points,
                                       const std::vector<Triangle>& triangles,
                                       internal::Concurrency concurrency = Sequential_tag(),
-                                      const Find_close_faces& find = {})
+                                      Resident_mesh* there = nullptr)
 {
-  return intersecting_facets(points, triangles, concurrency, find).size();
+  return intersecting_facets(points, triangles, concurrency, there).size();
 }
 
 } // namespace CGAL::PowerRTF

@@ -73,7 +73,7 @@ public:
   /// \throw Invalid_input_error if `mesh` is no oriented 2-manifold
   Star_mesh(const Extracted_mesh& mesh, const Surface_projector& projector,
             const std::vector<int>& carriers = {}, Concurrency concurrency = Sequential_tag(),
-            const Find_topology& find = {}, Working_mesh::Mesh&& memory = Working_mesh::Mesh())
+            const Find_links& find = {}, Working_mesh::Mesh&& memory = Working_mesh::Mesh())
       : m_concurrency(concurrency), m_projector(&projector),
         m(mesh.points, mesh.triangles, concurrency, find, std::move(memory)),
         m_facets(mesh.points.size()), m_heights(filled(concurrency, mesh.points.size(), 0.)),

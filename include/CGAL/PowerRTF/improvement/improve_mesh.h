@@ -8,8 +8,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_options.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
-#include <CGAL/PowerRTF/geometry/Find_topology.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -38,9 +37,8 @@ struct Improvement_settings {
   Dislocations dislocations = Dislocations::annihilate;
   double max_distance = 0;        ///< that is asked for, in coordinates of the unit box, or 0
   std::vector<int> carriers{};    ///< the facets that the first points probably lie on, or none
-  Find_close_faces find{};        ///< finds intersections instead, where it does
-  Find_topology find_topology{};  ///< finds which triangles are neighbors instead, where it does
-  Make_star_sweeps make_sweeps{}; ///< makes what moves vertices instead, where it does
+  Bring_mesh bring{};             ///< brings meshes to where an engine works, or is empty
+  Make_star_sweeps make_sweeps{}; ///< makes what moves vertices there instead, where it does
   /// For this surface and tree, for one mesh; none: it is made.
   std::shared_ptr<Improvement_preparation> prepared{};
 };

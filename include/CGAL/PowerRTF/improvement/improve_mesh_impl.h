@@ -91,20 +91,24 @@ public:
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                 Concurrency concurrency, const Improvement_settings& settings)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_settings(settings),
-        m_concurrency(concurrency), m_prepared(settings.prepared),
+        m_concurrency(concurrency), m_there(mesh.there(settings.bring)),
+        m_prepared(settings.prepared),
         m_sweeps(settings.make_sweeps
                      ? settings.make_sweeps(m_projector.descent(), surface.normalization.grid)
                      : nullptr),
         m_host_sweeps(
             make_host_star_sweeps(m_projector.descent(), surface.normalization.grid, concurrency)),
         m_locked(mesh.points.size(), false),
-        m_stars(std::in_place, mesh, m_projector, settings.carriers, concurrency,
-                settings.find_topology,
-                m_prepared ? std::move(m_prepared->memory) : Working_mesh::Mesh()),
+        m_stars(
+            std::in_place, mesh, m_projector, settings.carriers, concurrency,
+            [this](Triangle_links& links) { return m_there && m_there->topology(&links); },
+            m_prepared ? std::move(m_prepared->memory) : Working_mesh::Mesh()),
         m_tracker(*m_stars, std::move(prepared().points), nearest_faces(prepared().points)),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
-  {}
+  {
+    if (m_there) leave_engine();
+  }
 
   /// Improves the mesh. If an improvement has broken something, it is made anew: at first with less
   /// smoothing, which may already do, then with what was broken locked, as little of it as does.
@@ -112,17 +116,19 @@ public:
   {
     Progress_part part(0.93); // the first attempt, which mostly does
     for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
-      if (attempt > 0)
-        m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency,
-                        m_settings.find_topology);
+      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency);
       Star_mesh& stars = *m_stars;
       stars.lock(m_locked);
       improve(stars, attempt == 1 ? 1 : 0);
       if (attempt == 0) part.next(0.97);
-      const std::vector<Face> broken = find_broken(stars);
+      Extracted_mesh result = written(stars);
+      const std::vector<Face> broken = find_broken(stars, result);
       if (broken.empty()) {
-        if (attempt > 1) optimize_locked(stars);
-        stars.write(m_mesh);
+        if (attempt > 1) {
+          optimize_locked(stars);
+          result = written(stars);
+        }
+        m_mesh.take(std::move(result));
         return;
       }
       if (attempt == 1)
@@ -130,6 +136,7 @@ public:
       else if (attempt > 1)
         lock(stars, broken, attempt - 2);
     }
+    m_mesh.sort_triangles(m_concurrency); // as others are
   }
 
 private:
@@ -150,13 +157,21 @@ private:
   // Of the extracted mesh; none where they are not found.
   Unset_vector<int> nearest_faces(const Unset_vector<Tracked_point>& points)
   {
-    if (!m_sweeps) return {}; // the tracker's way from face to face is quicker than the host's
+    if (!m_there) return {};
     Unset_vector<int> faces(points.size());
     for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
-    const Mesh_arrays mesh{int(m_mesh.points.size()), m_mesh.points.data(),
-                           int(m_mesh.triangles.size()), m_mesh.triangles.data()->data()};
-    if (!m_sweeps->find_faces(mesh, int(faces.size()), faces.data(), faces.data())) faces.clear();
+    if (!m_there->find_faces(Improvement_parameters::Projection::min_normal_cosine,
+                             int(faces.size()), faces.data(), faces.data()))
+      faces.clear();
     return faces;
+  }
+
+  // The last look at the extracted mesh where the engine works: the memory is needed.
+  void leave_engine()
+  {
+    m_there->release();
+    m_there.reset();
+    m_mesh.resident = {};
   }
 
   // One attempt; see the head of this file.
@@ -301,9 +316,22 @@ private:
     return faces;
   }
 
+  // The improved mesh.
+  Extracted_mesh written(const Star_mesh& stars) const
+  {
+    Extracted_mesh result;
+    call_at_once(
+        m_concurrency,
+        [&] { resize_in_parallel(m_concurrency, result.points, m_mesh.points.size()); },
+        [&] { resize_in_parallel(m_concurrency, result.triangles, m_mesh.triangles.size()); });
+    stars.write(result);
+    result.sort_triangles(m_concurrency);
+    return result;
+  }
+
   // The faces that intersect others or are too far from the surface, but for those between locked
-  // vertices: they are as in the raw mesh.
-  std::vector<Face> find_broken(const Star_mesh& stars) const
+  // vertices: they are as in the raw mesh. `result`: the same mesh.
+  std::vector<Face> find_broken(const Star_mesh& stars, const Extracted_mesh& result) const
   {
     const Mesh& mesh = stars.working().mesh;
     std::vector<Face> broken;
@@ -314,8 +342,9 @@ private:
     };
     for (const Face f : find_too_far(stars))
       if (!is_locked(f)) broken.push_back(f);
-    for (const auto& [f, g] :
-         Intersection_finder(stars.working(), stars.concurrency()).all(m_settings.find))
+    const std::shared_ptr<Resident_mesh> there = result.there(m_settings.bring);
+    const Intersection_finder finder(stars.working(), stars.concurrency());
+    for (const auto& [f, g] : there ? finder.all(result.triangles, *there) : finder.all())
       if (!is_locked(f) || !is_locked(g)) broken.insert(broken.end(), {f, g});
     return broken;
   }
@@ -349,6 +378,8 @@ private:
   Extracted_mesh& m_mesh; // as it was extracted, until it is improved
   const Improvement_settings& m_settings;
   Concurrency m_concurrency;
+  std::shared_ptr<Resident_mesh>
+      m_there; // the extracted mesh, until it has been looked at; or null
   std::shared_ptr<Improvement_preparation> m_prepared;
   std::unique_ptr<Star_sweeps_base> m_sweeps, m_host_sweeps; // the engine's may be null
   std::vector<char> m_locked;
@@ -386,7 +417,6 @@ CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree
     internal::Mesh_improver improver(surface, tree, mesh, concurrency, settings);
     part.next(0.98);
     improver.run();
-    mesh.sort_triangles(concurrency);
   } catch (const Invalid_input_error&) {
     return false;
   }

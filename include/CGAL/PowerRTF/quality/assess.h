@@ -7,9 +7,7 @@
 
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/extraction/Extracted_mesh.h>
-#include <CGAL/PowerRTF/geometry/Find_close_faces.h>
-#include <CGAL/PowerRTF/geometry/Find_distances.h>
-#include <CGAL/PowerRTF/geometry/Find_topology.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/internal/compiled.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -24,13 +22,10 @@ class Facet_tree;
 ///
 /// \param patches the surface as it is, or cut along its creases
 /// \param tree of the facets of `patches`
-/// \param find what finds distances from `patches` and back instead, where it does
-/// \param find_close the same for self-intersections
-/// \param find_topology the same for the topology of `mesh`
+/// \param bring brings meshes to where an engine works, whose surface is `patches`; or is empty
 void assess(const Surface& surface, const Surface& patches, const Facet_tree& tree,
             const Extracted_mesh& mesh, Remeshing_report& report,
-            internal::Concurrency concurrency = Sequential_tag(), const Find_distances& find = {},
-            const Find_close_faces& find_close = {}, const Find_topology& find_topology = {});
+            internal::Concurrency concurrency = Sequential_tag(), const Bring_mesh& bring = {});
 
 /// The same with a tree of its own.
 void assess(const Surface& surface, const Extracted_mesh& mesh, Remeshing_report& report,

@@ -76,8 +76,7 @@ inline std::size_t lost_kept_vertices(const Surface& surface, const Extracted_me
 CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches,
                                   const Facet_tree& tree, const Extracted_mesh& mesh,
                                   Remeshing_report& report, internal::Concurrency concurrency,
-                                  const Find_distances& find, const Find_close_faces& find_close,
-                                  const Find_topology& find_topology)
+                                  const Bring_mesh& bring)
 {
   constexpr double round_quality = 0.6, round_angle = 30; // degrees
   internal::Progress_part part(0.1);
@@ -86,7 +85,7 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   report.crease_edges = surface.creases.size();
   report.feature_edges = mesh.feature_edges.size();
   part.next(0.2);
-  report.topology = topology(mesh.triangles, concurrency, find_topology);
+  report.topology = topology(mesh.triangles, concurrency, mesh.there(bring).get());
   const double unit = 1 / surface.normalization.scale; // of the points, in the input's
   // While intersections and distances are found:
   internal::Background_work judgment(concurrency, [&] {
@@ -104,18 +103,23 @@ CGAL_POWER_RTF_INLINE void assess(const Surface& surface, const Surface& patches
   part.next(0.5);
   report.constrained_vertices = surface.kept_vertices.size();
   report.lost_constrained_vertices = internal::lost_kept_vertices(surface, mesh);
-  std::vector<Vec3d> outside; // where kept vertices are no places of the grid
-  if (!surface.kept_vertices.empty()) outside = mesh.outside(surface.normalization, concurrency);
-  report.self_intersections = self_intersections(outside.empty() ? mesh.points : outside,
-                                                 mesh.triangles, concurrency, find_close);
+  if (surface.kept_vertices.empty()) {
+    report.self_intersections =
+        self_intersections(mesh.points, mesh.triangles, concurrency, mesh.there(bring).get());
+  } else { // these are no places of the grid
+    Extracted_mesh outside{mesh.outside(surface.normalization, concurrency), mesh.triangles};
+    report.self_intersections = self_intersections(outside.points, outside.triangles, concurrency,
+                                                   outside.there(bring).get());
+  }
   if (report.self_intersections > 0)
     report.input_self_intersections =
         self_intersections(surface.points, surface.triangles, concurrency);
   const Box3<double> box = internal::bounding_box(surface.points, surface.triangles, concurrency);
   report.diagonal = unit * length(box.hi - box.lo);
   part.next(1);
-  report.distance = surface_distance(patches.points, patches.triangles, tree, mesh.points,
-                                     mesh.triangles, concurrency, report.max_distance > 0, find);
+  report.distance =
+      surface_distance(patches.points, patches.triangles, tree, mesh.points, mesh.triangles,
+                       concurrency, report.max_distance > 0, mesh.there(bring).get());
   judgment.finish();
   auto& [x, y, z] = report.distance.farthest;
   const Vec3d farthest = surface.normalization.to_outside({x, y, z});

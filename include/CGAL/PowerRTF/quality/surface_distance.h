@@ -11,8 +11,8 @@
 #include <CGAL/PowerRTF/Remeshing_report.h>
 #include <CGAL/PowerRTF/geometry/Area_samples.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
-#include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/geometry/Group_distances.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/bounding_box.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
@@ -132,13 +132,6 @@ inline Sampled_distances one_sided_distance(const Surface_samples& from, const F
   return result;
 }
 
-inline Mesh_arrays mesh_arrays(const std::vector<Vec3d>& points,
-                               const std::vector<Triangle>& triangles)
-{
-  return {static_cast<int>(points.size()), points.data(), static_cast<int>(triangles.size()),
-          triangles.front().data()};
-}
-
 } // namespace internal
 
 /// Distance between the surfaces `input` and `output` (points, and #F indices into them), in per
@@ -148,7 +141,7 @@ inline Mesh_arrays mesh_arrays(const std::vector<Vec3d>& points,
 ///
 /// \param input_tree of the input's triangles
 /// \param is_bound_wanted find the upper bound, too
-/// \param find what finds distances from `input` and back instead, where it does
+/// \param there where an engine, whose surface is `input`, has `output`; or null
 inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_points,
                                             const std::vector<Triangle>& input_triangles,
                                             const Facet_tree& input_tree,
@@ -156,7 +149,7 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
                                             const std::vector<Triangle>& output_triangles,
                                             internal::Concurrency concurrency = Sequential_tag(),
                                             bool is_bound_wanted = false,
-                                            const Find_distances& find = {})
+                                            Resident_mesh* there = nullptr)
 {
   Distance_statistics result;
   if (input_triangles.empty() || output_triangles.empty()) return result;
@@ -166,8 +159,7 @@ inline Distance_statistics surface_distance(const std::vector<Vec3d>& input_poin
 
   const int n = 20000;
   Two_sided_distances sides;
-  const bool is_found =
-      find && find(internal::mesh_arrays(output_points, output_triangles), n, sides);
+  const bool is_found = there && there->find_distances(n, sides);
   std::optional<Facet_tree> output_tree;
   if (!is_found || is_bound_wanted)
     output_tree.emplace(output_points, output_triangles, std::vector<int>(), concurrency);

@@ -181,7 +181,7 @@ inline Topology_statistics soup_topology(const std::vector<Triangle>& triangles,
   return result;
 }
 
-/// As `Find_topology`, on the host.
+/// As `Resident_mesh::topology()`, on the host.
 inline std::optional<Topology_statistics> oriented_topology(const std::vector<Triangle>& triangles,
                                                             int vertices, Concurrency concurrency,
                                                             Triangle_links* links = nullptr)
@@ -196,16 +196,14 @@ inline std::optional<Topology_statistics> oriented_topology(const std::vector<Tr
 
 /// Topology of the soup `triangles` (#F vertex indices >= 0). `vertices` counts the used ones. A
 /// vertex is non-manifold when its facets do not form one fan or one disk. A facet with a repeated
-/// vertex is counted in `faces` and otherwise ignored. `find`: what counts instead, where it does.
+/// vertex is counted in `faces` and otherwise ignored. `there`: where an engine has them, or null.
 inline Topology_statistics topology(const std::vector<Triangle>& triangles,
                                     internal::Concurrency concurrency = Sequential_tag(),
-                                    const Find_topology& find = {})
+                                    Resident_mesh* there = nullptr)
 {
+  if (there)
+    if (const auto found = there->topology(nullptr)) return *found;
   const int size = vertex_range(triangles, concurrency);
-  if (find && !triangles.empty())
-    if (const auto found =
-            find(size, static_cast<int>(triangles.size()), triangles.data()->data(), nullptr))
-      return *found;
   if (const auto found = internal::oriented_topology(triangles, size, concurrency)) return *found;
   const auto is_collapsed = [&](int f) { return internal::is_collapsed(triangles[f]); };
   if (internal::select(concurrency, static_cast<int>(triangles.size()), is_collapsed).empty())

@@ -8,7 +8,6 @@
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 #include <CGAL/PowerRTF/smoothing/color_vertices.h>
 #include <CGAL/PowerRTF/smoothing/doubtful_stars.h>
-#include <CGAL/PowerRTF/smoothing/faces_at_vertices.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <cstddef>
@@ -93,13 +92,6 @@ public:
     for_each_vertex(first, Fit_rule<Part::move>{equations});
     download(equations.stars, result);
     m_backend.download(fit.heights.data(), arrays.heights.data(), fit.heights.size());
-    return true;
-  }
-
-  bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) override
-  {
-    if (!m_backend.has_room(internal::faces_at_vertices_bytes<Backend>(mesh, n))) return false;
-    internal::find_faces_at_vertices(m_backend, m_surface, mesh, n, vertices, faces);
     return true;
   }
 

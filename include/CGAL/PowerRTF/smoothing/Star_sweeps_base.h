@@ -3,7 +3,6 @@
 #ifndef CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_BASE_H
 #define CGAL_POWER_RTF_SMOOTHING_STAR_SWEEPS_BASE_H
 
-#include <CGAL/PowerRTF/geometry/Find_distances.h>
 #include <CGAL/PowerRTF/smoothing/Fit_equations.h>
 #include <CGAL/PowerRTF/smoothing/Star_view.h>
 
@@ -26,9 +25,6 @@ public:
   /// Moves the vertices, off the surface too, so that the mesh is nearer to it; see
   /// `Fit_equations`.
   virtual bool fit(internal::Flat_fit& fit, internal::Swept_vertices& result) = 0;
-  /// Of n `vertices` of the surface, writes the faces of `mesh` that are nearest, of those whose
-  /// normals agree (`Surface_descent::min_cosine`); -1 where none does. \pre `mesh` has a face
-  virtual bool find_faces(const Mesh_arrays& mesh, int n, const int* vertices, int* faces) = 0;
 };
 
 /// `surface`: the engine's, which meshes lie on; the engine has to live as long as the result.

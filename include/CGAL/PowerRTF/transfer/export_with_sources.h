@@ -125,14 +125,14 @@ void put_labels(const Exported_mesh<OutputMesh>& exported, const NamedParameters
 ///
 /// \param patches `patches()` returns the patch of each triangle
 /// \param report of the run; gets the seconds
-/// \param find what finds how triangles hang together instead, where it does
+/// \param find what finds the links of the triangles of `mesh` instead, where it does
 template <class InputMesh, class NamedParametersIn, class Patches, class OutputMesh,
           class NamedParametersOut>
 void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
                          const Extracted_mesh& mesh, const Normalization& normalization,
                          const Patches& patches, OutputMesh& output,
                          const NamedParametersOut& np_out, Remeshing_report& report,
-                         Concurrency concurrency, const Find_topology& find)
+                         Concurrency concurrency, const Find_links& find)
 {
   constexpr bool puts_labels = has_parameter<NamedParametersOut, internal_np::face_patch_t>(),
                  has_labels = has_parameter<NamedParametersIn, internal_np::face_patch_t>();
@@ -154,12 +154,12 @@ void export_with_sources(const InputMesh& input, const NamedParametersIn& np_in,
   }
   const Stage stage("write", report.seconds.write);
   const Uninterrupted run; // else the output could be neither what it was nor the result
-  const auto find_safely = [&find](auto&&... arguments) -> std::optional<Topology_statistics> {
+  const auto find_safely = [&find](Triangle_links& links) {
     try {
-      if (find) return find(arguments...);
+      return find && find(links);
     } catch (const std::exception&) { // a device that fails now: the host goes on
+      return false;
     }
-    return std::nullopt;
   };
   if constexpr (puts_labels && has_labels) {
     const auto labels = label_values(input, np_in);

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The faces of a mesh that are nearest to vertices of a surface, where a backend works.
-#ifndef CGAL_POWER_RTF_SMOOTHING_FACES_AT_VERTICES_H
-#define CGAL_POWER_RTF_SMOOTHING_FACES_AT_VERTICES_H
+#ifndef CGAL_POWER_RTF_ENGINES_FACES_AT_VERTICES_H
+#define CGAL_POWER_RTF_ENGINES_FACES_AT_VERTICES_H
 
-#include <CGAL/PowerRTF/geometry/Find_distances.h>
-#include <CGAL/PowerRTF/geometry/Surface_descent.h>
+#include <CGAL/PowerRTF/geometry/Resident_mesh.h>
+#include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/geometry/placed_facets.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 
@@ -57,36 +57,28 @@ struct Faces_at_vertices_arrays {
   }
 };
 
-/// What `find_faces_at_vertices()` takes.
+/// As `Resident_mesh::find_faces()`, of a mesh that is where the backend works, as the `points` and
+/// `normals` of the surface's vertices: `false` where the memory does not suffice.
 template <class Backend>
-std::size_t faces_at_vertices_bytes(const Mesh_arrays& mesh, int n)
+bool find_faces_at_vertices(Backend& backend, const Vec3d* points, const Vec3d* normals,
+                            const Mesh_arrays& mesh, double min_cosine, int n, const int* vertices,
+                            int* faces)
 {
-  return bytes_of_listed<Facet_arrays<Backend>>(mesh) +
-         Mesh_tree_arrays<Backend>::bytes(Packed_tree_layout(mesh.faces)) +
-         bytes_of_listed<Faces_at_vertices_arrays<Backend>>(std::size_t(n));
-}
-
-/// Of n `vertices` of `surface`, which is where the backend works, writes the nearest faces of
-/// `mesh` to `faces`: of those whose normals agree; -1 where none does. \pre `mesh` has a face
-template <class Backend>
-void find_faces_at_vertices(Backend& backend, const Surface_descent& surface,
-                            const Mesh_arrays& mesh, int n, const int* vertices, int* faces)
-{
-  Facet_arrays<Backend> facets;
+  using Arrays = Faces_at_vertices_arrays<Backend>;
+  if (!backend.has_room(Mesh_tree_arrays<Backend>::bytes(Packed_tree_layout(mesh.faces)) +
+                        bytes_of_listed<Arrays>(std::size_t(n))))
+    return false;
   Mesh_tree_arrays<Backend> tree;
-  Faces_at_vertices_arrays<Backend> a;
-  allocate_listed(backend, facets, mesh);
-  allocate_listed(backend, tree, Packed_tree_layout(mesh.faces));
+  Arrays a;
   allocate_listed(backend, a, std::size_t(n));
-  uploaded(backend, facets.points, mesh.points);
   uploaded(backend, a.found, vertices);
-  const Surface_view<double> view = placed_mesh(backend, mesh, facets, tree);
-  backend.for_each_by_lanes(n, Find_face_at_vertex{view, tree.order.data(), surface.points,
-                                                   surface.vertex_normals, surface.min_cosine,
-                                                   a.found.data()});
+  const Surface_view<double> view = placed_mesh(backend, mesh, tree);
+  backend.for_each_by_lanes(
+      n, Find_face_at_vertex{view, tree.order.data(), points, normals, min_cosine, a.found.data()});
   backend.download(faces, a.found.data(), std::size_t(n));
+  return true;
 }
 
 } // namespace CGAL::PowerRTF::internal
 
-#endif // CGAL_POWER_RTF_SMOOTHING_FACES_AT_VERTICES_H
+#endif // CGAL_POWER_RTF_ENGINES_FACES_AT_VERTICES_H

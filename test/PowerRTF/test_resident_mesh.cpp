@@ -1,0 +1,132 @@
+// Copyright (c) 2026 The PowerRTF authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshes where an engine works, on the host: what is found there is what the host finds, and in a
+// run each goes up once. (On a device: test_cuda_device/meshes.cpp.)
+#include "counting_backend.h"
+#include "engine_comparison.h"
+#include "mesh_of_shape.h"
+
+#include <CGAL/PowerRTF/quality/assess.h>
+#include <CGAL/PowerRTF_remesher.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+using namespace engine_comparison;
+
+namespace {
+
+/// Counts the meshes that go up.
+class Watched_engine : public counting::Counted_engine<double> {
+public:
+  using counting::Counted_engine<double>::Surface_engine;
+  inline static int brought = 0;
+
+  Bring_mesh mesh_bringer()
+  {
+    return [bring = Surface_engine_base::mesh_bringer()](const Mesh_arrays& mesh) {
+      ++brought;
+      return bring(mesh);
+    };
+  }
+};
+
+struct Watched_traits {
+  using Kernel = shapes::Kernel;
+  using Concurrency_tag = CGAL::Sequential_tag;
+  using Engine = Watched_engine;
+  static const char* name() { return "watched"; }
+};
+
+} // namespace
+
+TEST_CASE("in a run the extracted mesh goes up once, and the improved one")
+{
+  for (Case c : cases()) {
+    CAPTURE(c.name);
+    Surface surface = shapes::make_surface(c.soup);
+    surface.kept_vertices = c.kept_vertices;
+    for (const int v : c.kept_vertices) {
+      surface.kept_points.push_back(surface.points[v]);
+      surface.input_vertices.resize(surface.points.size(), v);
+    }
+    set_creases(surface, c.options);
+    set_density(surface, c.options);
+    CGAL::PowerRTF_remesher<Watched_traits> remesher(surface, c.options);
+    Remeshing_default_visitor visitor;
+    REQUIRE(remesher.optimize(visitor));
+    Watched_engine::brought = 0;
+    const Extracted_mesh mesh = remesher.extract(visitor);
+    // Vertices that stay are judged where the input has them, which is another mesh.
+    const int meshes =
+        (c.options.improvement == Improvement::yes ? 2 : 1) + (c.kept_vertices.empty() ? 0 : 2);
+    CHECK(Watched_engine::brought == meshes);
+    CHECK(mesh.there(remesher.mesh_bringer()));
+    CHECK(Watched_engine::brought == meshes);
+
+    const Remeshing_report& report = remesher.report();
+    Remeshing_report expected;
+    assess(remesher.surface(), mesh, expected);
+    CHECK(report.topology.vertices == c.options.number_of_samples);
+    CHECK(report.topology.euler_characteristic == expected.topology.euler_characteristic);
+    CHECK(report.topology.edges == expected.topology.edges);
+    CHECK(report.topology.border_loops == expected.topology.border_loops);
+    CHECK(report.self_intersections == 0);
+    CHECK(expected.self_intersections == 0);
+    CHECK(report.quality.q_min == expected.quality.q_min);
+    CHECK(report.distance.mean == Approx(expected.distance.mean));
+    CHECK(report.distance.max == Approx(expected.distance.max));
+  }
+}
+
+TEST_CASE("a mesh is there until another comes, it is released or changed")
+{
+  const Case c = cases().front();
+  const Start start(c);
+  auto engine = std::make_unique<counting::Counted_engine<double>>(start.surface, c.options);
+  engine->facet_finder(); // the surface is there
+  const Bring_mesh bring = engine->mesh_bringer();
+  const shapes::Soup sphere = shapes::icosphere(1);
+  Extracted_mesh mesh{sphere.points, sphere.triangles};
+  CHECK_FALSE(mesh.there({}));
+  const auto there = mesh.there(bring);
+  REQUIRE(there);
+  CHECK(mesh.there({}) == there);
+  CHECK_FALSE(Extracted_mesh(mesh).there({}));
+  Triangle_links links;
+  CHECK(there->topology(&links)->faces == sphere.triangles.size());
+  SUBCASE("changed")
+  {
+    mesh.sort_triangles();
+    CHECK_FALSE(mesh.there({}));
+  }
+  SUBCASE("the triangles of another")
+  {
+    Extracted_mesh other{sphere.points, sphere.triangles};
+    mesh.take(std::move(other));
+    CHECK_FALSE(mesh.there({}));
+  }
+  SUBCASE("moved")
+  {
+    const Extracted_mesh moved = std::move(mesh);
+    CHECK(moved.there({}) == there);
+  }
+  SUBCASE("released or replaced")
+  {
+    if (const auto other = Extracted_mesh{sphere.points, sphere.triangles}.there(bring))
+      other->release();
+    for (const auto& gone : {there, mesh.there({})}) {
+      Face_pairs pairs;
+      Two_sided_distances distances;
+      int face = 0;
+      CHECK_FALSE(gone->topology(nullptr));
+      CHECK_FALSE(gone->find_close_faces(pairs));
+      CHECK_FALSE(gone->find_distances(10, distances));
+      CHECK_FALSE(gone->find_faces(0, 1, &face, &face));
+    }
+  }
+  CHECK_FALSE(Extracted_mesh{sphere.points, {}}.there(bring));
+}
