@@ -5,6 +5,7 @@
 // run each goes up once. (On a device: test_cuda_device/meshes.cpp.)
 #include "counting_backend.h"
 #include "engine_comparison.h"
+#include "flips_case.h"
 #include "mesh_of_shape.h"
 
 #include <CGAL/PowerRTF/quality/assess.h>
@@ -96,8 +97,11 @@ TEST_CASE("a mesh is there until another comes, it is released or changed")
   REQUIRE(there);
   CHECK(mesh.there({}) == there);
   CHECK_FALSE(Extracted_mesh(mesh).there({}));
+  std::vector<int> halfedges;
+  CHECK_FALSE(there->find_flips(halfedges)); // the links are not known
   Triangle_links links;
   CHECK(there->topology(&links)->faces == sphere.triangles.size());
+  CHECK(there->find_flips(halfedges));
   SUBCASE("changed")
   {
     mesh.sort_triangles();
@@ -123,10 +127,22 @@ TEST_CASE("a mesh is there until another comes, it is released or changed")
       Two_sided_distances distances;
       int face = 0;
       CHECK_FALSE(gone->topology(nullptr));
+      CHECK_FALSE(gone->find_flips(halfedges));
       CHECK_FALSE(gone->find_close_faces(pairs));
       CHECK_FALSE(gone->find_distances(10, distances));
       CHECK_FALSE(gone->find_faces(0, 1, &face, &face));
     }
   }
   CHECK_FALSE(Extracted_mesh{sphere.points, {}}.there(bring));
+}
+
+TEST_CASE("among the edges that may be worth a flip are all that are, and few others")
+{
+  const shapes::Soup egg = shapes::ellipsoid(1, 0.7, 0.4, 4);
+  flips_case::check(egg, 2000, [&](const Surface& surface) {
+    return std::make_unique<counting::Counted_engine<float>>(surface, Remeshing_options());
+  });
+  flips_case::check(shapes::open_cylinder(40, 10, .5, 2), 400, [&](const Surface& surface) {
+    return std::make_unique<counting::Counted_engine<float>>(surface, Remeshing_options());
+  });
 }

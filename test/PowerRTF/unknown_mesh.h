@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 
 #include <optional>
+#include <vector>
 
 namespace unknown {
 
@@ -17,6 +18,7 @@ using namespace CGAL::PowerRTF;
 class Mesh : public Resident_mesh {
 public:
   std::optional<Topology_statistics> topology(Triangle_links*) override { return {}; }
+  bool find_flips(std::vector<int>&) override { return false; }
   bool find_close_faces(Face_pairs&) override { return false; }
   bool find_distances(int, Two_sided_distances&) override { return false; }
   bool find_faces(double, int, const int*, int*) override { return false; }

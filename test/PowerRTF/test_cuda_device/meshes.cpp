@@ -10,6 +10,8 @@
 
 #ifdef CGAL_POWER_RTF_WITH_CUDA
 
+#include "../flips_case.h"
+
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 #include <CGAL/PowerRTF/engines/sound_stars.h>
 #include <CGAL/PowerRTF/extraction/connect_halfedges.h>
@@ -19,6 +21,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <random>
 #include <tuple>
 #include <utility>
@@ -71,6 +74,16 @@ TEST_CASE("the topology of meshes is what the host counts")
        {Soup{five, {{0, 1, 2}, {0, 3, 4}}}, Soup{five, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}},
         Soup{five, {{0, 1, 2}, {0, 1, 3}}}, Soup{five, {{0, 1, 1}}}, moebius_strip(20), wheel(17)})
     CHECK_FALSE((count(s) || links.are_known()));
+}
+
+TEST_CASE("edges that may be worth a flip are found")
+{
+  for (const auto& [soup, n] : {std::pair(shapes::ellipsoid(1, 0.7, 0.4, 4), 2000),
+                                std::pair(shapes::open_cylinder(40, 10, .5, 2), 400),
+                                std::pair(shapes::ellipsoid(1, 0.7, 0.4, 6), 40000)})
+    flips_case::check(soup, n, [](const Surface& surface) {
+      return std::make_unique<Cuda_engine<float>>(surface, Remeshing_options());
+    });
 }
 
 TEST_CASE("cells whose triangles are sound are those that the host finds")

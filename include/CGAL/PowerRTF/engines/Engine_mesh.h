@@ -5,6 +5,7 @@
 
 #include <CGAL/PowerRTF/engines/close_faces.h>
 #include <CGAL/PowerRTF/engines/faces_at_vertices.h>
+#include <CGAL/PowerRTF/engines/flip_candidates.h>
 #include <CGAL/PowerRTF/engines/oriented_topology.h>
 #include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/geometry/Resident_mesh.h>
@@ -13,6 +14,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace CGAL::PowerRTF {
 
@@ -43,7 +45,12 @@ public:
   {
     if (!is_there()) return {};
     return internal::oriented_topology(m_backend, m_mesh.vertices, m_mesh.faces, m_mesh.corners,
-                                       links);
+                                       links, &m_opposite);
+  }
+  bool find_flips(std::vector<int>& halfedges) override
+  {
+    return is_there() && m_opposite.size() > 0 &&
+           internal::find_flip_candidates(m_backend, m_mesh, m_opposite.data(), halfedges);
   }
   bool find_close_faces(Face_pairs& pairs) override
   {
@@ -66,6 +73,7 @@ public:
   {
     m_points = {};
     m_corners = {};
+    m_opposite = {};
     m_mesh = {};
   }
 
@@ -75,8 +83,8 @@ private:
   Backend& m_backend;
   Surface& m_surface;
   typename Backend::template Buffer<Vec3d> m_points;
-  typename Backend::template Buffer<int> m_corners;
-  Mesh_arrays m_mesh{}; // there
+  typename Backend::template Buffer<int> m_corners, m_opposite; // the latter once it was asked for
+  Mesh_arrays m_mesh{};                                         // there
 };
 
 } // namespace CGAL::PowerRTF

@@ -158,9 +158,10 @@ struct Topology_arrays {
 /// where the memory does not suffice or a vertex has very many triangles. `opposite_there`: gets
 /// that of `links` where the backend works, if that is not on the host; or null.
 template <class Backend>
-std::optional<Topology_statistics> oriented_topology(Backend& backend, int vertices, int n,
-                                                     const int* corners,
-                                                     Triangle_links* links = nullptr)
+std::optional<Topology_statistics>
+oriented_topology(Backend& backend, int vertices, int n, const int* corners,
+                  Triangle_links* links = nullptr,
+                  typename Backend::template Buffer<int>* opposite_there = nullptr)
 {
   using Arrays = Topology_arrays<Backend>;
   if (!backend.has_room(bytes_of_listed<Arrays>(vertices, n, links != nullptr)))
@@ -201,6 +202,7 @@ std::optional<Topology_statistics> oriented_topology(Backend& backend, int verti
       backend.download(found.last_corner.data(), last_corner, found.last_corner.size());
     }
     *links = std::move(found);
+    if (opposite_there) *opposite_there = std::move(a.opposite);
   }
   Topology_statistics result;
   result.faces = n;

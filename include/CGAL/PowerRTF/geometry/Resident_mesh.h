@@ -51,6 +51,11 @@ public:
   /// gets those of the triangles; or null.
   virtual std::optional<Topology_statistics> topology(Triangle_links* links) = 0;
 
+  /// Writes the halfedges (of each edge the smaller one), sorted, whose flip may lower the sum of
+  /// the triangles' `shape_energy()`: all but those where it is clear that it does not. \pre
+  /// `topology()` has found the links
+  virtual bool find_flips(std::vector<int>& halfedges) = 0;
+
   /// Writes the pairs of faces that may intersect: all but those where it is clear that they do
   /// not; and, as a pair with itself, each face that may have no area. They come in any order, each
   /// once. `false`, too, where they are more than the faces. \pre the points are finite

@@ -4,6 +4,7 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_BETTER_FLIPS_H
 
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
+#include <CGAL/PowerRTF/smoothing/lowers_energy.h>
 
 #include <algorithm>
 
@@ -18,10 +19,9 @@ bool is_better_flipped(const Star_mesh& m, Star_mesh::Edge e, const Energy& ener
 {
   if (m.working().mesh.is_removed(e)) return false;
   const auto [a, b, c, d] = m.corners(e);
-  const Vec3d pa = m.point(a), pb = m.point(b), pc = m.point(c), pd = m.point(d);
-  const double enough = clearly_less * (energy(pa, pb, pc) + energy(pb, pa, pd)),
-               first = energy(pd, pc, pa);
-  if (!(first + least_energy < enough) || !(first + energy(pc, pd, pb) < enough)) return false;
+  if (!lowers_energy(m.point(a), m.point(b), m.point(c), m.point(d), energy, least_energy,
+                     clearly_less))
+    return false;
   if (!m.is_free(e)) return false;
   const double agreement = std::min(m.agreement(a, b, c), m.agreement(b, a, d));
   if (std::min(m.agreement(d, c, a), m.agreement(c, d, b)) < std::min(min_agreement, agreement))

@@ -169,6 +169,16 @@ private:
   // The last look at the extracted mesh where the engine works: the memory is needed.
   void leave_engine()
   {
+    std::vector<int> halfedges;
+    if (m_there->find_flips(halfedges)) {
+      const Mesh& mesh = m_stars->working().mesh;
+      m_flips.emplace(halfedges.size());
+      for_each_index(m_concurrency, int(halfedges.size()), [&](int k) {
+        Working_mesh::Halfedge h = mesh.halfedge(Face(halfedges[k] / 3));
+        for (int i = halfedges[k] % 3; i > 0; --i) h = mesh.next(h);
+        (*m_flips)[k] = mesh.edge(h);
+      });
+    }
     m_there->release();
     m_there.reset();
     m_mesh.resident = {};
@@ -180,6 +190,7 @@ private:
     Progress_part part(0.1);
     Mesh_sweeper sweeper(stars, m_sweeps.get(), *m_host_sweeps);
     Mesh_smoother smoother(stars, sweeper);
+    if (m_flips) smoother.expect_flips(std::vector<Working_mesh::Edge>(*m_flips));
     if (m_settings.dislocations == Dislocations::annihilate) {
       smoother.run(Schedule::smoothing_passes - std::exchange(passes_less, 0));
       part.next(0.2);
@@ -383,7 +394,8 @@ private:
   std::shared_ptr<Improvement_preparation> m_prepared;
   std::unique_ptr<Star_sweeps_base> m_sweeps, m_host_sweeps; // the engine's may be null
   std::vector<char> m_locked;
-  std::optional<Star_mesh> m_stars; // of the attempt
+  std::optional<Star_mesh> m_stars;                       // of the attempt
+  std::optional<std::vector<Working_mesh::Edge>> m_flips; // of the extracted mesh; none: not known
   Distance_tracker m_tracker;
   double m_spacing;
   double m_largest_distance;

@@ -16,6 +16,8 @@
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -30,6 +32,9 @@ public:
       : m(mesh), m_sweeper(sweeper), m_changed(mesh)
   {}
 
+  /// None but these edges of the mesh as it is may be worth a flip.
+  void expect_flips(std::vector<Edge>&& edges) { m_expected = std::move(edges); }
+
   /// Flips edges, then moves all vertices so many times. \returns those that are left doubtful.
   std::vector<int> run(int steps)
   {
@@ -41,7 +46,6 @@ public:
 
 private:
   using Parameters = Improvement_parameters::Smoothing;
-  static constexpr double least_energy = 3.4641; // a little less than 2 sqrt(3)
 
   // Flips edges until that does not help any more.
   void flip()
@@ -69,23 +73,30 @@ private:
     const auto is_wanted = [this](Edge e) { return is_better_flipped(e); };
     const std::vector<int> changed = m_changed.take();
     if (m_changed.are_few(changed, vertices_per_change)) return edges_around(m, changed, is_wanted);
-    std::vector<Edge> edges;
-    for (const int e : select(m.concurrency(), int(m.working().mesh.num_edges()),
-                              [&](int e) { return is_wanted(Edge(e)); }))
-      edges.push_back(Edge(e));
-    return edges;
+    // Of those with these numbers, as `edge` names them.
+    const auto wanted = [&](int n, const auto& edge) {
+      std::vector<Edge> edges;
+      for (const int k :
+           select(m.concurrency(), n, [&](int k) { return is_wanted(Edge(edge(k))); }))
+        edges.push_back(Edge(edge(k)));
+      return edges;
+    };
+    if (const auto expected = std::exchange(m_expected, std::nullopt))
+      return wanted(int(expected->size()), [&](int k) { return (*expected)[k]; });
+    return wanted(int(m.working().mesh.num_edges()), [](int e) { return e; });
   }
 
   bool is_better_flipped(Edge e) const
   {
     return internal::is_better_flipped(
         m, e, [](const Vec3d& a, const Vec3d& b, const Vec3d& c) { return shape_energy(a, b, c); },
-        least_energy, Parameters::min_agreement);
+        least_shape_energy, Parameters::min_agreement);
   }
 
   Star_mesh& m;
   Mesh_sweeper& m_sweeper;
-  Changed_vertices m_changed; // since the last sweeps, and the doubtful ones
+  Changed_vertices m_changed;                  // since the last sweeps, and the doubtful ones
+  std::optional<std::vector<Edge>> m_expected; // for the next flips; none: all
 };
 
 } // namespace CGAL::PowerRTF::internal

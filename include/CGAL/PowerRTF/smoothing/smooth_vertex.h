@@ -24,6 +24,7 @@ CGAL_POWER_RTF_HD inline double shape_energy(const Vec3d& a, const Vec3d& b, con
   if (!(twice_area > 0)) return INFINITY;
   return (squared_length(e) + squared_length(f) + squared_length(f - e)) / twice_area;
 }
+inline constexpr double least_shape_energy = 3.4641; ///< a little less than 2 sqrt(3)
 
 /// The smallest cosine between the normals of the star's triangles, with its center at `p`, and the
 /// surface's normals at their corners, of which `normal` is that at the center.
