@@ -17,6 +17,7 @@
 #include <CGAL/PowerRTF/extraction/reduce_to_samples.h>
 #include <CGAL/PowerRTF/geometry/Surface_walk.h>
 #include <CGAL/PowerRTF/geometry/self_intersections.h>
+#include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -61,8 +62,11 @@ public:
     make_mesh();
     part.next(1);
     for (int round = 0; round < max_rounds; ++round) {
-      if (!has_topology_of_surface()) return false;
+      bool is_homeomorphic = false;
+      Background_work check(ConcurrencyTag(), [&] { is_homeomorphic = has_topology_of_surface(); });
       const std::vector<int> crossed = samples_at_intersections();
+      check.finish();
+      if (!is_homeomorphic) return false;
       if (crossed.empty()) return true;
       if (!close(crossed)) return false;
       make_mesh();
