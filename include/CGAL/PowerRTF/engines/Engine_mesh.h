@@ -54,7 +54,11 @@ public:
   }
   bool find_close_faces(Face_pairs& pairs) override
   {
-    return is_there() && internal::close_faces(m_backend, m_mesh, pairs);
+    if (!is_there()) return false;
+    if (!m_close_faces && !internal::close_faces(m_backend, m_mesh, m_close_faces.emplace()))
+      m_close_faces.reset();
+    if (m_close_faces) pairs = *m_close_faces;
+    return m_close_faces.has_value();
   }
   bool find_distances(int samples, Two_sided_distances& result) override
   {
@@ -74,6 +78,7 @@ public:
     m_points = {};
     m_corners = {};
     m_opposite = {};
+    m_close_faces.reset();
     m_mesh = {};
   }
 
@@ -84,6 +89,7 @@ private:
   Surface& m_surface;
   typename Backend::template Buffer<Vec3d> m_points;
   typename Backend::template Buffer<int> m_corners, m_opposite; // the latter once it was asked for
+  std::optional<Face_pairs> m_close_faces;                      // once they were asked for
   Mesh_arrays m_mesh{};                                         // there
 };
 

@@ -59,6 +59,7 @@
 #include <CGAL/PowerRTF/improvement/slide_features.h>
 #include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/improvement/tracked_points.h>
+#include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 
 #include <algorithm>
@@ -98,17 +99,10 @@ public:
                      : nullptr),
         m_host_sweeps(
             make_host_star_sweeps(m_projector.descent(), surface.normalization.grid, concurrency)),
-        m_locked(mesh.points.size(), false),
-        m_stars(
-            std::in_place, mesh, m_projector, settings.carriers, concurrency,
-            [this](Triangle_links& links) { return m_there && m_there->topology(&links); },
-            m_prepared ? std::move(m_prepared->memory) : Working_mesh::Mesh()),
-        m_tracker(*m_stars, std::move(prepared().points), nearest_faces(prepared().points)),
+        m_locked(mesh.points.size(), false), m_tracker(begin()),
         m_spacing(std::sqrt(surface.area / double(mesh.points.size()))),
         m_largest_distance(m_tracker.max_distance() + Schedule::max_distance_growth * m_spacing)
-  {
-    if (m_there) leave_engine();
-  }
+  {}
 
   /// Improves the mesh. If an improvement has broken something, it is made anew: at first with less
   /// smoothing, which may already do, then with what was broken locked, as little of it as does.
@@ -154,34 +148,56 @@ private:
     return *m_prepared;
   }
 
-  // Of the extracted mesh; none where they are not found.
-  Unset_vector<int> nearest_faces(const Unset_vector<Tracked_point>& points)
+  // Makes the stars of the extracted mesh, while it is looked at where the engine works; then the
+  // memory there is needed.
+  Distance_tracker begin()
   {
-    if (!m_there) return {};
-    Unset_vector<int> faces(points.size());
-    for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
-    if (!m_there->find_faces(Improvement_parameters::Projection::min_normal_cosine,
-                             int(faces.size()), faces.data(), faces.data()))
-      faces.clear();
-    return faces;
+    Triangle_links links;
+    const bool has_links = m_there && m_there->topology(&links);
+    const auto take_links = [&](Triangle_links& result) {
+      if (has_links) result = std::move(links);
+      return has_links;
+    };
+    Improvement_preparation& prepared = this->prepared();
+    const auto make_stars = [&] {
+      m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency, take_links,
+                      std::move(prepared.memory));
+    };
+    Unset_vector<int> faces; // else the tracker's way from face to face is quicker than the host's
+    if (!m_there) {
+      make_stars();
+    } else {
+      Background_work making(m_concurrency, make_stars);
+      std::vector<int> halfedges;
+      if (!find_faces(prepared.points, faces)) faces.clear();
+      const bool has_flips = m_there->find_flips(halfedges);
+      making.finish();
+      if (has_flips) set_flips(halfedges);
+      m_there->release();
+      m_there.reset();
+      m_mesh.resident = {};
+    }
+    return Distance_tracker(*m_stars, std::move(prepared.points), faces);
   }
 
-  // The last look at the extracted mesh where the engine works: the memory is needed.
-  void leave_engine()
+  // Of the extracted mesh, those nearest to the points.
+  bool find_faces(const Unset_vector<Tracked_point>& points, Unset_vector<int>& faces)
   {
-    std::vector<int> halfedges;
-    if (m_there->find_flips(halfedges)) {
-      const Mesh& mesh = m_stars->working().mesh;
-      m_flips.emplace(halfedges.size());
-      for_each_index(m_concurrency, int(halfedges.size()), [&](int k) {
-        Working_mesh::Halfedge h = mesh.halfedge(Face(halfedges[k] / 3));
-        for (int i = halfedges[k] % 3; i > 0; --i) h = mesh.next(h);
-        (*m_flips)[k] = mesh.edge(h);
-      });
-    }
-    m_there->release();
-    m_there.reset();
-    m_mesh.resident = {};
+    faces.resize(points.size());
+    for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
+    return m_there->find_faces(Improvement_parameters::Projection::min_normal_cosine,
+                               int(faces.size()), faces.data(), faces.data());
+  }
+
+  void set_flips(const std::vector<int>& halfedges)
+  {
+    const Mesh& mesh = m_stars->working().mesh;
+    m_flips.emplace(halfedges.size());
+    for_each_index(m_concurrency, int(halfedges.size()), [&](int k) {
+      Working_mesh::Halfedge h = mesh.halfedge(Face(halfedges[k] / 3));
+      for (int i = halfedges[k] % 3; i > 0; --i) h = mesh.next(h);
+      (*m_flips)[k] = mesh.edge(h);
+    });
   }
 
   // One attempt; see the head of this file.
