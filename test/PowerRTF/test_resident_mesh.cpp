@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/quality/assess.h>
 #include <CGAL/PowerRTF_remesher.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -134,6 +135,47 @@ TEST_CASE("a mesh is there until another comes, it is released or changed")
     }
   }
   CHECK_FALSE(Extracted_mesh{sphere.points, {}}.there(bring));
+}
+
+TEST_CASE("the stars that an engine makes of a mesh are those that would go up")
+{
+  using Backend = counting::Backend<CGAL::Sequential_tag>;
+  for (const shapes::Soup& soup :
+       {shapes::ellipsoid(1, 0.7, 0.4, 4), shapes::open_cylinder(40, 10, .5, 2)}) {
+    const improvement_case::Sweeps_case c(soup, 400);
+    const internal::Star_mesh& mesh = c.mesh();
+    counting::Counted_engine<float> engine(c.surface(), Remeshing_options());
+    engine.facet_finder(); // the surface is there
+    const internal::Flat_stars expected = flat_stars(mesh);
+    Extracted_mesh raw;
+    raw.points.resize(mesh.size());
+    mesh.write(raw);
+    const auto there = raw.there(engine.mesh_bringer());
+    const auto sweeps = c.sweeps(engine.star_sweeps_maker());
+    const Vertex_places places{expected.kinds.data(), expected.normals.data(),
+                               expected.facets.data()};
+    CHECK_FALSE(there->give_stars(places, *sweeps)); // the links are not known
+    Triangle_links links;
+    REQUIRE(there->topology(&links));
+    const auto elsewhere = c.host_sweeps(CGAL::Sequential_tag());
+    CHECK_FALSE(there->give_stars(places, *elsewhere));
+    const std::size_t before = Backend::uploaded;
+    REQUIRE(there->give_stars(places, *sweeps));
+    CHECK(Backend::uploaded - before == mesh.size() * (1 + sizeof(Vec3d) + sizeof(int)));
+    auto& made = dynamic_cast<Star_sweeps<Backend>&>(*sweeps).stars();
+    const auto check = [](const auto& array, const auto& of_host) {
+      REQUIRE(array.size() == of_host.size());
+      CHECK(std::equal(of_host.begin(), of_host.end(), array.data()));
+    };
+    check(made.first, expected.first);
+    check(made.neighbors, expected.neighbors);
+    check(made.kinds, expected.kinds);
+    check(made.points, expected.points);
+    check(made.normals, expected.normals);
+    check(made.facets, expected.facets);
+    there->release();
+    CHECK_FALSE(there->give_stars(places, *sweeps));
+  }
 }
 
 TEST_CASE("among the edges that may be worth a flip are all that are, and few others")

@@ -22,6 +22,7 @@ public:
   bool find_close_faces(Face_pairs&) override { return false; }
   bool find_distances(int, Two_sided_distances&) override { return false; }
   bool find_faces(double, int, const int*, int*) override { return false; }
+  bool give_stars(const Vertex_places&, Star_sweeps_base&) override { return false; }
   void release() override {}
 };
 

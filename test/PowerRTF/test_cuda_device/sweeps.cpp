@@ -13,6 +13,7 @@
 #include <CGAL/PowerRTF/engines/Cuda_engine.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace engine_comparison;
@@ -67,6 +68,32 @@ TEST_CASE("sweeps over a mesh move its vertices as the host's loops do")
     const std::vector<double> d = improvement_case::distances(fit, fit_on_host);
     CHECK(d[d.size() * 9 / 10] < bound * mesh.spacing());
     CHECK(std::fabs(gain - gain_on_host) < 0.01 * gain_on_host);
+  }
+}
+
+TEST_CASE("stars that are made on the GPU are smoothed as those that go up")
+{
+  for (const auto& [soup, n] :
+       {std::pair(shapes::icosphere(2), 12), std::pair(shapes::open_cylinder(40, 10, .5, 2), 400),
+        std::pair(shapes::ellipsoid(1, 0.7, 0.4, 6), 40000)}) {
+    CAPTURE(n);
+    const Sweeps_case mesh(soup, n);
+    Device device(mesh.surface());
+    const auto sweeps = mesh.sweeps(device.maker());
+    const auto expected = mesh.smoothed(*sweeps, 2);
+    const internal::Flat_stars stars = flat_stars(mesh.mesh());
+    Extracted_mesh raw;
+    raw.points.resize(mesh.mesh().size());
+    mesh.mesh().write(raw);
+    const auto there = raw.there(device.bringer());
+    Triangle_links links;
+    REQUIRE(there->topology(&links));
+    REQUIRE(there->give_stars({stars.kinds.data(), stars.normals.data(), stars.facets.data()},
+                              *sweeps));
+    internal::Swept_vertices swept;
+    sweeps->smooth(2, swept);
+    CHECK(swept.points == expected.points);
+    CHECK(swept.doubtful == expected.doubtful);
   }
 }
 

@@ -7,10 +7,12 @@
 #include <CGAL/PowerRTF/engines/faces_at_vertices.h>
 #include <CGAL/PowerRTF/engines/flip_candidates.h>
 #include <CGAL/PowerRTF/engines/oriented_topology.h>
+#include <CGAL/PowerRTF/engines/stars_of_mesh.h>
 #include <CGAL/PowerRTF/engines/surface_distances.h>
 #include <CGAL/PowerRTF/geometry/Resident_mesh.h>
 #include <CGAL/PowerRTF/geometry/Surface_arrays.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
+#include <CGAL/PowerRTF/smoothing/Star_sweeps.h>
 
 #include <cstddef>
 #include <optional>
@@ -45,12 +47,12 @@ public:
   {
     if (!is_there()) return {};
     return internal::oriented_topology(m_backend, m_mesh.vertices, m_mesh.faces, m_mesh.corners,
-                                       links, &m_opposite);
+                                       links, &m_links);
   }
   bool find_flips(std::vector<int>& halfedges) override
   {
-    return is_there() && m_opposite.size() > 0 &&
-           internal::find_flip_candidates(m_backend, m_mesh, m_opposite.data(), halfedges);
+    return m_links.are_known() &&
+           internal::find_flip_candidates(m_backend, m_mesh, m_links.opposite.data(), halfedges);
   }
   bool find_close_faces(Face_pairs& pairs) override
   {
@@ -73,11 +75,18 @@ public:
                                                           m_surface.vertex_normals(), m_mesh,
                                                           min_cosine, n, vertices, faces);
   }
+  bool give_stars(const Vertex_places& vertices, Star_sweeps_base& sweeps) override
+  {
+    auto* const here = dynamic_cast<Star_sweeps<Backend>*>(&sweeps);
+    return here && m_links.are_known() &&
+           internal::make_stars(m_backend, m_mesh, m_links.opposite.data(),
+                                m_links.last_corner.data(), vertices, here->stars());
+  }
   void release() override
   {
     m_points = {};
     m_corners = {};
-    m_opposite = {};
+    m_links = {};
     m_close_faces.reset();
     m_mesh = {};
   }
@@ -88,9 +97,10 @@ private:
   Backend& m_backend;
   Surface& m_surface;
   typename Backend::template Buffer<Vec3d> m_points;
-  typename Backend::template Buffer<int> m_corners, m_opposite; // the latter once it was asked for
-  std::optional<Face_pairs> m_close_faces;                      // once they were asked for
-  Mesh_arrays m_mesh{};                                         // there
+  typename Backend::template Buffer<int> m_corners;
+  internal::Link_buffers<Backend> m_links; // once they were asked for
+  std::optional<Face_pairs> m_close_faces; // once they were asked for
+  Mesh_arrays m_mesh{};                    // there
 };
 
 } // namespace CGAL::PowerRTF

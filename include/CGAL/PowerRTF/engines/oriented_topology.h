@@ -154,14 +154,21 @@ struct Topology_arrays {
   }
 };
 
+/// The arrays of `Triangle_links` where a backend works; or none.
+template <class Backend>
+struct Link_buffers {
+  typename Backend::template Buffer<int> opposite, last_corner;
+
+  bool are_known() const { return opposite.size() > 0; }
+};
+
 /// As `Resident_mesh::topology()`, of `n` triangles that are where the backend works: none, too,
-/// where the memory does not suffice or a vertex has very many triangles. `opposite_there`: gets
-/// that of `links` where the backend works, if that is not on the host; or null.
+/// where the memory does not suffice or a vertex has very many triangles. `links_there`: get those
+/// of `links` where the backend works, if that is not on the host; or null.
 template <class Backend>
 std::optional<Topology_statistics>
 oriented_topology(Backend& backend, int vertices, int n, const int* corners,
-                  Triangle_links* links = nullptr,
-                  typename Backend::template Buffer<int>* opposite_there = nullptr)
+                  Triangle_links* links = nullptr, Link_buffers<Backend>* links_there = nullptr)
 {
   using Arrays = Topology_arrays<Backend>;
   if (!backend.has_room(bytes_of_listed<Arrays>(vertices, n, links != nullptr)))
@@ -202,7 +209,7 @@ oriented_topology(Backend& backend, int vertices, int n, const int* corners,
       backend.download(found.last_corner.data(), last_corner, found.last_corner.size());
     }
     *links = std::move(found);
-    if (opposite_there) *opposite_there = std::move(a.opposite);
+    if (links_there) *links_there = {std::move(a.opposite), std::move(a.last_corner)};
   }
   Topology_statistics result;
   result.faces = n;

@@ -40,6 +40,15 @@ struct Two_sided_distances {
 /// Pairs of faces, by number.
 using Face_pairs = std::vector<std::pair<int, int>>;
 
+class Star_sweeps_base;
+
+/// What is known of the vertices of a mesh on a surface. Non-owning.
+struct Vertex_places {
+  const unsigned char* kinds; ///< flags of `Star_kind`
+  const Vec3d* normals;       ///< of the surface
+  const int* facets;          ///< of the surface, that carry them
+};
+
 /// A mesh that has gone up to where an engine works, once for all that is asked of it; as long as
 /// the engine lives. What returns `false`, or none, has found nothing, as the memory does not
 /// suffice: that is left to the caller.
@@ -69,6 +78,10 @@ public:
   /// normals have at least `min_cosine` with the surface's there; -1 where none does. \pre there is
   /// a face
   virtual bool find_faces(double min_cosine, int n, const int* vertices, int* faces) = 0;
+
+  /// Gives its stars to `sweeps` of the same engine, instead of `Star_sweeps_base::take()`. \pre
+  /// `topology()` has found the links
+  virtual bool give_stars(const Vertex_places& vertices, Star_sweeps_base& sweeps) = 0;
 
   /// Frees the memory: from now on nothing is found.
   virtual void release() = 0;

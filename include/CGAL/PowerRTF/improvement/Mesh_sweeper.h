@@ -18,10 +18,13 @@ namespace CGAL::PowerRTF::internal {
 /// stars from when it was last asked: then only those go there that have changed.
 class Mesh_sweeper {
 public:
-  /// `there`: null, if no engine does that.
-  Mesh_sweeper(Star_mesh& mesh, Star_sweeps_base* there, Star_sweeps_base& here)
+  /// `there`: null, if no engine does that. `has_stars`: it has those of the mesh as it is.
+  Mesh_sweeper(Star_mesh& mesh, Star_sweeps_base* there, Star_sweeps_base& here,
+               bool has_stars = false)
       : m(mesh), m_there{there, {}}, m_here{&here, {}}
-  {}
+  {
+    if (has_stars) m_there.changed.emplace(mesh).assign({});
+  }
 
   /// Moves all vertices so many times. \returns those that are left doubtful.
   std::vector<int> smooth(int steps)

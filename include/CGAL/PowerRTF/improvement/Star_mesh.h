@@ -179,6 +179,8 @@ public:
   }
   const Vec3d& normal(Vertex v) const { return m.normals[v]; }
   int facet(Vertex v) const { return m_facets[v]; }
+  /// By vertex.
+  const Unset_vector<int>& facets() const { return m_facets; }
 
   /// Whether `v` has too many edges to look at all of them often.
   bool is_hub(Vertex v) const

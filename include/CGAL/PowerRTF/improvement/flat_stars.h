@@ -17,6 +17,13 @@
 
 namespace CGAL::PowerRTF::internal {
 
+/// Flags of `Star_kind`.
+inline unsigned char star_kind(const Star_mesh& mesh, Star_mesh::Vertex v)
+{
+  return (mesh.is_movable(v) ? is_movable_kind : 0) |
+         (mesh.is_on_feature(v) ? is_on_feature_kind : 0);
+}
+
 /// Of n vertices, as `vertex(i)` names them. \pre nothing is missing: no vertex has been collapsed
 template <class Vertex>
 Flat_stars flat_stars(const Star_mesh& mesh, int n, const Vertex& vertex)
@@ -38,8 +45,7 @@ Flat_stars flat_stars(const Star_mesh& mesh, int n, const Vertex& vertex)
       stars.points[i] = mesh.point(v);
       stars.normals[i] = mesh.normal(v);
       stars.facets[i] = mesh.facet(v);
-      stars.kinds[i] = (mesh.is_movable(v) ? is_movable_kind : 0) |
-                       (mesh.is_on_feature(v) ? is_on_feature_kind : 0);
+      stars.kinds[i] = star_kind(mesh, v);
       const std::size_t before = part.size();
       if (mesh.is_movable(v))
         for (const auto h : halfedges_around_target(v, topology))

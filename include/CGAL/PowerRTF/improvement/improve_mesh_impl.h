@@ -48,6 +48,7 @@
 #include <CGAL/PowerRTF/improvement/cover_tips.h>
 #include <CGAL/PowerRTF/improvement/fit_creases.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
+#include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/improvement/keep_areas.h>
 #include <CGAL/PowerRTF/improvement/keep_distance.h>
@@ -173,6 +174,7 @@ private:
       const bool has_flips = m_there->find_flips(halfedges);
       making.finish();
       if (has_flips) set_flips(halfedges);
+      m_has_given_stars = m_sweeps && give_stars();
       m_there->release();
       m_there.reset();
       m_mesh.resident = {};
@@ -187,6 +189,15 @@ private:
     for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
     return m_there->find_faces(Improvement_parameters::Projection::min_normal_cosine,
                                int(faces.size()), faces.data(), faces.data());
+  }
+
+  bool give_stars()
+  {
+    Unset_vector<unsigned char> kinds(m_stars->size());
+    for_each_index(m_concurrency, int(kinds.size()),
+                   [&](int v) { kinds[v] = star_kind(*m_stars, Vertex(v)); });
+    return m_there->give_stars(
+        {kinds.data(), m_stars->working().normals.data(), m_stars->facets().data()}, *m_sweeps);
   }
 
   void set_flips(const std::vector<int>& halfedges)
@@ -204,7 +215,8 @@ private:
   void improve(Star_mesh& stars, int passes_less)
   {
     Progress_part part(0.1);
-    Mesh_sweeper sweeper(stars, m_sweeps.get(), *m_host_sweeps);
+    Mesh_sweeper sweeper(stars, m_sweeps.get(), *m_host_sweeps,
+                         std::exchange(m_has_given_stars, false));
     Mesh_smoother smoother(stars, sweeper);
     if (m_flips) smoother.expect_flips(std::vector<Working_mesh::Edge>(*m_flips));
     if (m_settings.dislocations == Dislocations::annihilate) {
@@ -410,6 +422,7 @@ private:
   std::shared_ptr<Improvement_preparation> m_prepared;
   std::unique_ptr<Star_sweeps_base> m_sweeps, m_host_sweeps; // the engine's may be null
   std::vector<char> m_locked;
+  bool m_has_given_stars = false;                         // to `m_sweeps`, as they are
   std::optional<Star_mesh> m_stars;                       // of the attempt
   std::optional<std::vector<Working_mesh::Edge>> m_flips; // of the extracted mesh; none: not known
   Distance_tracker m_tracker;

@@ -64,6 +64,9 @@ public:
     return stars.are_all ? m_stars.upload(m_backend, stars) : m_stars.update(m_backend, stars);
   }
 
+  /// Where the stars are, for who makes them there.
+  internal::Star_arrays<Backend>& stars() { return m_stars; }
+
   void smooth(int steps, internal::Swept_vertices& result) override
   {
     const internal::Star_view stars = view();
