@@ -156,6 +156,7 @@ void add_mesh(Json& json, const Run& run)
   json["feature_samples"] = r.feature_samples;
   json["off_lattice_samples"] = r.off_lattice_samples;
   json["mended_samples"] = r.mended_samples;
+  json["retouched_vertices"] = r.retouched_vertices;
   json["crease_edges"] = r.crease_edges;
   json["feature_edges"] = r.feature_edges;
   json["lost_feature_edges"] = r.lost_feature_edges;

@@ -375,7 +375,8 @@ private:
           m_patches.surface(), m_engine.facet_tree(), mesh, typename Traits::Concurrency_tag(),
           {m_options.dislocations, m_report.max_distance * surface.normalization.scale,
            std::move(carriers), m_engine.mesh_bringer(), m_engine.star_sweeps_maker(),
-           std::move(m_prepared)});
+           std::move(m_prepared)},
+          &m_report.retouched_vertices);
     }
     return mesh;
   }

@@ -294,3 +294,14 @@ TEST_CASE("the report tells how many samples were mended, as the cells did not f
   CHECK(some < 100);
   CHECK(remesh(thin, 60, options).report.mended_samples == 60); // all
 }
+
+TEST_CASE("the report tells how many vertices were changed one place at a time")
+{
+  Remeshing_options options;
+  const std::size_t n = 1000,
+                    retouched = remesh(shapes::icosphere(4), n, options).report.retouched_vertices;
+  CHECK(retouched > 0);
+  CHECK(retouched < n);
+  options.improvement = Improvement::no;
+  CHECK(remesh(shapes::icosphere(4), n, options).report.retouched_vertices == 0);
+}

@@ -153,6 +153,9 @@ struct Remeshing_report {
   /// Samples whose cells' triangles do not fit together or lie badly, so that they were made by
   /// insertion, on the host; all of them where that made all triangles.
   std::size_t mended_samples = 0;
+  /// Vertices that the improvement has changed, or their edges, one place at a time, on the host:
+  /// in sum before, between and after its sweeps over all vertices.
+  std::size_t retouched_vertices = 0;
   Cell_counts cells;            ///< at the end
   Capacity_statistics capacity; ///< at the end
   Repair_counts repairs;

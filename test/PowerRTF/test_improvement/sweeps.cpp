@@ -253,9 +253,12 @@ TEST_CASE("where an engine has no room the host sweeps, and the next time all go
     CHECK(flat_stars(mesh).points != before.points);
   };
   step();
+  CHECK(sweeper.changes() == 0);
   edit(mesh, 1);
+  const std::size_t edited = sweeper.changes();
   step();
   CHECK(there.taken.size() == 2);
+  CHECK(int(edited) == there.taken[1]);
   CHECK(there.taken[1] > 0);
   CHECK(here.taken.empty());
   there.has_room = false;
@@ -263,6 +266,7 @@ TEST_CASE("where an engine has no room the host sweeps, and the next time all go
   step();
   CHECK(there.taken == std::vector<int>{-1, there.taken[1], 0, -1});
   CHECK(here.taken == std::vector<int>{-1, 0});
+  CHECK(sweeper.changes() == edited);
   there.has_room = true;
   step();
   step();
@@ -277,6 +281,9 @@ TEST_CASE("where an engine has no room the host sweeps, and the next time all go
   CHECK(here.taken.size() == 3);
   step();
   CHECK(there.taken.back() == -1);
+  CHECK(sweeper.changes() == edited);
+  edit(mesh, 2);
+  CHECK(sweeper.changes() > edited);
 }
 
 TEST_CASE("the faces that are nearest to the surface's vertices are those of a search of all")

@@ -8,6 +8,7 @@
 #include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/smoothing/Star_sweeps_base.h>
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,10 +22,11 @@ public:
   /// `there`: null, if no engine does that. `has_stars`: it has those of the mesh as it is.
   Mesh_sweeper(Star_mesh& mesh, Star_sweeps_base* there, Star_sweeps_base& here,
                bool has_stars = false)
-      : m(mesh), m_there{there, {}}, m_here{&here, {}}
+      : m(mesh), m_there{there, has_stars, {}}, m_here{&here, false, {}}
   {
-    if (has_stars) m_there.changed.emplace(mesh).assign({});
+    m_last->changed.emplace(mesh).assign({});
   }
+  Mesh_sweeper(const Mesh_sweeper&) = delete;
 
   /// Moves all vertices so many times. \returns those that are left doubtful.
   std::vector<int> smooth(int steps)
@@ -46,11 +48,14 @@ public:
     });
   }
 
+  /// How many vertices, or their edges, have changed otherwise, before sweeps and since the last.
+  std::size_t changes() const { return m_changes + (m_last ? m_last->changed->find().size() : 0); }
+
 private:
-  // What has the stars as they were before the changes.
   struct Place {
     Star_sweeps_base* sweeps;
-    std::optional<Changed_vertices> changed; // none: it has no stars
+    bool has_stars;                          // as they were before the changes
+    std::optional<Changed_vertices> changed; // since the last sweeps here; none: not known
   };
 
   // Where `f(sweeps, swept)` does not return `false`.
@@ -65,22 +70,26 @@ private:
   template <class F>
   bool is_swept(Place& place, Swept_vertices& swept, const F& f)
   {
-    if (!place.changed) place.changed.emplace(m);
     constexpr std::size_t vertices_per_change = 2;
-    std::vector<int> changed = place.changed->find();
-    const bool is_done = place.sweeps->take(place.changed->are_few(changed, vertices_per_change)
-                                                ? flat_stars(m, std::move(changed))
-                                                : flat_stars(m)) &&
-                         f(*place.sweeps, swept);
-    if (is_done)
-      place.changed->assign({});
-    else
-      place.changed.reset();
-    return is_done;
+    std::vector<int> changed;
+    if (place.changed) changed = place.changed->find();
+    if (std::exchange(m_last, nullptr) == &place) m_changes += changed.size();
+    const bool are_few = place.changed && place.changed->are_few(changed, vertices_per_change);
+    place.has_stars =
+        place.sweeps->take(place.has_stars && are_few ? flat_stars(m, std::move(changed))
+                                                      : flat_stars(m)) &&
+        f(*place.sweeps, swept);
+    if (!place.has_stars) return false;
+    if (!place.changed) place.changed.emplace(m);
+    place.changed->assign({});
+    m_last = &place;
+    return true;
   }
 
   Star_mesh& m;
   Place m_there, m_here;
+  Place* m_last = m_there.sweeps ? &m_there : &m_here; // where the mesh was swept, or will be
+  std::size_t m_changes = 0;                           // before the last sweeps
 };
 
 } // namespace CGAL::PowerRTF::internal

@@ -52,10 +52,14 @@ struct Improvement_settings {
 /// `surface`: with normals smoothed at the scale of the samples (`smooth_normals()`). `tree`: of
 /// its facets and their patches. `concurrency`: a tag of CGAL's; the result is the same for all.
 ///
+/// `changes`: becomes the number of vertices that were changed, or their edges, one place at a time
+/// on the host: before, between and after the sweeps over all vertices, each of which counts what
+/// has changed since the one before.
+///
 /// \returns `false` if `mesh` is no oriented 2-manifold: then nothing is done.
 bool improve_mesh(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                   internal::Concurrency concurrency = Sequential_tag(),
-                  const Improvement_settings& settings = {});
+                  const Improvement_settings& settings = {}, std::size_t* changes = nullptr);
 
 /// The same with a tree of its own.
 bool improve_mesh(const Surface& surface, Extracted_mesh& mesh,

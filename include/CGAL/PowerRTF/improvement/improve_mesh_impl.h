@@ -65,6 +65,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -133,6 +134,9 @@ public:
     }
     m_mesh.sort_triangles(m_concurrency); // as others are
   }
+
+  /// See `improve_mesh()`; of the last attempt.
+  std::size_t changes() const { return m_changes; }
 
 private:
   using Mesh = Working_mesh::Mesh;
@@ -275,6 +279,7 @@ private:
       Area_keeper(stars, Triangle_badness::tolerable).run();
       m_tracker.update();
     }
+    m_changes = sweeper.changes();
   }
 
   // Whether there are features that are no borders.
@@ -423,6 +428,7 @@ private:
   std::unique_ptr<Star_sweeps_base> m_sweeps, m_host_sweeps; // the engine's may be null
   std::vector<char> m_locked;
   bool m_has_given_stars = false;                         // to `m_sweeps`, as they are
+  std::size_t m_changes = 0;                              // of the last attempt
   std::optional<Star_mesh> m_stars;                       // of the attempt
   std::optional<std::vector<Working_mesh::Edge>> m_flips; // of the extracted mesh; none: not known
   Distance_tracker m_tracker;
@@ -450,7 +456,7 @@ prepare_improvement(const Surface& surface, const Facet_tree& tree, std::size_t 
 
 CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree& tree,
                                         Extracted_mesh& mesh, internal::Concurrency concurrency,
-                                        const Improvement_settings& settings)
+                                        const Improvement_settings& settings, std::size_t* changes)
 {
   if (mesh.triangles.empty()) return true;
   try {
@@ -458,6 +464,7 @@ CGAL_POWER_RTF_INLINE bool improve_mesh(const Surface& surface, const Facet_tree
     internal::Mesh_improver improver(surface, tree, mesh, concurrency, settings);
     part.next(0.98);
     improver.run();
+    if (changes) *changes = improver.changes();
   } catch (const Invalid_input_error&) {
     return false;
   }
