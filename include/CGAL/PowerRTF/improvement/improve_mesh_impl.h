@@ -78,6 +78,7 @@ struct Improvement_preparation {
   Flat_patches flat;
   internal::Unset_vector<internal::Tracked_point> points; ///< until they are tracked
   internal::Working_mesh::Mesh memory;                    ///< of the mesh, to be filled; or none
+  Extracted_mesh result;                                  ///< the same of the improved one
 
   Improvement_preparation(const Surface& surface, const Facet_tree& tree, std::size_t vertices,
                           internal::Concurrency concurrency)
@@ -363,11 +364,16 @@ private:
   // The improved mesh.
   Extracted_mesh written(const Star_mesh& stars) const
   {
-    Extracted_mesh result;
+    Extracted_mesh result = std::move(m_prepared->result);
+    const auto resize = [this](auto& items, std::size_t n) {
+      if (n > items.capacity())
+        resize_in_parallel(m_concurrency, items, n);
+      else
+        items.resize(n);
+    };
     call_at_once(
-        m_concurrency,
-        [&] { resize_in_parallel(m_concurrency, result.points, m_mesh.points.size()); },
-        [&] { resize_in_parallel(m_concurrency, result.triangles, m_mesh.triangles.size()); });
+        m_concurrency, [&] { resize(result.points, m_mesh.points.size()); },
+        [&] { resize(result.triangles, m_mesh.triangles.size()); });
     stars.write(result);
     result.sort_triangles(m_concurrency);
     return result;
@@ -444,13 +450,19 @@ prepare_improvement(const Surface& surface, const Facet_tree& tree, std::size_t 
 {
   std::shared_ptr<Improvement_preparation> prepared;
   internal::Working_mesh::Mesh memory;
+  Extracted_mesh result;
   internal::call_at_once(
       concurrency,
       [&] {
         prepared = std::make_shared<Improvement_preparation>(surface, tree, vertices, concurrency);
       },
-      [&] { memory.resize(vertices, 3 * vertices + vertices / 16, 2 * vertices + vertices / 32); });
+      [&] { memory.resize(vertices, 3 * vertices + vertices / 16, 2 * vertices + vertices / 32); },
+      [&] { internal::resize_in_parallel(concurrency, result.points, vertices); },
+      [&] {
+        internal::resize_in_parallel(concurrency, result.triangles, 2 * vertices + vertices / 32);
+      });
   prepared->memory = std::move(memory);
+  prepared->result = std::move(result);
   return prepared;
 }
 
