@@ -22,9 +22,10 @@ using namespace engine_comparison;
 namespace {
 
 /// Counts the meshes that go up.
-class Watched_engine : public counting::Counted_engine<double> {
+template <class Tag>
+class Watched_engine : public counting::Counted_engine<double, Tag> {
 public:
-  using counting::Counted_engine<double>::Surface_engine;
+  using counting::Counted_engine<double, Tag>::Surface_engine;
   inline static int brought = 0;
 
   Bring_mesh mesh_bringer()
@@ -36,51 +37,64 @@ public:
   }
 };
 
+template <class Tag>
 struct Watched_traits {
   using Kernel = shapes::Kernel;
-  using Concurrency_tag = CGAL::Sequential_tag;
-  using Engine = Watched_engine;
+  using Concurrency_tag = Tag;
+  using Engine = Watched_engine<Tag>;
   static const char* name() { return "watched"; }
 };
+
+/// The result of a run, whose meshes go up once each, and which is judged as by the host.
+template <class Tag>
+Extracted_mesh judged_run(const Case& c)
+{
+  Surface surface = shapes::make_surface(c.soup);
+  surface.kept_vertices = c.kept_vertices;
+  for (const int v : c.kept_vertices) {
+    surface.kept_points.push_back(surface.points[v]);
+    surface.input_vertices.resize(surface.points.size(), v);
+  }
+  set_creases(surface, c.options);
+  set_density(surface, c.options);
+  CGAL::PowerRTF_remesher<Watched_traits<Tag>> remesher(surface, c.options);
+  Remeshing_default_visitor visitor;
+  REQUIRE(remesher.optimize(visitor));
+  int& brought = Watched_engine<Tag>::brought;
+  brought = 0;
+  Extracted_mesh mesh = remesher.extract(visitor);
+  // Vertices that stay are judged where the input has them, which is another mesh.
+  const int meshes =
+      (c.options.improvement == Improvement::yes ? 2 : 1) + (c.kept_vertices.empty() ? 0 : 2);
+  CHECK(brought == meshes);
+  CHECK(mesh.there(remesher.mesh_bringer()));
+  CHECK(brought == meshes);
+
+  const Remeshing_report& report = remesher.report();
+  Remeshing_report expected;
+  assess(remesher.surface(), mesh, expected);
+  CHECK(report.topology.vertices == c.options.number_of_samples);
+  CHECK(report.topology.euler_characteristic == expected.topology.euler_characteristic);
+  CHECK(report.topology.edges == expected.topology.edges);
+  CHECK(report.topology.border_loops == expected.topology.border_loops);
+  CHECK(report.self_intersections == 0);
+  CHECK(expected.self_intersections == 0);
+  CHECK(report.quality.q_min == expected.quality.q_min);
+  CHECK(report.distance.mean == Approx(expected.distance.mean));
+  CHECK(report.distance.max == Approx(expected.distance.max));
+  return mesh;
+}
 
 } // namespace
 
 TEST_CASE("in a run the extracted mesh goes up once, and the improved one")
 {
-  for (Case c : cases()) {
+  for (const Case& c : cases()) {
     CAPTURE(c.name);
-    Surface surface = shapes::make_surface(c.soup);
-    surface.kept_vertices = c.kept_vertices;
-    for (const int v : c.kept_vertices) {
-      surface.kept_points.push_back(surface.points[v]);
-      surface.input_vertices.resize(surface.points.size(), v);
-    }
-    set_creases(surface, c.options);
-    set_density(surface, c.options);
-    CGAL::PowerRTF_remesher<Watched_traits> remesher(surface, c.options);
-    Remeshing_default_visitor visitor;
-    REQUIRE(remesher.optimize(visitor));
-    Watched_engine::brought = 0;
-    const Extracted_mesh mesh = remesher.extract(visitor);
-    // Vertices that stay are judged where the input has them, which is another mesh.
-    const int meshes =
-        (c.options.improvement == Improvement::yes ? 2 : 1) + (c.kept_vertices.empty() ? 0 : 2);
-    CHECK(Watched_engine::brought == meshes);
-    CHECK(mesh.there(remesher.mesh_bringer()));
-    CHECK(Watched_engine::brought == meshes);
-
-    const Remeshing_report& report = remesher.report();
-    Remeshing_report expected;
-    assess(remesher.surface(), mesh, expected);
-    CHECK(report.topology.vertices == c.options.number_of_samples);
-    CHECK(report.topology.euler_characteristic == expected.topology.euler_characteristic);
-    CHECK(report.topology.edges == expected.topology.edges);
-    CHECK(report.topology.border_loops == expected.topology.border_loops);
-    CHECK(report.self_intersections == 0);
-    CHECK(expected.self_intersections == 0);
-    CHECK(report.quality.q_min == expected.quality.q_min);
-    CHECK(report.distance.mean == Approx(expected.distance.mean));
-    CHECK(report.distance.max == Approx(expected.distance.max));
+    const Extracted_mesh sequential = judged_run<CGAL::Sequential_tag>(c),
+                         parallel = judged_run<CGAL::Parallel_if_available_tag>(c);
+    CHECK(sequential.points == parallel.points);
+    CHECK(sequential.triangles == parallel.triangles);
   }
 }
 
