@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_ENGINES_FLIP_CANDIDATES_H
 
 #include <CGAL/PowerRTF/geometry/Resident_mesh.h>
+#include <CGAL/PowerRTF/geometry/halfedge_numbers.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/smoothing/lowers_energy.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
@@ -25,7 +26,8 @@ struct Flag_flip_candidates {
     constexpr double rounding = 1e-9; // on a GPU
     const int o = opposite[h];
     is_candidate[h] = h < o && lowers_energy(
-                                   corner(h, 0), corner(h, 1), corner(h, 2), corner(o, 2),
+                                   source(h), source(next_halfedge(h)),
+                                   source(previous_halfedge(h)), source(previous_halfedge(o)),
                                    [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
                                      return shape_energy(a, b, c);
                                    },
@@ -33,11 +35,7 @@ struct Flag_flip_candidates {
   }
 
 private:
-  /// Of the triangle of a halfedge: its source, its target, the apex.
-  CGAL_POWER_RTF_HD const Vec3d& corner(int h, int k) const
-  {
-    return mesh.points[mesh.corners[h - h % 3 + (h + k) % 3]];
-  }
+  CGAL_POWER_RTF_HD const Vec3d& source(int h) const { return mesh.points[mesh.corners[h]]; }
 };
 
 template <class Backend>
