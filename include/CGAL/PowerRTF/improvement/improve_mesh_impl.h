@@ -95,8 +95,7 @@ public:
   Mesh_improver(const Surface& surface, const Facet_tree& tree, Extracted_mesh& mesh,
                 Concurrency concurrency, const Improvement_settings& settings)
       : m_surface(surface), m_projector(surface, tree), m_mesh(mesh), m_settings(settings),
-        m_concurrency(concurrency), m_there(mesh.there(settings.bring)),
-        m_prepared(settings.prepared),
+        m_concurrency(concurrency), m_prepared(settings.prepared),
         m_sweeps(settings.make_sweeps
                      ? settings.make_sweeps(m_projector.descent(), surface.normalization.grid)
                      : nullptr),
@@ -158,8 +157,9 @@ private:
   // memory there is needed.
   Distance_tracker begin()
   {
+    const std::shared_ptr<Resident_mesh> there = m_mesh.there(m_settings.bring);
     Triangle_links links;
-    const bool has_links = m_there && m_there->topology(&links);
+    const bool has_links = there && there->topology(&links);
     const auto take_links = [&](Triangle_links& result) {
       if (has_links) result = std::move(links);
       return has_links;
@@ -170,38 +170,38 @@ private:
                       std::move(prepared.memory));
     };
     Unset_vector<int> faces; // else the tracker's way from face to face is quicker than the host's
-    if (!m_there) {
+    if (!there) {
       make_stars();
     } else {
       Background_work making(m_concurrency, make_stars);
       std::vector<int> halfedges;
-      if (!find_faces(prepared.points, faces)) faces.clear();
-      const bool has_flips = m_there->find_flips(halfedges);
+      if (!find_faces(*there, prepared.points, faces)) faces.clear();
+      const bool has_flips = there->find_flips(halfedges);
       making.finish();
       if (has_flips) set_flips(halfedges);
-      m_has_given_stars = m_sweeps && give_stars();
-      m_there->release();
-      m_there.reset();
+      m_has_given_stars = m_sweeps && give_stars(*there);
+      there->release();
       m_mesh.resident = {};
     }
     return Distance_tracker(*m_stars, std::move(prepared.points), faces);
   }
 
   // Of the extracted mesh, those nearest to the points.
-  bool find_faces(const Unset_vector<Tracked_point>& points, Unset_vector<int>& faces)
+  bool find_faces(Resident_mesh& there, const Unset_vector<Tracked_point>& points,
+                  Unset_vector<int>& faces)
   {
     faces.resize(points.size());
     for_each_index(m_concurrency, int(faces.size()), [&](int i) { faces[i] = points[i].vertex; });
-    return m_there->find_faces(Improvement_parameters::Projection::min_normal_cosine,
-                               int(faces.size()), faces.data(), faces.data());
+    return there.find_faces(Improvement_parameters::Projection::min_normal_cosine,
+                            int(faces.size()), faces.data(), faces.data());
   }
 
-  bool give_stars()
+  bool give_stars(Resident_mesh& there)
   {
     Unset_vector<unsigned char> kinds(m_stars->size());
     for_each_index(m_concurrency, int(kinds.size()),
                    [&](int v) { kinds[v] = star_kind(*m_stars, Vertex(v)); });
-    return m_there->give_stars(
+    return there.give_stars(
         {kinds.data(), m_stars->working().normals.data(), m_stars->facets().data()}, *m_sweeps);
   }
 
@@ -428,8 +428,6 @@ private:
   Extracted_mesh& m_mesh; // as it was extracted, until it is improved
   const Improvement_settings& m_settings;
   Concurrency m_concurrency;
-  std::shared_ptr<Resident_mesh>
-      m_there; // the extracted mesh, until it has been looked at; or null
   std::shared_ptr<Improvement_preparation> m_prepared;
   std::unique_ptr<Star_sweeps_base> m_sweeps, m_host_sweeps; // the engine's may be null
   std::vector<char> m_locked;
