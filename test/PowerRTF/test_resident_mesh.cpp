@@ -51,10 +51,7 @@ Extracted_mesh judged_run(const Case& c)
 {
   Surface surface = shapes::make_surface(c.soup);
   surface.kept_vertices = c.kept_vertices;
-  for (const int v : c.kept_vertices) {
-    surface.kept_points.push_back(surface.points[v]);
-    surface.input_vertices.resize(surface.points.size(), v);
-  }
+  for (const int v : c.kept_vertices) surface.kept_points.push_back(surface.points[v]);
   set_creases(surface, c.options);
   set_density(surface, c.options);
   CGAL::PowerRTF_remesher<Watched_traits<Tag>> remesher(surface, c.options);

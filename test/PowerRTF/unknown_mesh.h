@@ -30,11 +30,10 @@ public:
 
 namespace shapes {
 
-/// \pre there is a triangle
 inline CGAL::PowerRTF::Mesh_arrays arrays(const Soup& s)
 {
   return {int(s.points.size()), s.points.data(), int(s.triangles.size()),
-          s.triangles.front().data()};
+          s.triangles.empty() ? nullptr : s.triangles.front().data()};
 }
 
 } // namespace shapes

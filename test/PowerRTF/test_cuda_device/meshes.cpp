@@ -74,6 +74,7 @@ TEST_CASE("the topology of meshes is what the host counts")
        {Soup{five, {{0, 1, 2}, {0, 3, 4}}}, Soup{five, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}},
         Soup{five, {{0, 1, 2}, {0, 1, 3}}}, Soup{five, {{0, 1, 1}}}, moebius_strip(20), wheel(17)})
     CHECK_FALSE((count(s) || links.are_known()));
+  CHECK(count(Soup{five, {}})->vertices == 0);
 }
 
 TEST_CASE("edges that may be worth a flip are found")
