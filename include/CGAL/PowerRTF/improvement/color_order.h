@@ -4,14 +4,16 @@
 #define CGAL_POWER_RTF_IMPROVEMENT_COLOR_ORDER_H
 
 #include <CGAL/PowerRTF/internal/Host_backend.h>
+#include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 #include <CGAL/PowerRTF/smoothing/color_vertices.h>
 
+#include <type_traits>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
 
-/// The vertices of stars that may move, color by color.
+/// The vertices of stars: those that may not move, then the others, color by color.
 struct Color_order {
   Unset_vector<int> vertices;
   std::vector<int> first; ///< of each color, and the end
@@ -22,25 +24,25 @@ Color_order color_order_by(Backend&& backend, const Flat_stars& stars, std::vect
 {
   Color_order order;
   order.vertices.resize(stars.points.size());
-  Unset_vector<unsigned char> flags(stars.points.size());
-  int flag;
   Star_view view;
   view.size = stars.size();
   view.first = stars.first.data();
   view.neighbors = stars.neighbors.data();
   view.kinds = stars.kinds.data();
-  order.first =
-      order_by_colors(backend, view, colors.data(), &flag, flags.data(), order.vertices.data());
+  Color_arrays<std::decay_t<Backend>> arrays;
+  allocate_listed(backend, arrays, colors.size());
+  uploaded(backend, arrays.colors, colors.data());
+  order.first = order_by_colors(backend, view, arrays, order.vertices.data());
+  backend.download(colors.data(), arrays.colors.data(), colors.size());
   return order;
 }
 
-/// `colors`: see `order_by_colors()`.
+/// `colors`: that the vertices have, or none; most keep theirs.
 inline Color_order color_order(const Flat_stars& stars, std::vector<int>& colors,
                                Concurrency concurrency)
 {
-  return concurrency.is_parallel()
-             ? color_order_by(Host_backend<Parallel_if_available_tag>(), stars, colors)
-             : color_order_by(Host_backend<Sequential_tag>(), stars, colors);
+  return with_host_backend(concurrency,
+                           [&](auto&& backend) { return color_order_by(backend, stars, colors); });
 }
 
 /// The same where none has a color yet.

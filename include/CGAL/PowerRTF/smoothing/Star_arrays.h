@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/internal/scan.h>
 #include <CGAL/PowerRTF/smoothing/Star_view.h>
+#include <CGAL/PowerRTF/smoothing/color_vertices.h>
 
 #include <cstddef>
 #include <utility>
@@ -72,17 +73,16 @@ struct Merge_spokes {
   }
 };
 
-/// The arrays of a `Star_view`, and the order of the vertices.
+/// The arrays of a `Star_view`, the order of the vertices and what that takes.
 template <class Backend>
-struct Star_arrays {
+struct Star_arrays : Color_arrays<Backend> {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
   Buffer<int> first, neighbors, facets;
   Buffer<unsigned char> kinds;
   Buffer<Vec3d> points, normals;
-  Buffer<int> order, flag;
-  Buffer<unsigned char> flags;
+  Buffer<int> order;
 
   /// See listed_arrays.h.
   template <class F>
@@ -92,9 +92,9 @@ struct Star_arrays {
     f(&A::first, vertices + 1);
     f(&A::neighbors, spokes);
     for (auto array : {&A::facets, &A::order}) f(array, vertices);
-    for (auto array : {&A::kinds, &A::flags}) f(array, vertices);
+    f(&A::kinds, vertices);
     for (auto array : {&A::points, &A::normals}) f(array, vertices);
-    f(&A::flag, std::size_t(1));
+    Color_arrays<Backend>::for_each_array(f, vertices);
   }
 
   int size() const { return static_cast<int>(points.size()); }

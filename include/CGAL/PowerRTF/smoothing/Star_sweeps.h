@@ -11,6 +11,7 @@
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -117,12 +118,9 @@ private:
   /// Where in the order of the vertices each color begins.
   std::vector<int> order(const internal::Star_view& stars)
   {
-    if (static_cast<int>(m_colors.size()) != stars.size) {
-      m_colors.allocate(m_backend, stars.size);
-      m_backend.fill(m_colors.data(), internal::Color_vertices::none, m_colors.size());
-    }
-    return internal::order_by_colors(m_backend, stars, m_colors.data(), m_stars.flag.data(),
-                                     m_stars.flags.data(), m_stars.order.data());
+    if (std::exchange(m_colored, stars.size) != stars.size)
+      m_backend.fill(m_stars.colors.data(), internal::Color_vertices::none, m_stars.colors.size());
+    return internal::order_by_colors(m_backend, stars, m_stars, m_stars.order.data());
   }
 
   /// Applies a rule to all vertices that may move, neighbors one after the other.
@@ -154,7 +152,7 @@ private:
   Surface_descent m_surface;
   double m_grid;
   internal::Star_arrays<Backend> m_stars;
-  typename Backend::template Buffer<int> m_colors; // of the vertices, as they were last
+  int m_colored = 0; // vertices that have colors
 };
 
 } // namespace CGAL::PowerRTF

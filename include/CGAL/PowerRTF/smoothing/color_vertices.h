@@ -9,9 +9,13 @@
 #define CGAL_POWER_RTF_SMOOTHING_COLOR_VERTICES_H
 
 #include <CGAL/PowerRTF/internal/atomics.h>
+#include <CGAL/PowerRTF/internal/scan.h>
+#include <CGAL/PowerRTF/smoothing/Colored_parts.h>
 #include <CGAL/PowerRTF/smoothing/Star_view.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace CGAL::PowerRTF::internal {
@@ -45,7 +49,8 @@ struct Color_vertices {
 
   Star_view stars;
   int* colors;
-  int* is_waiting; ///< whether a vertex is left without a color
+  int round;
+  int* last_wait; ///< the last round that has left a vertex without a color
 
   CGAL_POWER_RTF_HD void operator()(int v) const
   {
@@ -54,7 +59,7 @@ struct Color_vertices {
       const int u = stars.neighbors[k];
       if (!stars.is_movable(u) || !is_colored_before(u, v) || atomic_load(&colors[u]) != none)
         continue;
-      atomic_store(is_waiting, 1);
+      atomic_store(last_wait, round);
       return;
     }
     int color = 0; // the neighbors that come later have none, or have kept theirs
@@ -80,35 +85,75 @@ struct Drop_lost_colors {
   }
 };
 
-struct Has_color {
-  const int* colors;
-  int color;
-  unsigned char* result;
-  CGAL_POWER_RTF_HD void operator()(int v) const { result[v] = colors[v] == color; }
+/// What it takes to color vertices and to list them by their colors.
+template <class Backend>
+struct Color_arrays {
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  Buffer<int> colors;          ///< that vertices have, or none
+  Buffer<unsigned char> flags; ///< by vertex
+  Buffer<int> parts, sums;     ///< where each begins, and for a scan of that
+  Buffer<int> starts;          ///< of colors
+  Buffer<int> last_wait;       ///< one
+
+  /// See listed_arrays.h.
+  template <class F>
+  static void for_each_array(F&& f, std::size_t vertices)
+  {
+    using A = Color_arrays;
+    const int parts = Colored_parts{nullptr, static_cast<int>(vertices), 0}.size() + 1;
+    f(&A::colors, vertices);
+    f(&A::flags, vertices);
+    f(&A::parts, std::size_t(parts));
+    f(&A::sums, scan_sums(parts));
+    f(&A::starts, std::size_t(Colored_parts::colors_at_once + 1));
+    f(&A::last_wait, std::size_t(1));
+  }
 };
 
-/// Writes the vertices that may move into `order`, color by color. `colors`: those that they have,
-/// or none, by vertex; most keep them. `flag`, `flags`: room for one, and one by vertex.
+/// Gives all vertices that may move colors, most of which they have had.
+template <class Backend>
+void color_vertices(Backend& backend, const Star_view& stars, Color_arrays<Backend>& arrays)
+{
+  constexpr int rounds_per_look = Backend::is_host ? 1 : 4;
+  int *const colors = arrays.colors.data(), *const last_wait = arrays.last_wait.data();
+  backend.for_each(stars.size, Find_lost_colors{stars, colors, arrays.flags.data()});
+  backend.for_each(stars.size, Drop_lost_colors{arrays.flags.data(), colors});
+  backend.fill(last_wait, -1, 1);
+  for (int round = 0, last = 0; last == round;) {
+    for (int k = 0; k < rounds_per_look; ++k)
+      backend.for_each(stars.size, Color_vertices{stars, colors, ++round, last_wait});
+    backend.download(&last, last_wait, 1);
+  }
+}
+
+/// Colors the vertices that may move and writes all into `order`: first those that may not, then
+/// the others color by color. `arrays`: with the colors that they have, most of which they keep.
 /// \returns where in the order each color begins, and the end
 template <class Backend>
-std::vector<int> order_by_colors(Backend& backend, const Star_view& stars, int* colors, int* flag,
-                                 unsigned char* flags, int* order)
+std::vector<int> order_by_colors(Backend& backend, const Star_view& stars,
+                                 Color_arrays<Backend>& arrays, int* order)
 {
-  backend.for_each(stars.size, Find_lost_colors{stars, colors, flags});
-  backend.for_each(stars.size, Drop_lost_colors{flags, colors});
-  for (int is_waiting = 1; is_waiting;) {
-    backend.fill(flag, 0, 1);
-    backend.for_each(stars.size, Color_vertices{stars, colors, flag});
-    backend.download(&is_waiting, flag, 1);
+  color_vertices(backend, stars, arrays);
+  std::vector<int> first;
+  int* const places = arrays.parts.data();
+  int starts[Colored_parts::colors_at_once + 1];
+  for (int color = Color_vertices::none, listed = 0; listed < stars.size;
+       color += Colored_parts::colors_at_once) {
+    const Colored_parts parts{arrays.colors.data(), stars.size, color};
+    backend.for_each(parts.size() + 1, Count_colored{parts, places});
+    exclusive_scan(backend, parts.size() + 1, places, arrays.sums.data());
+    backend.for_each(parts.size(), List_colored{parts, places, order + listed});
+    backend.for_each(int(std::size(starts)),
+                     Take_color_starts{parts, places, arrays.starts.data()});
+    backend.download(starts, arrays.starts.data(), std::size(starts));
+    for (int k = 0; k < Colored_parts::colors_at_once; ++k)
+      if (color + k != Color_vertices::none && listed + starts[k] < stars.size)
+        first.push_back(listed + starts[k]);
+    listed += starts[Colored_parts::colors_at_once];
   }
-  const auto count = [&](int color, int* vertices) {
-    backend.for_each(stars.size, Has_color{colors, color, flags});
-    return backend.select(stars.size, flags, vertices);
-  };
-  const int movable = stars.size - count(Color_vertices::none, order);
-  std::vector<int> first{0};
-  for (int color = 0; first.back() < movable; ++color)
-    first.push_back(first.back() + count(color, order + first.back()));
+  first.push_back(stars.size);
   return first;
 }
 
