@@ -197,6 +197,17 @@ public:
                   f);
   }
 
+  /// Calls `f(sweep, i)` for i in [0, n), one sweep after the other; false: n are too many for one
+  /// block.
+  template <class F>
+  bool run_sweeps(int n, int sweeps, F f)
+  {
+    if (n > block_team_threads) return false;
+    sweeps_kernel<<<1, (n + 31) / 32 * 32, 0, stream()>>>(n, sweeps, f);
+    check(cudaGetLastError(), "starting a kernel");
+    return true;
+  }
+
   /// Two reductions, of which the second knows the result of the first; see `Summary_rule`.
   template <class Rule>
   void reduce_twice(int n, const Rule& rule)

@@ -90,6 +90,16 @@ __global__ void __launch_bounds__(reduction_threads)
   }
 }
 
+/// By one block.
+template <class F>
+__global__ void __launch_bounds__(block_team_threads) sweeps_kernel(int n, int sweeps, const F f)
+{
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    if (int(threadIdx.x) < n) f(sweep, threadIdx.x);
+    __syncthreads();
+  }
+}
+
 template <class T>
 __global__ void fill_kernel(T* to, T value, std::size_t n)
 {

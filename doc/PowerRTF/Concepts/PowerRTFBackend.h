@@ -73,6 +73,12 @@ public:
   template <class F>
   bool run_resident_team(int n, const F& f);
 
+  /// Calls `f(sweep, i)` for i in [0, n), in any order and at the same time, for each sweep in
+  /// [0, sweeps) after the one before, where that takes less than `for_each()` for each. Else
+  /// returns `false` and does nothing. \pre n > 0
+  template <class F>
+  bool run_sweeps(int n, int sweeps, const F& f);
+
   /// The order of n items by their keys, equal ones by number. The keys may be lost. `is_coarse`:
   /// points that are near along a Hilbert curve, whose codes the keys are, may count as equal.
   void sort_order(int n, std::uint64_t* keys, int* order, bool is_coarse = false);

@@ -108,6 +108,13 @@ public:
     return false;
   }
 
+  /// Calls `f(sweep, i)` for i in [0, n), one sweep after the other. \returns `false`: not here
+  template <class F>
+  bool run_sweeps(int, int, const F&)
+  {
+    return false;
+  }
+
   /// The order of n items by their keys, equal ones by index. It is never coarse.
   void sort_order(int n, std::uint64_t* keys, int* order, bool = false)
   {

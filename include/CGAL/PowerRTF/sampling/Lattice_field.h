@@ -55,6 +55,18 @@ struct Set_crests {
   }
 };
 
+namespace internal {
+
+/// One of several sweeps.
+template <class Rule>
+struct Sweep {
+  Rule rule;
+  int number;
+  CGAL_POWER_RTF_HD void operator()(int i) const { rule(number, i); }
+};
+
+} // namespace internal
+
 /// Points of the lattice, and the node that each is nearest to, in increasing order.
 template <class Backend>
 struct Chosen_points {
@@ -201,8 +213,7 @@ private:
   // More make no better meshes (kitten, homer, fertility, rocker arm; n = 3000).
   static constexpr int coarsest_sweeps = 100, direction_sweeps = 10, wave_sweeps = 12,
                        last_wave_sweeps = 8;
-  static constexpr float wave_acceleration = 1.6f; // without: 30 and 15 sweeps
-  static constexpr float neighbor_reach = 1.04f;   // of 4 nodes per point: 15 others are within
+  static constexpr float neighbor_reach = 1.04f; // of 4 nodes per point: 15 others are within
 
   using Level = Lattice_level<Backend>;
   using Elimination = internal::Candidate_elimination<Backend, internal::Candidate_search_view>;
@@ -280,13 +291,9 @@ private:
     else
       m_backend.for_each(view.free, Draw_direction{view, m_plan.seed, directions.data()});
     m_backend.for_each(view.size, Set_direction_edges{view});
-    internal::Progress_part part(0);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      part.next((sweep + 1.) / sweeps);
-      m_backend.for_each(view.size, Smooth_direction{view, directions.data(),
-                                                     level.is_directed.data(), next.data()});
-      std::swap(directions, next);
-    }
+    sweep(view.size, sweeps,
+          Smooth_directions{view, level.is_directed.data(), directions.data(), next.data()});
+    if (sweeps % 2) std::swap(directions, next);
     m_backend.for_each(view.size, Set_axis{view, directions.data()});
   }
 
@@ -301,12 +308,19 @@ private:
     const Lattice_view view = level.view();
     if (coarser) m_backend.for_each(view.free, Refine_waves{coarser->view(), view});
     m_backend.for_each(view.size, Set_wave_edges{view});
+    sweep(view.free, sweeps, Smooth_waves_repeatedly{view, next.data()});
+    if (sweeps % 2) std::swap(level.waves, next);
+  }
+
+  /// Calls `rule(sweep, i)` for n items, one sweep after the other.
+  template <class Rule>
+  void sweep(int n, int sweeps, const Rule& rule)
+  {
+    if (n == 0 || m_backend.run_sweeps(n, sweeps, rule)) return;
     internal::Progress_part part(0);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      part.next((sweep + 1.) / sweeps);
-      m_backend.for_each(
-          view.free, Smooth_waves{level.view(), next.data(), sweep == 0 ? 1 : wave_acceleration});
-      std::swap(level.waves, next);
+    for (int k = 0; k < sweeps; ++k) {
+      part.next((k + 1.) / sweeps);
+      m_backend.for_each(n, internal::Sweep<Rule>{rule, k});
     }
   }
 

@@ -83,6 +83,19 @@ struct Smooth_direction {
   }
 };
 
+/// Several sweeps from `from` to `to` and back.
+struct Smooth_directions {
+  Lattice_view view;
+  const unsigned char* is_directed; ///< of the sites
+  Phasor *from, *to;
+
+  CGAL_POWER_RTF_HD void operator()(int sweep, int i) const
+  {
+    const bool is_back = sweep % 2;
+    Smooth_direction{view, is_back ? to : from, is_directed, is_back ? from : to}(i);
+  }
+};
+
 struct Set_axis {
   Lattice_view view;
   const Phasor* directions;
