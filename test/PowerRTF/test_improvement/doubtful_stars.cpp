@@ -96,7 +96,10 @@ Extracted_mesh smoothed(const Sweeps_case& c, Doubtful doubtful)
   internal::Star_mesh mesh = c.mesh();
   internal::Mesh_sweeper sweeper(mesh, nullptr, sweeps);
   internal::Mesh_smoother smoother(mesh, sweeper);
-  for (int pass = 0; pass < 4; ++pass) smoother.run(1);
+  for (int pass = 0; pass < 4; ++pass) {
+    smoother.flip();
+    smoother.smooth(1);
+  }
   Extracted_mesh result;
   result.points.resize(mesh.size());
   mesh.write(result);

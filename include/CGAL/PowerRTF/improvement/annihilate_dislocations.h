@@ -29,31 +29,33 @@ namespace CGAL::PowerRTF::internal {
 
 class Dislocation_annihilator {
 public:
+  /// Finds the nearest meetings. Until they are run the mesh's edges have to stay; its vertices may
+  /// move meanwhile.
   explicit Dislocation_annihilator(Star_mesh& mesh)
       : m(mesh), m_degrees(mesh.size()),
         m_is_known(filled(mesh.concurrency(), mesh.size(), char(false))),
         m_taken(filled(mesh.concurrency(), mesh.size(), 0u))
-  {}
-
-  /// Where surroundings touch, the nearest pairs first, until those that are tried at a time all
-  /// stay apart: others are hardly nearer. \returns the number of meetings.
-  std::size_t run()
   {
     for_each_index(m.concurrency(), int(m.size()), [this](int v) {
       m_degrees[v] = m.working().has_edges(Vertex(v))
                          ? m.working().degree_up_to(Parameters::irregular_degree, Vertex(v))
                          : 0;
     });
-    std::vector<Candidate> left;
     for (const int v :
          select(m.concurrency(), int(m.size()), [&](int v) { return excess(Vertex(v)) == -1; })) {
       m_is_known[v] = true;
-      left.push_back({Vertex(v)});
+      m_left.push_back({Vertex(v)});
     }
-    for (std::size_t meetings = 0;;) {
+    update();
+  }
+
+  /// Where surroundings touch, the nearest pairs first, until those that are tried at a time all
+  /// stay apart: others are hardly nearer. \returns the number of meetings.
+  std::size_t run()
+  {
+    for (std::size_t meetings = 0;; update()) {
       Cancellation::poll();
-      for_each_chunk(m.concurrency(), int(left.size()), 1, [&](int k, int) { update(left[k]); });
-      std::vector<Candidate> chosen = take_independent(left);
+      std::vector<Candidate> chosen = take_independent();
       if (chosen.empty()) return meetings;
       for_each_chunk(m.concurrency(), int(chosen.size()), 1,
                      [&](int k, int) { annihilate(chosen[k]); });
@@ -63,9 +65,9 @@ public:
         if (c.has_met) {
           ++meetings;
           take(c);
-          for (const Vertex v : c.new_fives) left.push_back({v});
+          for (const Vertex v : c.new_fives) m_left.push_back({v});
         } else if (c.length < Parameters::max_glide) {
-          left.push_back({c.five, c.length + 1});
+          m_left.push_back({c.five, c.length + 1});
         }
       }
       if (meetings == before) return meetings;
@@ -91,7 +93,13 @@ private:
     std::vector<Vertex> new_fives{}; // then: that have not been candidates
   };
 
-  // Looks for the nearest meetings, if something has changed around the candidate.
+  // Looks for the nearest meetings of the candidates that are left.
+  void update()
+  {
+    for_each_chunk(m.concurrency(), int(m_left.size()), 1, [&](int k, int) { update(m_left[k]); });
+  }
+
+  // The same, if something has changed around the candidate.
   void update(Candidate& c) const
   {
     if (c.is_current && is_free(c)) return;
@@ -118,17 +126,17 @@ private:
 
   // Takes those out whose zones touch none of those taken before, the nearest pairs first, and all
   // that have no meeting any more.
-  std::vector<Candidate> take_independent(std::vector<Candidate>& candidates)
+  std::vector<Candidate> take_independent()
   {
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
-                                    [](const Candidate& c) { return c.meetings.empty(); }),
-                     candidates.end());
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    m_left.erase(std::remove_if(m_left.begin(), m_left.end(),
+                                [](const Candidate& c) { return c.meetings.empty(); }),
+                 m_left.end());
+    std::sort(m_left.begin(), m_left.end(), [](const Candidate& a, const Candidate& b) {
       return std::pair(a.length, a.five) < std::pair(b.length, b.five);
     });
     ++m_taking;
     std::vector<Candidate> chosen, left;
-    for (Candidate& c : candidates) {
+    for (Candidate& c : m_left) {
       if (is_free(c)) {
         take(c);
         chosen.push_back(std::move(c));
@@ -136,7 +144,7 @@ private:
         left.push_back(std::move(c));
       }
     }
-    candidates.swap(left);
+    m_left.swap(left);
     return chosen;
   }
 
@@ -339,7 +347,8 @@ private:
   Unset_vector<int> m_degrees;    // by vertex; at most `irregular_degree`, which stays
   Unset_vector<char> m_is_known;  // by vertex: has been a candidate
   Unset_vector<unsigned> m_taken; // by vertex: when it was in a zone
-  unsigned m_taking = 0;
+  unsigned m_taking = 1;
+  std::vector<Candidate> m_left; // to be tried
 };
 
 } // namespace CGAL::PowerRTF::internal

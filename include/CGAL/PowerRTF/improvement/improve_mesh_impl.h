@@ -225,13 +225,18 @@ private:
     Mesh_smoother smoother(stars, sweeper);
     if (m_flips) smoother.expect_flips(std::vector<Working_mesh::Edge>(*m_flips));
     if (m_settings.dislocations == Dislocations::annihilate) {
-      smoother.run(Schedule::smoothing_passes - std::exchange(passes_less, 0));
+      smoother.flip();
+      std::optional<Dislocation_annihilator> annihilator;
+      Background_work finding(m_concurrency, [&] { annihilator.emplace(stars); });
+      smoother.smooth(Schedule::smoothing_passes - std::exchange(passes_less, 0));
       part.next(0.2);
-      Dislocation_annihilator(stars).run();
+      finding.finish();
+      annihilator->run();
     }
     part.next(0.4);
     Bad_triangle_optimizer optimizer(stars);
-    optimizer.expect_at(smoother.run(Schedule::last_smoothing_passes - passes_less));
+    smoother.flip();
+    optimizer.expect_at(smoother.smooth(Schedule::last_smoothing_passes - passes_less));
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
     const auto slide = [&] {
       Feature_slider slider(stars, m_surface);

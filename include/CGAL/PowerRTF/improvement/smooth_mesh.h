@@ -35,19 +35,15 @@ public:
   /// None but these edges of the mesh as it is may be worth a flip.
   void expect_flips(std::vector<Edge>&& edges) { m_expected = std::move(edges); }
 
-  /// Flips edges, then moves all vertices so many times. \returns those that are left doubtful.
-  std::vector<int> run(int steps)
+  /// Moves all vertices so many times. \returns those that are left doubtful.
+  std::vector<int> smooth(int steps)
   {
-    flip();
     std::vector<int> doubtful = m_sweeper.smooth(steps);
     m_changed.assign(doubtful);
     return doubtful;
   }
 
-private:
-  using Parameters = Improvement_parameters::Smoothing;
-
-  // Flips edges until that does not help any more.
+  /// Flips edges until that does not help any more.
   void flip()
   {
     std::vector<Edge> edges = edges_to_flip();
@@ -65,6 +61,9 @@ private:
       edges.swap(around);
     }
   }
+
+private:
+  using Parameters = Improvement_parameters::Smoothing;
 
   // Where something has changed, or the last sweeps have left doubts.
   std::vector<Edge> edges_to_flip()
