@@ -21,11 +21,13 @@ struct Packed {
   CGAL::PowerRTF::Surface_in_tree surface;
   CGAL::PowerRTF::Surface_arrays<Real, Packed_backend> arrays;
 
+  /// Keeps references to the surface.
   explicit Packed(const CGAL::PowerRTF::Surface& s)
       : tree(s.points, s.triangles, s.facet_patches),
         surface(CGAL::PowerRTF::internal::make_surface_in_tree(s, tree, true)),
         arrays(backend, surface)
   {}
+  explicit Packed(CGAL::PowerRTF::Surface&&) = delete;
   Packed(const Packed&) = delete;
   const CGAL::PowerRTF::Surface_view<Real>& view() const { return arrays.view(); }
 };

@@ -64,7 +64,8 @@ Sample_candidates nodes_of(const Packed<Real>& packed, const Lattice_plan& plan,
 
 TEST_CASE("nodes are on their facets, and each component has its share")
 {
-  const Packed<double> packed(three_components());
+  const Surface surface = three_components();
+  const Packed<double> packed(surface);
   const Planned planned(packed.tree);
   const Lattice_plan& plan = planned.plan;
   std::size_t first = 0;

@@ -58,7 +58,8 @@ TEST_CASE("the k nearest vertices, compared with sorting all")
 
 TEST_CASE("equal distances come by place")
 {
-  const Packed<double> packed(shapes::make_surface(shapes::plane_patch(20, 20)));
+  const Surface patch = shapes::make_surface(shapes::plane_patch(20, 20));
+  const Packed<double> packed(patch);
   const Surface_view<double>& view = packed.view();
   for (int v = 0; v < view.vertex_tree.items; v += 17)
     for (const int k : {1, 2, 7, 20, 33, 64})
@@ -67,11 +68,13 @@ TEST_CASE("equal distances come by place")
 
 TEST_CASE("fewer vertices than asked for, none, and more than can be found")
 {
-  const Packed<double> few(shapes::make_surface(shapes::tetrahedron()));
+  const Surface tetrahedron = shapes::make_surface(shapes::tetrahedron());
+  const Packed<double> few(tetrahedron);
   CHECK(by_tree(few.view(), few.view().vertices[2], 16).size() == 4);
   CHECK(by_tree(few.view(), few.view().vertices[2], 1) == std::vector<int>{2});
   CHECK(by_tree(few.view(), {0, 0, 0}, 0).empty());
-  const Packed<double> many(shapes::make_surface(shapes::icosphere(2)));
+  const Surface sphere = shapes::make_surface(shapes::icosphere(2));
+  const Packed<double> many(sphere);
   CHECK(by_tree(many.view(), {0, 0, 0}, 1000).size() == max_near_vertices);
 }
 
