@@ -33,7 +33,7 @@ SHARES = {
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1, "s": 1e3}
 LIMIT = 60  # per cent
 KERNELS = 24  # of the second table
-WRAPPERS = {"In_order"}  # of others, which count
+WRAPPERS = {"In_order", "Sweep"}  # of others, which count
 
 
 def definitions():
