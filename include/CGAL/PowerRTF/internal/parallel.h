@@ -172,14 +172,12 @@ std::vector<int> select(Concurrency concurrency, int n, F&& is_wanted)
 template <class T>
 T exclusive_scan(Concurrency concurrency, int n, T* values)
 {
-  const int chunks = Scan_chunk::count(n);
-  std::vector<T> first(scan_sums(n), T(0)); // of each chunk, and the end
-  const Add_up_chunk<T> add_up{n, values, first.data() + 1};
-  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { add_up(c); });
-  Add_up<T>{chunks + 1, first.data()}(0);
-  const Scan_in_chunk<T> scan{n, values, first.data()};
-  for_each_chunk(concurrency, chunks, 1, [&](int c, int) { scan(c); });
-  return first.back();
+  if (n == 0) return T(0);
+  const T last = values[n - 1];
+  std::vector<T> sums(scan_sums(n));
+  const auto for_each = [&](int size, const auto& f) { for_each_index(concurrency, size, f); };
+  scan_by(for_each, n, values, sums.data());
+  return values[n - 1] + last;
 }
 
 /// Calls `make_room(count)` with the number of the items i of [0, n) with `is_wanted(i)`, then
