@@ -94,9 +94,8 @@ bool make_stars(Backend& backend, const Mesh_arrays& mesh, const int* opposite,
 {
   const int n = mesh.vertices;
   // No vertex has more spokes than corners.
-  if (!backend.has_room(
-          bytes_of_listed<Spoke_counts<Backend>>(std::size_t(n)) +
-          bytes_of_listed<Star_arrays<Backend>>(std::size_t(n), 3 * std::size_t(mesh.faces))))
+  if (!backend.has_room(bytes_of_listed<Spoke_counts<Backend>>(std::size_t(n)) +
+                        Star_arrays<Backend>::bytes(std::size_t(n), 3 * std::size_t(mesh.faces))))
     return false;
   Spoke_counts<Backend> counts;
   allocate_listed(backend, counts, std::size_t(n));

@@ -73,9 +73,9 @@ struct Merge_spokes {
   }
 };
 
-/// The arrays of a `Star_view`, the order of the vertices and what that takes.
+/// The arrays of a `Star_view`, and the order of the vertices.
 template <class Backend>
-struct Star_arrays : Color_arrays<Backend> {
+struct Star_arrays {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
@@ -94,7 +94,13 @@ struct Star_arrays : Color_arrays<Backend> {
     for (auto array : {&A::facets, &A::order}) f(array, vertices);
     f(&A::kinds, vertices);
     for (auto array : {&A::points, &A::normals}) f(array, vertices);
-    Color_arrays<Backend>::for_each_array(f, vertices);
+  }
+
+  /// With what it takes to color the vertices.
+  static std::size_t bytes(std::size_t vertices, std::size_t spokes)
+  {
+    return bytes_of_listed<Star_arrays>(vertices, spokes) +
+           bytes_of_listed<Color_arrays<Backend>>(vertices);
   }
 
   int size() const { return static_cast<int>(points.size()); }
@@ -116,7 +122,7 @@ struct Star_arrays : Color_arrays<Backend> {
   bool upload(Backend& backend, const Flat_stars& stars)
   {
     const std::size_t n = stars.points.size(), spokes = stars.neighbors.size();
-    if (!backend.has_room(bytes_of_listed<Star_arrays>(n, spokes))) return false;
+    if (!backend.has_room(bytes(n, spokes))) return false;
     allocate_listed(backend, *this, n, spokes);
     uploaded(backend, first, stars.first.data());
     uploaded(backend, neighbors, stars.neighbors.data());

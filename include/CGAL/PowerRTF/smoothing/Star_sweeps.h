@@ -11,7 +11,6 @@
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -118,9 +117,12 @@ private:
   /// Where in the order of the vertices each color begins.
   std::vector<int> order(const internal::Star_view& stars)
   {
-    if (std::exchange(m_colored, stars.size) != stars.size)
-      m_backend.fill(m_stars.colors.data(), internal::Color_vertices::none, m_stars.colors.size());
-    return internal::order_by_colors(m_backend, stars, m_stars, m_stars.order.data());
+    auto& colors = m_coloring.colors;
+    if (int(colors.size()) != stars.size) {
+      allocate_listed(m_backend, m_coloring, std::size_t(stars.size));
+      m_backend.fill(colors.data(), internal::Color_vertices::none, colors.size());
+    }
+    return internal::order_by_colors(m_backend, stars, m_coloring, m_stars.order.data());
   }
 
   /// Applies a rule to all vertices that may move, neighbors one after the other.
@@ -135,9 +137,9 @@ private:
   /// What has become of the stars, and which of them are doubtful.
   void download(const internal::Star_view& stars, internal::Swept_vertices& result)
   {
-    m_backend.for_each(stars.size, internal::Find_doubtful_stars{stars, m_stars.flags.data()});
-    result.doubtful.resize(
-        m_backend.select(stars.size, m_stars.flags.data(), m_stars.order.data()));
+    unsigned char* const flags = m_coloring.flags.data();
+    m_backend.for_each(stars.size, internal::Find_doubtful_stars{stars, flags});
+    result.doubtful.resize(m_backend.select(stars.size, flags, m_stars.order.data()));
     m_backend.download(result.doubtful.data(), m_stars.order.data(), result.doubtful.size());
     const auto take_all = [&](auto& to, const auto& from) {
       to.resize(from.size());
@@ -152,7 +154,7 @@ private:
   Surface_descent m_surface;
   double m_grid;
   internal::Star_arrays<Backend> m_stars;
-  int m_colored = 0; // vertices that have colors
+  internal::Color_arrays<Backend> m_coloring; // of so many stars, with the colors they had last
 };
 
 } // namespace CGAL::PowerRTF
