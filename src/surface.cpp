@@ -16,14 +16,14 @@ namespace CGAL::PowerRTF {
 template Samples sample_surface<Sequential_tag>(const Surface&, const Remeshing_options&,
                                                 const Feature_samples&, const Facet_tree*,
                                                 std::size_t*, const Make_lattice_field&,
-                                                const Find_facets&);
+                                                const Find_facets&, const Place_candidates&);
 template Lattice_fields lattice_fields<Sequential_tag>(const Surface&, const Remeshing_options&,
                                                        const Feature_samples&, const Facet_tree&);
 #ifdef CGAL_LINKED_WITH_TBB
 template Samples sample_surface<Parallel_tag>(const Surface&, const Remeshing_options&,
                                               const Feature_samples&, const Facet_tree*,
                                               std::size_t*, const Make_lattice_field&,
-                                              const Find_facets&);
+                                              const Find_facets&, const Place_candidates&);
 template Lattice_fields lattice_fields<Parallel_tag>(const Surface&, const Remeshing_options&,
                                                      const Feature_samples&, const Facet_tree&);
 #endif

@@ -197,7 +197,7 @@ private:
     part.next(0.85);
     const PowerRTF::Samples samples = PowerRTF::sample_surface<typename Traits::Concurrency_tag>(
         m_patches.surface(), m_options, features, &tree, &m_report.off_lattice_samples,
-        m_engine.lattice_field_maker(), m_engine.facet_finder());
+        m_engine.lattice_field_maker(), m_engine.facet_finder(), m_engine.candidate_placer());
     part.next(1);
     m_engine.set_samples(samples, features);
     m_report.iterations.clear();

@@ -17,6 +17,7 @@ public:
   static Surface_work surface_work(const Remeshing_options&);
   Make_lattice_field lattice_field_maker();
   Find_facets facet_finder();
+  Place_candidates candidate_placer();
   void set_samples(const Samples& samples, const Feature_samples& features);
   void build_cells();
   bool optimize_weights(int passes);

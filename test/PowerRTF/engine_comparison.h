@@ -86,7 +86,8 @@ std::size_t memory_of_run(const Case& c, const Start& start)
   const Feature_samples& features = start.patches->features();
   Engine engine(surface, o);
   engine.set_samples(sample_surface<CGAL::Parallel_if_available_tag>(
-                         surface, o, features, nullptr, nullptr, engine.lattice_field_maker()),
+                         surface, o, features, nullptr, nullptr, engine.lattice_field_maker(), {},
+                         engine.candidate_placer()),
                      features);
   for (int k = 0; k < 4; ++k) {
     engine.build_cells();
@@ -97,6 +98,36 @@ std::size_t memory_of_run(const Case& c, const Start& start)
   if (o.weight_method == Weight_method::newton) engine.newton_weights();
   if (o.extraction == Extraction_method::cells) engine.neighbors();
   return engine.device_report().bytes;
+}
+
+/// The samples of an engine as a lattice begins, and how many are no points of it.
+struct Lattice_start {
+  Samples samples;
+  std::size_t off_lattice = 0;
+};
+
+inline std::vector<Case> lattice_cases()
+{
+  const shapes::Soup torus = shapes::torus(48, 24, 1, 0.3);
+  return {
+      {"torus", torus, options_of(false, Density::uniform, 20000)},
+      {"torus, adaptive", torus, options_of(false, Density::curvature, 20000)},
+      {"with a border", shapes::plane_patch(40, 40), options_of(false, Density::uniform, 20000)}};
+}
+
+/// `is_placed`: the lattice's points become samples where the engine works.
+template <class Engine>
+Lattice_start lattice_start(const Case& c, const Start& start, bool is_placed)
+{
+  Engine engine(start.patches->surface(), c.options);
+  Lattice_start result;
+  const Samples samples = sample_surface<CGAL::Parallel_if_available_tag>(
+      start.patches->surface(), c.options, start.patches->features(), nullptr, &result.off_lattice,
+      engine.lattice_field_maker(), {}, is_placed ? engine.candidate_placer() : Place_candidates());
+  CHECK((samples.size() == 0) == is_placed);
+  engine.set_samples(samples, start.patches->features());
+  result.samples = engine.samples();
+  return result;
 }
 
 /// The samples of both engines in one order.

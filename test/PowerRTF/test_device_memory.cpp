@@ -64,6 +64,34 @@ TEST_CASE("a run takes the memory that was told before, but for some per cent")
   }
 }
 
+TEST_CASE("points of a lattice become samples where they are, the same as those that go up")
+{
+  using Tag = CGAL::Parallel_if_available_tag;
+  for (const Case& c : lattice_cases()) {
+    CAPTURE(c.name);
+    const Start start(c);
+    const bool has_border = start.patches->features().size() > 0;
+    Lattice_start starts[2];
+    std::size_t uploaded[2];
+    for (const bool is_placed : {false, true}) {
+      const std::size_t before = counting::Backend<Tag>::uploaded;
+      starts[is_placed] = lattice_start<counting::Counted_engine<double, Tag>>(c, start, is_placed);
+      uploaded[is_placed] = counting::Backend<Tag>::uploaded - before;
+    }
+    const auto& [given, placed] = starts;
+    const std::size_t n = c.options.number_of_samples - start.patches->features().size();
+    REQUIRE(given.samples.size() == n);
+    REQUIRE(placed.samples.size() == n);
+    CHECK(uploaded[false] - uploaded[true] == n * (sizeof(Site<double>) + sizeof(int)));
+    CHECK(placed.off_lattice == given.off_lattice);
+    CHECK((placed.off_lattice > 0) == !has_border); // the plane has a perfect one
+    const Pairing pairing = paired(given.samples, placed.samples, start.patches->surface().area);
+    CHECK(pairing.distance < 1e-12);
+    for (std::size_t i = 0; i < n; ++i)
+      CHECK(placed.samples.facets[pairing.of_first[i]] == given.samples.facets[i]);
+  }
+}
+
 TEST_CASE("the facets of a surface go up once, or not at all where they are there")
 {
   const improvement_case::Sweeps_case mesh(shapes::ellipsoid(1, 0.7, 0.4, 4), 500);

@@ -38,9 +38,13 @@ public:
   /// What finds facets of the surface where the engine works; or empty.
   CGAL::PowerRTF::Find_facets facet_finder();
 
-  /// Takes the samples' points and facets; their normals and densities come from the surface, their
-  /// weights become 0. The engine may reorder them, once. `features`: samples that stay where they
-  /// are; the copies of each, one for every patch at it, bound cells and have none.
+  /// What makes points of a lattice samples where the engine works; or empty.
+  CGAL::PowerRTF::Place_candidates candidate_placer();
+
+  /// Takes the samples' points and facets; none: those that `candidate_placer()` has made. Their
+  /// normals and densities come from the surface, their weights become 0. The engine may reorder
+  /// them, once. `features`: samples that stay where they are; the copies of each, one for every
+  /// patch at it, bound cells and have none.
   void set_samples(const CGAL::PowerRTF::Samples& samples,
                    const CGAL::PowerRTF::Feature_samples& features);
 

@@ -10,10 +10,12 @@
 #include <CGAL/PowerRTF/engines/Engine_base.h>
 #include <CGAL/PowerRTF/engines/Engine_mesh.h>
 #include <CGAL/PowerRTF/engines/nearest_facets.h>
+#include <CGAL/PowerRTF/engines/placed_samples.h>
 #include <CGAL/PowerRTF/engines/sample_rules.h>
 #include <CGAL/PowerRTF/engines/sound_stars.h>
 #include <CGAL/PowerRTF/geometry/Surface_arrays.h>
 #include <CGAL/PowerRTF/geometry/Surface_in_tree.h>
+#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
 #include <CGAL/PowerRTF/optimization/position_steps.h>
@@ -44,7 +46,10 @@ public:
   Engine(const Surface_in_tree& surface, const Remeshing_options& options, Arguments&&... backend)
       : m_options(options), m_cos_angle(Real(compatibility_cosine(options.normal_angle))),
         m_resident(surface.resident), m_backend(std::forward<Arguments>(backend)...),
-        m_surface(m_backend, surface), m_area_of_surface(surface.area), m_shared_summary(m_backend)
+        m_surface(m_backend, surface), m_area_of_surface(surface.area),
+        m_cube(cube_around(internal::box_around(Backend::concurrency(), surface.facets.vertices,
+                                                surface.facets.points))),
+        m_shared_summary(m_backend)
   {
     m_summary.allocate(m_backend, 1);
     m_scalar.allocate(m_backend, 1);
@@ -78,6 +83,7 @@ public:
   {
     return std::make_unique<Lattice_field<Backend>>(m_backend, m_surface.view(), plan);
   }
+  std::optional<std::size_t> place_candidates(Lattice_field_base& field, std::size_t n) override;
   void set_samples(const Engine_samples& samples) override;
   void build_cells() override;
   bool optimize_weights(int passes) override;
@@ -87,7 +93,7 @@ public:
   void restore_best() override;
   Cell_summary summary() override;
   std::size_t constructions() const override { return m_constructions; }
-  Engine_samples samples() override;
+  Samples samples() override;
   std::vector<Cell_polygon> cells() override;
   Neighbor_cycles neighbors() override;
   void release_memory() override;
@@ -155,8 +161,10 @@ private:
   void make_builder();
   /// Made anew if its memory has been released.
   Cells& builder();
-  void sort(const Engine_samples& samples);
-  void upload_boundaries(const Engine_samples& samples);
+  void upload_cells(const Engine_samples& samples);
+  /// The placed samples along a curve that fills the cube; they are the ones with cells.
+  void sort(const Surface_cube& cube);
+  void upload_others(const Engine_samples& samples);
   void update_attributes();
   /// The sites have moved.
   void set_sites();
@@ -222,6 +230,7 @@ private:
   Backend m_backend;
   Surface_arrays<Real, Backend> m_surface;
   double m_area_of_surface;
+  Surface_cube m_cube;                   // around the surface
   std::shared_ptr<Resident_mesh> m_mesh; // the last one; or null
   std::optional<Cells> m_builder;
   // Made when they are needed.
@@ -229,7 +238,8 @@ private:
   std::optional<Lbfgs<Real, Backend, max_lbfgs_memory>> m_long_lbfgs; // if the other is too short
   std::optional<Newton_solver<Real, Backend>> m_newton;
 
-  int m_cells = 0, m_size = 0; // n, and with the sites that only clip
+  Placed_samples<Real, Backend> m_placed; // to come
+  int m_cells = 0, m_size = 0;            // n, and with the sites that only clip
   bool m_has_patches = false;
   Buffer<Site<Real>> m_sites;
   Buffer<Vec3<Real>> m_normals;

@@ -12,6 +12,7 @@
 #include <CGAL/PowerRTF/cells/Neighbor_cycles.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
 #include <CGAL/PowerRTF/geometry/Resident_mesh.h>
+#include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/Surface_view.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/optimization/Cell_summary.h>
@@ -20,6 +21,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace CGAL::PowerRTF {
@@ -39,15 +41,15 @@ struct Run_sizes {
   bool is_even = true;                  ///< the density is the same everywhere
 };
 
-/// The samples as arrays: the first `cells` have cells and move; the others only clip.
+/// Samples as they come: the first `cells` have cells and move; the others only clip.
 struct Engine_samples {
-  internal::Unset_vector<Vec3d> points, normals;
-  internal::Unset_vector<int> facets;  ///< places in the tree
-  internal::Unset_vector<int> patches; ///< empty: all on one patch
-  internal::Unset_vector<double> density, weights;
-  /// Of each sample the next one along its patch's boundary, or -1; empty when all have cells.
-  std::vector<int> next;
+  internal::Unset_vector<Vec3d> points;
+  internal::Unset_vector<int> facets; ///< places in the tree
   int cells = 0;
+  // Of the others:
+  internal::Unset_vector<Vec3d> normals;
+  internal::Unset_vector<double> density;
+  std::vector<int> next; ///< along the boundary of the patch, which of them is the next; or -1
 
   std::size_t size() const { return points.size(); }
 };
@@ -58,7 +60,10 @@ public:
   virtual ~Engine_base() = default;
   /// As `Make_lattice_field`. The engine has to live as long as the result.
   virtual std::unique_ptr<Lattice_field_base> make_lattice_field(const Lattice_plan& plan) = 0;
-  /// Takes the samples with cells into spatial order; the others keep theirs. Weights become 0.
+  /// As `Place_candidates`.
+  virtual std::optional<std::size_t> place_candidates(Lattice_field_base& field, std::size_t n) = 0;
+  /// Takes the samples; where none of them has a cell, those that were placed before them. Those
+  /// with cells come into spatial order; the others keep theirs. Weights become 0.
   virtual void set_samples(const Engine_samples& samples) = 0;
   virtual void build_cells() = 0;
   virtual bool optimize_weights(int passes) = 0;
@@ -68,7 +73,8 @@ public:
   virtual void restore_best() = 0;
   virtual Cell_summary summary() = 0;
   virtual std::size_t constructions() const = 0;
-  virtual Engine_samples samples() = 0;
+  /// All. Their facets are places in the tree.
+  virtual Samples samples() = 0;
   virtual std::vector<Cell_polygon> cells() = 0;
   virtual Neighbor_cycles neighbors() = 0;
   virtual void release_memory() = 0;

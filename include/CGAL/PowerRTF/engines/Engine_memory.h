@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace CGAL::PowerRTF {
 
@@ -31,6 +32,8 @@ std::size_t Engine<R, B, C>::bytes(const Run_sizes& sizes, const Remeshing_optio
   const bool has_features = sizes.has_patches; // which creases part
   const std::size_t samples = bytes_of_listed<Engine>(n, n, sizes.has_patches, has_features) +
                               C::bytes(n, has_features) + B::sort_bytes(n);
+  const std::size_t sorting =
+      bytes_of_listed<Placed_samples<R, B>>(n) + n * (sizeof(std::uint64_t) + sizeof(int));
   std::size_t positions = 0, weights = 0, extraction = 0;
   if (has_lbfgs)
     positions =
@@ -43,7 +46,7 @@ std::size_t Engine<R, B, C>::bytes(const Run_sizes& sizes, const Remeshing_optio
   return B::least_bytes() +
          Surface_arrays<R, B>::bytes(sizes.facets, sizes.vertices, sizes.has_patches,
                                      asks_for_vertices(options)) +
-         (std::max)(sampling, samples + (std::max)({positions, weights, extraction}));
+         (std::max)(sampling, samples + (std::max)({sorting, positions, weights, extraction}));
 }
 
 } // namespace CGAL::PowerRTF

@@ -6,30 +6,16 @@
 #define CGAL_POWER_RTF_ENGINES_ENGINE_SAMPLES_H
 
 #include <CGAL/PowerRTF/engines/Engine.h>
-#include <CGAL/PowerRTF/geometry/Packed_tree.h>
-#include <CGAL/PowerRTF/geometry/box_around.h>
-#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <limits>
+#include <optional>
+#include <vector>
 
 namespace CGAL::PowerRTF {
-
-/// Places along the Hilbert curve through the cube around `box`: no size or position decides them.
-template <class Real, class Backend>
-void find_hilbert_codes(Backend& backend, int n, const Site<Real>* sites, const Box3<double>& box,
-                        std::uint64_t* codes)
-{
-  const Vec3d size = box.hi - box.lo;
-  const Vec3<Real> center = to_real<Real>(0.5 * (box.lo + box.hi));
-  const Real scale = Real(2 / std::max({size.x, size.y, size.z}));
-  backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) {
-    codes[i] = hilbert_code(scale * (sites[i].point - center));
-  });
-}
 
 template <class Real, class Backend>
 void copy_without_weights(Backend& backend, int n, const Site<Real>* from, Site<Real>* to)
@@ -37,19 +23,45 @@ void copy_without_weights(Backend& backend, int n, const Site<Real>* from, Site<
   backend.for_each(n, [=] CGAL_POWER_RTF_HD(int i) { to[i] = {from[i].point, Real(0)}; });
 }
 
+/// Of those from number `first` on.
 template <class Real, class Backend>
-void find_density_roots(Backend& backend, int n, const Attribute_rule<Real>& rule)
+void find_density_roots(Backend& backend, int first, int n, const Attribute_rule<Real>& rule)
 {
-  backend.for_each(
-      n, [=] CGAL_POWER_RTF_HD(int i) { rule.density_root[i] = rule.root(rule.density[i]); });
+  backend.for_each(n - first, [=] CGAL_POWER_RTF_HD(int k) {
+    rule.density_root[first + k] = rule.root(rule.density[first + k]);
+  });
+}
+
+template <class R, class B, class C>
+std::optional<std::size_t> Engine<R, B, C>::place_candidates(Lattice_field_base& field,
+                                                             std::size_t n)
+{
+  m_placed = {};
+  auto* const lattice = dynamic_cast<Lattice_field<B>*>(&field);
+  if (!lattice) return std::nullopt;
+  const std::optional<Buffer<Sample_candidate>> chosen = lattice->chosen_candidates(n);
+  if (!chosen) return std::nullopt;
+  const int size = static_cast<int>(n);
+  const Sample_candidate* const candidates = chosen->data();
+  internal::allocate_listed(m_backend, m_placed, n);
+  m_backend.for_each_by_lanes(size, Place_candidate_rule<R>{m_surface.view(), lattice->cube(),
+                                                            candidates, m_placed.sites.data(),
+                                                            m_placed.facets.data()});
+  Buffer<unsigned char> is_off;
+  Buffer<int> off;
+  is_off.allocate(m_backend, n);
+  off.allocate(m_backend, n);
+  m_backend.for_each(size, Mark_off_lattice{candidates, is_off.data()});
+  return static_cast<std::size_t>(m_backend.select(size, is_off.data(), off.data()));
 }
 
 template <class R, class B, class C>
 void Engine<R, B, C>::set_samples(const Engine_samples& samples)
 {
-  m_cells = samples.cells;
-  m_size = int(samples.size());
-  m_has_patches = !samples.patches.empty();
+  if (samples.cells > 0) upload_cells(samples);
+  m_cells = m_placed.size();
+  m_size = m_cells + int(samples.size()) - samples.cells;
+  m_has_patches = m_surface.view().patches != nullptr;
   internal::allocate_listed(m_backend, *this, m_cells, m_size, m_has_patches, has_features());
   m_best.residual = std::numeric_limits<double>::infinity();
   forget_lbfgs();
@@ -57,7 +69,14 @@ void Engine<R, B, C>::set_samples(const Engine_samples& samples)
   m_constructions = 0;
   m_mean_mass = 0;
   m_are_edges_wanted = m_are_edges_known = false;
-  sort(samples);
+  const bool are_given = samples.cells > 0; // else they are known there alone
+  sort(are_given ? cube_around(
+                       internal::box_around(B::concurrency(), int(samples.size()), samples.points))
+                 : m_cube);
+  if (has_features()) upload_others(samples);
+  if (m_has_patches)
+    m_backend.for_each(m_size,
+                       Take_patches{m_surface.view().patches, m_facets.data(), m_patches.data()});
   m_backend.start_clock();
   update_attributes();
 }
@@ -79,56 +98,56 @@ C& Engine<R, B, C>::builder()
   return *m_builder;
 }
 
-/// The samples with cells along a space-filling curve. Those that only clip are not sorted, so that
-/// their numbers stay.
 template <class R, class B, class C>
-void Engine<R, B, C>::sort(const Engine_samples& samples)
+void Engine<R, B, C>::upload_cells(const Engine_samples& samples)
 {
-  const int n = m_cells, m = m_size;
-  internal::Unset_vector<Site<R>> sites(m);
-  internal::for_each_index(B::concurrency(), m, [&](int i) {
+  internal::Unset_vector<Site<R>> sites(samples.cells);
+  internal::for_each_index(B::concurrency(), samples.cells, [&](int i) {
     sites[i] = {to_real<R>(samples.points[i]), R(0)};
   });
-  m_backend.upload(m_sites.data(), sites.data(), m);
-  Buffer<std::uint64_t> codes;
-  Buffer<int> places;
-  codes.allocate(m_backend, n);
-  places.allocate(m_backend, n);
-  const Box3<double> box = internal::box_around(B::concurrency(), m, samples.points);
-  find_hilbert_codes(m_backend, n, m_sites.data(), box, codes.data());
-  m_backend.sort_order(n, codes.data(), places.data(), true);
-  internal::Unset_vector<int> order(m);
-  std::iota(order.begin() + n, order.end(), n);
-  m_backend.download(order.data(), places.data(), n);
-
-  internal::Unset_vector<int> facets(m), patches(m_has_patches ? m : 0);
-  internal::Unset_vector<Vec3<R>> normals(m);
-  internal::Unset_vector<R> density(m);
-  internal::for_each_index(B::concurrency(), m, [&](int i) {
-    const int k = order[i];
-    sites[i] = {to_real<R>(samples.points[k]), R(0)};
-    facets[i] = samples.facets[k];
-    normals[i] = to_real<R>(samples.normals[k]);
-    density[i] = R(samples.density[k]);
-    if (m_has_patches) patches[i] = samples.patches[k];
-  });
-  m_backend.upload(m_sites.data(), sites.data(), m);
-  m_backend.upload(m_facets.data(), facets.data(), m);
-  m_backend.upload(m_normals.data(), normals.data(), m);
-  m_backend.upload(m_density.data(), density.data(), m);
-  if (m_has_patches) m_backend.upload(m_patches.data(), patches.data(), m);
-  if (has_features()) upload_boundaries(samples);
-  find_density_roots(m_backend, m, attribute_rule());
+  internal::allocate_listed(m_backend, m_placed, sites.size());
+  m_backend.upload(m_placed.sites.data(), sites.data(), sites.size());
+  m_backend.upload(m_placed.facets.data(), samples.facets.data(), sites.size());
 }
 
 template <class R, class B, class C>
-void Engine<R, B, C>::upload_boundaries(const Engine_samples& samples)
+void Engine<R, B, C>::sort(const Surface_cube& cube)
 {
-  std::vector<int> previous(m_size, -1);
-  for (int i = 0; i < m_size; ++i)
-    if (samples.next[i] >= 0) previous[samples.next[i]] = i;
-  m_backend.upload(m_next.data(), samples.next.data(), m_size);
+  Buffer<std::uint64_t> codes;
+  Buffer<int> order;
+  codes.allocate(m_backend, m_cells);
+  order.allocate(m_backend, m_cells);
+  m_backend.for_each(m_cells, Find_hilbert_code<R>(cube, m_placed.sites.data(), codes.data()));
+  m_backend.sort_order(m_cells, codes.data(), order.data(), true);
+  m_backend.for_each(m_cells, Take_in_order<R>{m_placed.sites.data(), m_placed.facets.data(),
+                                               order.data(), m_sites.data(), m_facets.data()});
+  m_placed = {};
+}
+
+/// The samples that only clip are not sorted, so that their numbers stay.
+template <class R, class B, class C>
+void Engine<R, B, C>::upload_others(const Engine_samples& samples)
+{
+  const int n = m_size - m_cells, first = samples.cells;
+  internal::Unset_vector<Site<R>> sites(n);
+  internal::Unset_vector<Vec3<R>> normals(n);
+  internal::Unset_vector<R> density(n);
+  std::vector<int> next(m_size, -1), previous(m_size, -1);
+  for (int k = 0; k < n; ++k) {
+    sites[k] = {to_real<R>(samples.points[first + k]), R(0)};
+    normals[k] = to_real<R>(samples.normals[k]);
+    density[k] = R(samples.density[k]);
+    if (samples.next[k] < 0) continue;
+    next[m_cells + k] = m_cells + samples.next[k];
+    previous[m_cells + samples.next[k]] = m_cells + k;
+  }
+  m_backend.upload(m_sites.data() + m_cells, sites.data(), n);
+  m_backend.upload(m_facets.data() + m_cells, samples.facets.data() + first, n);
+  m_backend.upload(m_normals.data() + m_cells, normals.data(), n);
+  m_backend.upload(m_density.data() + m_cells, density.data(), n);
+  m_backend.upload(m_next.data(), next.data(), m_size);
   m_backend.upload(m_previous.data(), previous.data(), m_size);
+  find_density_roots(m_backend, m_cells, m_size, attribute_rule());
 }
 
 /// Normals and densities of the samples where they are.
@@ -155,24 +174,24 @@ void Engine<R, B, C>::set_sites()
 }
 
 template <class R, class B, class C>
-Engine_samples Engine<R, B, C>::samples()
+Samples Engine<R, B, C>::samples()
 {
-  Engine_samples s;
-  s.cells = m_cells;
   internal::Unset_vector<Site<R>> sites(m_size);
   internal::Unset_vector<Vec3<R>> normals(m_size);
   internal::Unset_vector<R> density(m_size);
-  s.facets.resize(m_size);
+  Samples s;
+  const auto resize = [&](auto& items) {
+    internal::resize_in_parallel(B::concurrency(), items, std::size_t(m_size));
+  };
+  internal::call_at_once(
+      B::concurrency(), [&] { resize(s.points); }, [&] { resize(s.normals); },
+      [&] { resize(s.density); }, [&] { resize(s.weights); }, [&] { resize(s.facets); },
+      [&] { m_has_patches ? resize(s.patches) : void(); });
   m_backend.download(sites.data(), m_sites.data(), m_size);
   m_backend.download(normals.data(), m_normals.data(), m_size);
   m_backend.download(density.data(), m_density.data(), m_size);
   m_backend.download(s.facets.data(), m_facets.data(), m_size);
-  if (m_has_patches) {
-    s.patches.resize(m_size);
-    m_backend.download(s.patches.data(), m_patches.data(), m_size);
-  }
-  for (auto v : {&s.points, &s.normals}) v->resize(m_size);
-  for (auto v : {&s.weights, &s.density}) v->resize(m_size);
+  if (m_has_patches) m_backend.download(s.patches.data(), m_patches.data(), m_size);
   internal::for_each_index(B::concurrency(), m_size, [&](int i) {
     s.points[i] = to_double(sites[i].point);
     s.weights[i] = sites[i].weight;
@@ -185,7 +204,7 @@ Engine_samples Engine<R, B, C>::samples()
 template <class R, class B, class C>
 std::vector<Cell_polygon> Engine<R, B, C>::cells()
 {
-  const Engine_samples s = samples();
+  const Samples s = samples();
   std::vector<Cell_polygon> cells(m_cells);
   builder().for_each_cell([&](int i, Cell_status status, const auto& polygon, const auto&) {
     cells[i] = cell_polygon(s, i, status, polygon);

@@ -36,6 +36,9 @@ public:
   /// Finds facets where the engine works, with the surface's normals of then, too. Empty: it works
   /// on the host.
   Find_facets facet_finder() { return engine().facet_finder(); }
+  /// Makes points of a lattice samples where the engine works.
+  Place_candidates candidate_placer();
+  /// `samples`: none where they have been placed.
   void set_samples(const Samples& samples, const Feature_samples& features = {});
   void build_cells() { m_engine->build_cells(); }
   bool optimize_weights(int passes) { return m_engine->optimize_weights(passes); }
@@ -96,6 +99,7 @@ private:
   Surface_in_tree m_in_tree;
   std::unique_ptr<Engine_base> m_engine;
   std::size_t m_size = 0, m_sites = 0; // cells; and with the feature samples' sites
+  std::size_t m_placed = 0;            // samples to come, which the engine has
 };
 
 /// \cgalModels `PowerRTFEngine`

@@ -10,9 +10,11 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/make_surface_in_tree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -74,58 +76,50 @@ CGAL_POWER_RTF_INLINE Make_lattice_field Surface_engine_base::lattice_field_make
   return [this](const Lattice_plan& plan) { return engine().make_lattice_field(plan); };
 }
 
+CGAL_POWER_RTF_INLINE Place_candidates Surface_engine_base::candidate_placer()
+{
+  return [this](Lattice_field_base& field, std::size_t n) {
+    const std::optional<std::size_t> off_lattice = engine().place_candidates(field, n);
+    m_placed = off_lattice ? n : 0;
+    return off_lattice;
+  };
+}
+
 CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& samples,
                                                             const Feature_samples& features)
 {
   engine(); // makes the facets' tree, too
-  m_size = samples.size();
-  const bool are_all_free = features.sites.size() == 0;
-  const Samples with_features = are_all_free ? Samples() : joined(samples, features.sites);
-  const Samples& sites = are_all_free ? samples : with_features;
-  m_sites = sites.size();
+  const std::size_t n = samples.size();
+  const Samples& sites = features.sites;
+  const std::size_t placed = std::exchange(m_placed, 0);
+  m_size = n > 0 ? n : placed;
+  m_sites = m_size + sites.size();
   Engine_samples to;
-  const bool has_patches = !m_surface.facet_patches.empty();
+  to.cells = static_cast<int>(n);
   internal::call_at_once(
-      m_concurrency, [&] { to.points.resize(m_sites); }, [&] { to.normals.resize(m_sites); },
-      [&] { to.density.resize(m_sites); }, [&] { to.facets.resize(m_sites); },
-      [&] { to.patches.resize(has_patches ? m_sites : 0); });
-  internal::for_each_index(m_concurrency, int(m_sites), [&](int i) {
-    const int f = sites.facets[i];
-    to.points[i] = sites.points[i];
-    to.normals[i] = sites.normals[i];
-    to.density[i] = sites.density[i];
-    to.facets[i] = m_tree->place(f);
-    if (has_patches) to.patches[i] = m_surface.facet_patches[f];
+      m_concurrency, [&] { to.points.resize(n + sites.size()); },
+      [&] { to.facets.resize(n + sites.size()); });
+  internal::for_each_index(m_concurrency, int(to.size()), [&](int i) {
+    const Samples& from = i < to.cells ? samples : sites;
+    const int k = i < to.cells ? i : i - to.cells;
+    to.points[i] = from.points[k];
+    to.facets[i] = m_tree->place(from.facets[k]);
   });
-  to.cells = static_cast<int>(m_size);
-  if (!are_all_free) {
-    to.next.assign(sites.size(), -1);
-    for (std::size_t k = 0; k < features.next.size(); ++k)
-      if (features.next[k] >= 0) to.next[m_size + k] = static_cast<int>(m_size) + features.next[k];
-  }
+  to.normals.assign(sites.normals.begin(), sites.normals.end());
+  to.density.assign(sites.density.begin(), sites.density.end());
+  to.next = features.next;
   m_engine->set_samples(to);
 }
 
 CGAL_POWER_RTF_INLINE Samples Surface_engine_base::gather(std::size_t count) const
 {
-  const Engine_samples from = m_engine->samples();
-  Samples to;
-  const auto resize = [&](auto& items, bool is_there) {
-    if (is_there) internal::resize_in_parallel(m_concurrency, items, count);
-  };
-  internal::call_at_once(
-      m_concurrency, [&] { resize(to.points, true); }, [&] { resize(to.normals, true); },
-      [&] { resize(to.density, true); }, [&] { resize(to.weights, true); },
-      [&] { resize(to.facets, true); }, [&] { resize(to.patches, !from.patches.empty()); });
-  internal::for_each_index(m_concurrency, int(count), [&](int i) {
-    to.points[i] = from.points[i];
-    to.normals[i] = from.normals[i];
-    to.density[i] = from.density[i];
-    to.weights[i] = from.weights[i];
-    to.facets[i] = m_tree->order()[from.facets[i]];
-    if (!to.patches.empty()) to.patches[i] = from.patches[i];
-  });
-  return to;
+  Samples samples = m_engine->samples();
+  const auto cut = [&](auto&... items) { ((items.resize((std::min)(items.size(), count))), ...); };
+  cut(samples.points, samples.facets, samples.normals, samples.density, samples.weights,
+      samples.patches);
+  internal::for_each_index(m_concurrency, int(count),
+                           [&](int i) { samples.facets[i] = m_tree->order()[samples.facets[i]]; });
+  return samples;
 }
 
 } // namespace CGAL::PowerRTF

@@ -160,11 +160,22 @@ public:
 
   std::optional<Sample_candidates> choose_candidates(std::size_t n) override
   {
+    std::optional<Buffer<Sample_candidate>> chosen = chosen_candidates(n);
+    if (!chosen) return std::nullopt;
+    return downloaded(*chosen);
+  }
+
+  /// The same, where the backend works.
+  std::optional<Buffer<Sample_candidate>> chosen_candidates(std::size_t n)
+  {
     constexpr int least = 1 << 14; // before it the host's threads are as fast
     if constexpr (!Backend::is_host)
-      if (m_chosen.size() >= least) return chosen_candidates(n);
+      if (m_chosen.size() >= least) return eliminated_candidates(n);
     return std::nullopt;
   }
+
+  /// What the candidates are in.
+  const Surface_cube& cube() const { return m_plan.cube; }
 
   Sample_candidates nodes_of(const std::vector<unsigned char>& is_wanted) override
   {
@@ -371,7 +382,7 @@ private:
   }
 
   /// As `choose_candidates()`.
-  std::optional<Sample_candidates> chosen_candidates(std::size_t n)
+  std::optional<Buffer<Sample_candidate>> eliminated_candidates(std::size_t n)
   {
     m_levels.front().edges = {};
     m_levels.front().release();
@@ -390,7 +401,7 @@ private:
     chosen.allocate(m_backend, n);
     m_backend.for_each(static_cast<int>(n), internal::Gather_chosen<Sample_candidate>{
                                                 all.data(), left.data(), chosen.data()});
-    return downloaded(chosen);
+    return chosen;
   }
 
   Sample_candidates downloaded(const Buffer<Sample_candidate>& candidates)

@@ -52,6 +52,12 @@ public:
   virtual Sample_candidates nodes_of(const std::vector<unsigned char>& is_wanted) = 0;
 };
 
+/// Makes `n` candidates of a field, for one component, the samples that the `set_samples()` of the
+/// engine that has made the field takes next. \returns how many of them are no points of the
+/// lattice; none: the host has to choose
+using Place_candidates =
+    std::function<std::optional<std::size_t>(Lattice_field_base& field, std::size_t n)>;
+
 struct Lattice_plan;
 
 /// The plan has to live as long as the result.

@@ -16,7 +16,6 @@
 #include <CGAL/PowerRTF/features/Feature_samples.h>
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/Find_facets.h>
-#include <CGAL/PowerRTF/geometry/nearest_facet.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -25,11 +24,11 @@
 #include <CGAL/PowerRTF/sampling/Lattice_plan.h>
 #include <CGAL/PowerRTF/sampling/initial_sampling.h>
 #include <CGAL/PowerRTF/sampling/lattice_defects.h>
+#include <CGAL/PowerRTF/sampling/place_candidate.h>
 #include <CGAL/PowerRTF/sampling/plan_lattice.h>
 #include <CGAL/PowerRTF/sampling/sample_elimination.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -56,8 +55,9 @@ public:
     }
   }
 
-  /// `find`: see `sample_surface()`.
-  Samples run(const Make_lattice_field& make, const Find_facets& find)
+  /// See `sample_surface()`.
+  Samples run(const Make_lattice_field& make, const Find_facets& find,
+              const Place_candidates& place)
   {
     internal::Progress_part part(0.05);
     const Lattice_plan plan = this->plan();
@@ -67,6 +67,7 @@ public:
       part.next(0.8);
       find_points(*field);
       part.next(0.85);
+      if (are_placed_by(place, *field)) return {};
       if (!choose_by(*field)) {
         m_candidates = field->candidates();
         candidates = candidates_of_components(*field);
@@ -95,8 +96,6 @@ public:
 private:
   static constexpr double tolerance = 0.035;
   static constexpr int max_scalings = 2;
-  static constexpr double max_beyond = 0.05;   // a border, relative to the spacing
-  static constexpr double cos_same_side = 0.2; // of normals
 
   Lattice_plan plan() const
   {
@@ -156,6 +155,15 @@ private:
     return all;
   }
 
+  /// Whether an engine has made candidates its samples.
+  bool are_placed_by(const Place_candidates& place, Lattice_field_base& field)
+  {
+    if (!place || m_shares.size() != 1) return false;
+    const std::optional<std::size_t> off_lattice = place(field, m_shares.front().samples);
+    if (off_lattice) m_off_lattice = *off_lattice;
+    return off_lattice.has_value();
+  }
+
   /// Whether the candidates that the field has chosen are all.
   bool choose_by(Lattice_field_base& field)
   {
@@ -207,23 +215,24 @@ private:
         internal::select(m_backend.concurrency(), static_cast<int>(chosen.size()), [&](int k) {
           return m_candidates[chosen[k]].distance < 0;
         }).size();
-    const internal::Unset_vector<int> facets = nearest_facets(chosen, find);
+    const internal::Unset_vector<int> nearest = nearest_facets(chosen, find);
     internal::Unset_vector<Facet_place> places(chosen.size());
     m_backend.for_each(static_cast<int>(places.size()), [&](int k) {
-      places[k] = place_on_surface(m_candidates[chosen[k]], facets[k]);
+      places[k] = facet_place(place_candidate<double>(m_candidates[chosen[k]], m_cube, nearest[k],
+                                                      [this](int place) { return facet(place); }));
     });
     Samples samples;
     internal::add_samples(m_surface, places, samples, m_backend.concurrency());
     return samples;
   }
 
-  /// The facets that are nearest to the candidates, on the nodes' side of a sheet; -1: there is
-  /// none.
+  /// The places in the tree of the facets that are nearest to the candidates, on the nodes' side of
+  /// a sheet; -1: there is none.
   internal::Unset_vector<int> nearest_facets(const std::vector<int>& chosen,
                                              const Find_facets& find) const
   {
     const int n = static_cast<int>(chosen.size());
-    internal::Unset_vector<int> facets(n);
+    internal::Unset_vector<int> nearest(n);
     const auto candidate = [&](int k) -> const Sample_candidate& {
       return m_candidates[chosen[k]];
     };
@@ -234,52 +243,30 @@ private:
       m_backend.for_each(n, [&](int k) {
         points[k] = point(k);
         normals[k] = normal(k);
-        facets[k] = candidate(k).node.facet;
+        nearest[k] = candidate(k).node.facet;
       });
-      if (find(n, points.data(), normals.data(), cos_same_side, facets.data())) {
-        m_backend.for_each(n, [&](int k) {
-          if (facets[k] >= 0) facets[k] = m_tree.order()[facets[k]];
-        });
-        return facets;
-      }
+      if (find(n, points.data(), normals.data(), cos_same_side, nearest.data())) return nearest;
     }
     m_backend.for_each(n, [&](int k) {
-      const int near = m_tree.order()[candidate(k).node.facet];
-      facets[k] = m_tree.nearest(point(k), normal(k), cos_same_side, near).facet;
+      const int near = m_tree.order()[candidate(k).node.facet],
+                f = m_tree.nearest(point(k), normal(k), cos_same_side, near).facet;
+      nearest[k] = f < 0 ? -1 : m_tree.place(f);
     });
-    return facets;
+    return nearest;
   }
 
-  /// The candidate's point on its nearest facet `f`; the node itself where there is none, and for a
-  /// point of the lattice beyond a border, whose nearest point is on it.
-  Facet_place place_on_surface(const Sample_candidate& candidate, int f) const
+  Facet_corners<double> facet(int place) const
   {
-    const Lattice_node& node = candidate.node;
-    Vec3d point = m_cube.to_outside(to_double(candidate.point));
-    if (f < 0) f = m_tree.order()[node.facet];
-    const double h = double(node.spacing) / m_cube.scale;
-    if (beyond(point, f) > max_beyond * h) {
-      point = m_cube.to_outside(to_double(node.point));
-      f = m_tree.order()[node.facet];
-    }
-    const auto [a, b, c] = corners(f);
+    const Triangle& t = m_surface.triangles[m_tree.order()[place]];
+    return facet_corners(m_surface.points[t[0]], m_surface.points[t[1]], m_surface.points[t[2]]);
+  }
+
+  Facet_place facet_place(const Surface_point<double>& p) const
+  {
+    const Facet_corners<double> f = facet(p.facet);
     double beta, gamma;
-    barycentric_coordinates(nearest_point_on_triangle(point, a, b, c), a, b, c, beta, gamma);
-    return {f, {1 - beta - gamma, beta, gamma}};
-  }
-
-  std::array<Vec3d, 3> corners(int f) const
-  {
-    const Triangle& t = m_surface.triangles[f];
-    return {m_surface.points[t[0]], m_surface.points[t[1]], m_surface.points[t[2]]};
-  }
-
-  /// How far the foot of the perpendicular from `p` to the plane of a facet is outside the facet.
-  double beyond(const Vec3d& p, int f) const
-  {
-    const auto [a, b, c] = corners(f);
-    const Vec3d normal = normalized(cross(b - a, c - a)), foot = p - dot(p - a, normal) * normal;
-    return length(foot - nearest_point_on_triangle(foot, a, b, c));
+    barycentric_coordinates(p.point, f.a, f.b, f.c, beta, gamma);
+    return {m_tree.order()[p.facet], {1 - beta - gamma, beta, gamma}};
   }
 
   /// The fields for those who want to look at them.

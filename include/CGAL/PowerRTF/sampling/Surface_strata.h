@@ -6,11 +6,13 @@
 #ifndef CGAL_POWER_RTF_SAMPLING_SURFACE_STRATA_H
 #define CGAL_POWER_RTF_SAMPLING_SURFACE_STRATA_H
 
+#include <CGAL/PowerRTF/geometry/Packed_tree.h>
 #include <CGAL/PowerRTF/geometry/vector.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/host_device.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,8 +25,14 @@ struct Surface_cube {
   double scale;
 
   CGAL_POWER_RTF_HD Vec3d to_inside(const Vec3d& p) const { return (p - middle) * scale; }
-  Vec3d to_outside(const Vec3d& p) const { return p * (1 / scale) + middle; }
+  CGAL_POWER_RTF_HD Vec3d to_outside(const Vec3d& p) const { return p * (1 / scale) + middle; }
 };
+
+inline Surface_cube cube_around(const Box3<double>& box)
+{
+  const Vec3d size = box.hi - box.lo;
+  return {0.5 * (box.lo + box.hi), 2 / (std::max)({size.x, size.y, size.z})};
+}
 
 /// A surface unrolled: its facets component by component, in spatial order, and each facet along
 /// the curve that bisects it again and again (Sierpinski's). Where parts of equal mass follow each

@@ -37,13 +37,15 @@ class Facet_tree;
 /// \param tree of the surface's facets; null: it is made where it is needed
 /// \param make makes the fields of a lattice; empty: they are made on the CPU
 /// \param find finds the facets that are nearest to the lattice's points, where it does
+/// \param place makes the lattice's points samples of the engine that makes its fields, where it
+///   does; then none are returned
 /// \param off_lattice gets the number of samples that are no points of the lattice; may be null
 /// \throws Invalid_input_error an option has a value that is not allowed
 template <class ConcurrencyTag = Sequential_tag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                        const Feature_samples& features = {}, const Facet_tree* tree = nullptr,
                        std::size_t* off_lattice = nullptr, const Make_lattice_field& make = {},
-                       const Find_facets& find = {});
+                       const Find_facets& find = {}, const Place_candidates& place = {});
 
 /// The fields of the lattice that `sample_surface()` begins with when it gets the same; they are
 /// made anew.

@@ -28,7 +28,7 @@ template <class ConcurrencyTag>
 Samples sample_surface(const Surface& surface, const Remeshing_options& options,
                        const Feature_samples& features, const Facet_tree* tree,
                        std::size_t* off_lattice, const Make_lattice_field& make,
-                       const Find_facets& find)
+                       const Find_facets& find, const Place_candidates& place)
 {
   validate(options);
   internal::Progress_part part(0.02);
@@ -51,7 +51,7 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
       arrays.emplace(backend, internal::make_surface_in_tree(surface, *tree));
       return std::make_unique<Lattice_field<Backend>>(backend, arrays->view(), plan);
     };
-    samples = sampler.run(make ? make : own_make, find);
+    samples = sampler.run(make ? make : own_make, find, place);
     if (off_lattice) *off_lattice = sampler.off_lattice();
   } else if (options.sampling == Sampling::stratified) {
     samples = stratified_samples(backend, surface, component, shares, options.random_seed);

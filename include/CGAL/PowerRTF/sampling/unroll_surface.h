@@ -26,10 +26,8 @@ namespace CGAL::PowerRTF {
 
 inline Surface_cube cube_around(const Surface& surface, internal::Concurrency concurrency)
 {
-  const Box3<double> box =
-      internal::box_around(concurrency, static_cast<int>(surface.points.size()), surface.points);
-  const Vec3d size = box.hi - box.lo;
-  return {0.5 * (box.lo + box.hi), 2 / (std::max)({size.x, size.y, size.z})};
+  return cube_around(
+      internal::box_around(concurrency, static_cast<int>(surface.points.size()), surface.points));
 }
 
 namespace internal {
