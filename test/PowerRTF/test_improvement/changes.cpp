@@ -9,11 +9,13 @@
 #include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
+#include <CGAL/PowerRTF/improvement/Face_blocks.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/tags.h>
 
 #include <doctest/doctest.h>
@@ -84,6 +86,52 @@ TEST_CASE("what is watched is what a search of all faces finds")
   check();
   start.restore();
   check();
+}
+
+TEST_CASE("faces near a place are those of a search of all of them, after any changes")
+{
+  Changing_mesh m;
+  const auto& mesh = m.mesh.working().mesh;
+  const double radius = 2 * m.spacing;
+  internal::Face_blocks blocks(m.mesh, 0), whole(m.mesh);
+  std::size_t found = 0;
+  const auto check = [&] {
+    for (int v = 0; v < int(m.mesh.size()); v += 100) {
+      if (mesh.is_removed(Vertex(v))) continue;
+      const Vec3d p = m.mesh.point(Vertex(v));
+      const auto is_near = [&](const Box3<double>& box) {
+        return squared_distance(box, p) < radius * radius;
+      };
+      std::vector<Face> expected;
+      for (const Face f : mesh.faces())
+        if (is_near(blocks.box(f))) expected.push_back(f);
+      for (internal::Face_blocks* faces : {&blocks, &whole})
+        CHECK(faces->find(is_near, [&](Face f) { return is_near(faces->box(f)); }) == expected);
+      found += expected.size();
+    }
+  };
+  // Takes a vertex out, and puts it into an edge far away.
+  const auto relocate = [&](int k) {
+    const auto h = mesh.halfedge(Vertex(100 * k + 7));
+    REQUIRE(CGAL::Euler::does_satisfy_link_condition(mesh.edge(h), mesh));
+    m.mesh.collapse(h);
+    check();
+    const auto split = mesh.halfedge(Vertex(2900 - 100 * k));
+    m.mesh.split(split, m.projector.nearest(m.mesh.point(mesh.target(split))));
+    check();
+  };
+  check();
+  for (int round = 1; round <= 4; ++round) { // few changes, and many
+    CAPTURE(round);
+    m.change(round == 3 ? 1000 : 20, round);
+    check();
+    internal::Star_mesh::Checkpoint start(m.mesh);
+    relocate(2 * round);
+    if (round % 2 == 0) start.restore();
+    check();
+    relocate(2 * round + 1);
+  }
+  CHECK(found > 1000);
 }
 
 TEST_CASE("after any changes far points are as far as the nearest face that agrees")

@@ -56,6 +56,7 @@ public:
   void update_all()
   {
     m_changed.add_all();
+    m_finder.forget();
     update();
   }
 
@@ -168,8 +169,8 @@ private:
   Distance_tracker(const Star_mesh& mesh, Surface_points&& others,
                    Unset_vector<Tracked_point>&& points, double exact,
                    const Unset_vector<int>& faces)
-      : m_mesh(&mesh), m_tree_search_distance(exact), m_changed(mesh), m_others(std::move(others)),
-        m_points(std::move(points))
+      : m_mesh(&mesh), m_tree_search_distance(exact), m_changed(mesh), m_finder(mesh),
+        m_others(std::move(others)), m_points(std::move(points))
   {
     for_each_index(mesh.concurrency(), int(faces.size()), [&](int i) {
       if (faces[i] >= 0)
@@ -260,8 +261,9 @@ private:
     };
     are_vertices() ? add_around(vertices_around(*m_mesh, changed)) : add_around(changed);
     if (topology().number_of_removed_faces() > 0)
-      for (int f = 0; f < int(topology().num_faces()); ++f)
-        if (topology().is_removed(Face(f))) add_at(Face(f));
+      for (const int f : select(m_mesh->concurrency(), int(topology().num_faces()),
+                                [&](int f) { return topology().is_removed(Face(f)); }))
+        add_at(Face(f));
     return points;
   }
 
@@ -332,7 +334,7 @@ private:
     std::vector<Far_point> far;
     for (const int i : some)
       far.push_back({point(i), m_points[i].distance, are_vertices() ? &normal(i) : nullptr});
-    const std::vector<Face> faces = nearest_faces(*m_mesh, far);
+    const std::vector<Face> faces = m_finder.find(std::move(far));
     for_each_index(m_mesh->concurrency(), int(some.size()), [&](int k) {
       try_face(m_points[some[k]], topology().halfedge(faces[k]), Vertex(), {}, any);
     });
@@ -446,7 +448,8 @@ private:
   const Star_mesh* m_mesh;
   double m_tree_search_distance; // the least distance that is searched for in the whole mesh
   Changed_vertices m_changed;    // since the last update
-  Surface_points m_others;       // or none: the surface's vertices are tracked
+  Nearest_face_finder m_finder;
+  Surface_points m_others; // or none: the surface's vertices are tracked
   Unset_vector<Tracked_point> m_points;
   std::vector<int> m_far; // all that are farther than is searched for, and others
   Points_by_face m_faces; // as of the last update

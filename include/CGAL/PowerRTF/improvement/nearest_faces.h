@@ -9,6 +9,7 @@
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/geometry/nearest_facet.h>
+#include <CGAL/PowerRTF/improvement/Face_blocks.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -41,9 +42,13 @@ class Nearest_face_finder {
 public:
   using Face = Working_mesh::Face;
 
-  explicit Nearest_face_finder(const Star_mesh& mesh) : m(mesh) {}
+  explicit Nearest_face_finder(const Star_mesh& mesh) : m(&mesh), m_blocks(mesh) {}
 
-  std::vector<Face> find(std::vector<Far_point> points) const
+  /// The mesh has become another one.
+  void forget() { m_blocks.add_all(); }
+
+  /// Of each point. \pre the mesh has a face
+  std::vector<Face> find(std::vector<Far_point> points)
   {
     std::vector<std::size_t> unknown;
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -51,21 +56,22 @@ public:
     if (unknown.size() <= few)
       for (const std::size_t k : unknown) points[k].reach = some_distance(points[k]);
     const std::optional<Reaches> reaches = find_reaches(points);
-    const std::vector<int> faces = select(m.concurrency(), size(), [&](int f) {
-      return !topology().is_removed(Face(f)) &&
-             (!reaches || is_in_reach(Face(f), points, *reaches));
-    });
+    const auto may_be_nearer = [&](const Box3<double>& box) {
+      return !reaches || is_in_reach(box, points, *reaches);
+    };
+    const std::vector<Face> faces =
+        m_blocks.find(may_be_nearer, [&](Face f) { return may_be_nearer(m_blocks.box(f)); });
     const Facet_tree tree(
-        faces.size(), [&](int k) { return m.points(topology().halfedge(Face(faces[k]))); }, {},
-        m.concurrency());
+        faces.size(), [&](int k) { return m->points(topology().halfedge(faces[k])); }, {},
+        m->concurrency());
     std::vector<Face> nearest(points.size());
-    for_each_chunk(m.concurrency(), int(points.size()), 16, [&](int begin, int end) {
+    for_each_chunk(m->concurrency(), int(points.size()), 16, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         const Far_point& p = points[k];
         int f = -1;
         if (p.normal) f = tree.nearest(p.point, *p.normal, Projection::min_normal_cosine, -1).facet;
         if (f < 0) f = tree.nearest(p.point).facet; // none agrees: any
-        nearest[k] = Face(faces[f]);
+        nearest[k] = faces[f];
       }
     });
     return nearest;
@@ -83,7 +89,7 @@ private:
     Cell_marks cells;
   };
 
-  const Working_mesh::Mesh& topology() const { return m.working().mesh; }
+  const Working_mesh::Mesh& topology() const { return m->working().mesh; }
   int size() const { return int(topology().num_faces()); }
 
   // To the nearest of some faces, of those that agree: that to all is no larger.
@@ -91,11 +97,11 @@ private:
   {
     constexpr int stride = 16;
     return reduce(
-        m.concurrency(), (size() + stride - 1) / stride, unknown_distance,
+        m->concurrency(), (size() + stride - 1) / stride, unknown_distance,
         [&](double& least, int k) {
           const Face f(k * stride);
           if (topology().is_removed(f)) return;
-          const auto [a, b, c] = m.points(topology().halfedge(f));
+          const auto [a, b, c] = m->points(topology().halfedge(f));
           const double d = length(nearest_point_on_triangle(p.point, a, b, c) - p.point);
           if (d < least && (!p.normal || agrees(*p.normal, a, b, c))) least = d;
         },
@@ -110,24 +116,21 @@ private:
     constexpr double rounding = 1e-6; // to single precision
     const int size = static_cast<int>(points.size());
     std::vector<Box3<double>> boxes(size);
-    for_each_index(m.concurrency(), size, [&](int k) {
+    for_each_index(m->concurrency(), size, [&](int k) {
       const double r = (1 + rounding) * points[k].reach + rounding;
       const Vec3d p = points[k].point, reach{r, r, r};
       boxes[k] = {p - reach, p + reach};
     });
     const Packed_tree_layout tree(size);
-    Cell_marks cells(box_around(m.concurrency(), size, boxes));
+    Cell_marks cells(box_around(m->concurrency(), size, boxes));
     for (const Box3<double>& box : boxes) cells.add(box);
     return Reaches{tree, child_boxes(tree, [&](int k) { return boxes[k]; }), std::move(cells)};
   }
 
-  // Whether the face may be nearer to one of the points than what was found.
-  bool is_in_reach(Face f, const std::vector<Far_point>& points, const Reaches& reaches) const
+  // Whether a face in the box may be nearer to one of the points than what was found.
+  static bool is_in_reach(const Box3<double>& box, const std::vector<Far_point>& points,
+                          const Reaches& reaches)
   {
-    const auto [a, b, c] = m.points(topology().halfedge(f));
-    Box3<double> box{a, a};
-    box.add(b);
-    box.add(c);
     if (!reaches.cells.touches(box)) return false;
     bool is_near = false;
     visit_near(
@@ -139,15 +142,9 @@ private:
     return is_near;
   }
 
-  const Star_mesh& m;
+  const Star_mesh* m;
+  Face_blocks m_blocks;
 };
-
-/// The nearest face of each point. \pre the mesh has a face
-inline std::vector<Working_mesh::Face> nearest_faces(const Star_mesh& mesh,
-                                                     std::vector<Far_point> points)
-{
-  return Nearest_face_finder(mesh).find(std::move(points));
-}
 
 } // namespace CGAL::PowerRTF::internal
 
