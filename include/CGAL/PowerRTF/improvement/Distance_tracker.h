@@ -317,10 +317,12 @@ private:
   // Those that seem to be far are searched for in the whole mesh. Returns them.
   std::vector<int> find_far()
   {
+    // Where it pays to look at all vertices before: so many, and more for each point.
+    constexpr std::size_t few = 1 << 16, vertices_per_point = 512;
     m_far = farther_than(m_tree_search_distance);
     const std::vector<int> far = m_far;
     if (far.empty()) return far;
-    if (are_vertices()) {
+    if (are_vertices() && m_mesh->size() <= few + vertices_per_point * far.size()) {
       descend_from_carriers(far);
       m_far = farther_than(m_tree_search_distance);
     }
