@@ -256,6 +256,20 @@ TEST_CASE("sweeps over what is there, but for what has changed, are those over a
     }
 }
 
+TEST_CASE("what sweeps know of one mesh is not taken for another's that came in between")
+{
+  const shapes::Soup soup = shapes::ellipsoid(1, 0.7, 0.4, 4);
+  const Sweeps_case mesh(soup, 500), larger(soup, 4000);
+  const auto sweeps = mesh.host_sweeps(CGAL::Sequential_tag()),
+             others = mesh.host_sweeps(CGAL::Sequential_tag());
+  const auto expected = mesh.smoothed(*others, 2);
+  CHECK(mesh.smoothed(*sweeps, 2).points == expected.points);
+  REQUIRE(sweeps->take(flat_stars(larger.mesh()))); // needs more memory, but is not swept over
+  CHECK(mesh.smoothed(*sweeps, 2).points == expected.points);
+  CHECK(larger.smoothed(*sweeps, 2).points == larger.smoothed(*others, 2).points);
+  CHECK(mesh.smoothed(*sweeps, 2).points == expected.points);
+}
+
 TEST_CASE("where an engine has no room the host sweeps, and the next time all goes there again")
 {
   const Sweeps_case& c = *all()[0].mesh;
