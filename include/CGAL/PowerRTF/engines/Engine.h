@@ -15,7 +15,6 @@
 #include <CGAL/PowerRTF/engines/sound_stars.h>
 #include <CGAL/PowerRTF/geometry/Surface_arrays.h>
 #include <CGAL/PowerRTF/geometry/Surface_in_tree.h>
-#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/internal/listed_arrays.h>
 #include <CGAL/PowerRTF/optimization/Newton_solver.h>
 #include <CGAL/PowerRTF/optimization/position_steps.h>
@@ -46,10 +45,7 @@ public:
   Engine(const Surface_in_tree& surface, const Remeshing_options& options, Arguments&&... backend)
       : m_options(options), m_cos_angle(Real(compatibility_cosine(options.normal_angle))),
         m_resident(surface.resident), m_backend(std::forward<Arguments>(backend)...),
-        m_surface(m_backend, surface), m_area_of_surface(surface.area),
-        m_cube(cube_around(internal::box_around(Backend::concurrency(), surface.facets.vertices,
-                                                surface.facets.points))),
-        m_shared_summary(m_backend)
+        m_surface(m_backend, surface), m_area_of_surface(surface.area), m_shared_summary(m_backend)
   {
     m_summary.allocate(m_backend, 1);
     m_scalar.allocate(m_backend, 1);
@@ -84,7 +80,7 @@ public:
     return std::make_unique<Lattice_field<Backend>>(m_backend, m_surface.view(), plan);
   }
   std::optional<std::size_t> place_candidates(Lattice_field_base& field, std::size_t n) override;
-  void set_samples(const Engine_samples& samples) override;
+  int set_samples(const Engine_samples& samples) override;
   void build_cells() override;
   bool optimize_weights(int passes) override;
   bool newton_weights() override;
@@ -162,8 +158,8 @@ private:
   /// Made anew if its memory has been released.
   Cells& builder();
   void upload_cells(const Engine_samples& samples);
-  /// The placed samples along a curve that fills the cube; they are the ones with cells.
-  void sort(const Surface_cube& cube);
+  /// The placed samples along a curve that fills their cube; they are the ones with cells.
+  void sort();
   void upload_others(const Engine_samples& samples);
   void update_attributes();
   /// The sites have moved.
@@ -230,7 +226,6 @@ private:
   Backend m_backend;
   Surface_arrays<Real, Backend> m_surface;
   double m_area_of_surface;
-  Surface_cube m_cube;                   // around the surface
   std::shared_ptr<Resident_mesh> m_mesh; // the last one; or null
   std::optional<Cells> m_builder;
   // Made when they are needed.

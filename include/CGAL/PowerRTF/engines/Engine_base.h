@@ -63,8 +63,9 @@ public:
   /// As `Place_candidates`.
   virtual std::optional<std::size_t> place_candidates(Lattice_field_base& field, std::size_t n) = 0;
   /// Takes the samples; where none of them has a cell, those that were placed before them. Those
-  /// with cells come into spatial order; the others keep theirs. Weights become 0.
-  virtual void set_samples(const Engine_samples& samples) = 0;
+  /// with cells come into spatial order; the others keep theirs. Weights become 0. \returns how
+  /// many have cells
+  virtual int set_samples(const Engine_samples& samples) = 0;
   virtual void build_cells() = 0;
   virtual bool optimize_weights(int passes) = 0;
   virtual bool newton_weights() = 0;

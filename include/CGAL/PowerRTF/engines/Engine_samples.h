@@ -6,6 +6,7 @@
 #define CGAL_POWER_RTF_ENGINES_ENGINE_SAMPLES_H
 
 #include <CGAL/PowerRTF/engines/Engine.h>
+#include <CGAL/PowerRTF/geometry/box_around.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -44,6 +45,7 @@ std::optional<std::size_t> Engine<R, B, C>::place_candidates(Lattice_field_base&
   const int size = static_cast<int>(n);
   const Sample_candidate* const candidates = chosen->data();
   internal::allocate_listed(m_backend, m_placed, n);
+  m_placed.cube = lattice->cube();
   m_backend.for_each_by_lanes(size, Place_candidate_rule<R>{m_surface.view(), lattice->cube(),
                                                             candidates, m_placed.sites.data(),
                                                             m_placed.facets.data()});
@@ -56,7 +58,7 @@ std::optional<std::size_t> Engine<R, B, C>::place_candidates(Lattice_field_base&
 }
 
 template <class R, class B, class C>
-void Engine<R, B, C>::set_samples(const Engine_samples& samples)
+int Engine<R, B, C>::set_samples(const Engine_samples& samples)
 {
   if (samples.cells > 0) upload_cells(samples);
   m_cells = m_placed.size();
@@ -69,16 +71,14 @@ void Engine<R, B, C>::set_samples(const Engine_samples& samples)
   m_constructions = 0;
   m_mean_mass = 0;
   m_are_edges_wanted = m_are_edges_known = false;
-  const bool are_given = samples.cells > 0; // else they are known there alone
-  sort(are_given ? cube_around(
-                       internal::box_around(B::concurrency(), int(samples.size()), samples.points))
-                 : m_cube);
+  sort();
   if (has_features()) upload_others(samples);
   if (m_has_patches)
     m_backend.for_each(m_size,
                        Take_patches{m_surface.view().patches, m_facets.data(), m_patches.data()});
   m_backend.start_clock();
   update_attributes();
+  return m_cells;
 }
 
 template <class R, class B, class C>
@@ -106,18 +106,21 @@ void Engine<R, B, C>::upload_cells(const Engine_samples& samples)
     sites[i] = {to_real<R>(samples.points[i]), R(0)};
   });
   internal::allocate_listed(m_backend, m_placed, sites.size());
+  m_placed.cube =
+      cube_around(internal::box_around(B::concurrency(), int(samples.size()), samples.points));
   m_backend.upload(m_placed.sites.data(), sites.data(), sites.size());
   m_backend.upload(m_placed.facets.data(), samples.facets.data(), sites.size());
 }
 
 template <class R, class B, class C>
-void Engine<R, B, C>::sort(const Surface_cube& cube)
+void Engine<R, B, C>::sort()
 {
   Buffer<std::uint64_t> codes;
   Buffer<int> order;
   codes.allocate(m_backend, m_cells);
   order.allocate(m_backend, m_cells);
-  m_backend.for_each(m_cells, Find_hilbert_code<R>(cube, m_placed.sites.data(), codes.data()));
+  m_backend.for_each(m_cells,
+                     Find_hilbert_code<R>(m_placed.cube, m_placed.sites.data(), codes.data()));
   m_backend.sort_order(m_cells, codes.data(), order.data(), true);
   m_backend.for_each(m_cells, Take_in_order<R>{m_placed.sites.data(), m_placed.facets.data(),
                                                order.data(), m_sites.data(), m_facets.data()});

@@ -99,7 +99,6 @@ private:
   Surface_in_tree m_in_tree;
   std::unique_ptr<Engine_base> m_engine;
   std::size_t m_size = 0, m_sites = 0; // cells; and with the feature samples' sites
-  std::size_t m_placed = 0;            // samples to come, which the engine has
 };
 
 /// \cgalModels `PowerRTFEngine`

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -79,9 +78,7 @@ CGAL_POWER_RTF_INLINE Make_lattice_field Surface_engine_base::lattice_field_make
 CGAL_POWER_RTF_INLINE Place_candidates Surface_engine_base::candidate_placer()
 {
   return [this](Lattice_field_base& field, std::size_t n) {
-    const std::optional<std::size_t> off_lattice = engine().place_candidates(field, n);
-    m_placed = off_lattice ? n : 0;
-    return off_lattice;
+    return engine().place_candidates(field, n);
   };
 }
 
@@ -91,9 +88,6 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
   engine(); // makes the facets' tree, too
   const std::size_t n = samples.size();
   const Samples& sites = features.sites;
-  const std::size_t placed = std::exchange(m_placed, 0);
-  m_size = n > 0 ? n : placed;
-  m_sites = m_size + sites.size();
   Engine_samples to;
   to.cells = static_cast<int>(n);
   internal::call_at_once(
@@ -108,7 +102,8 @@ CGAL_POWER_RTF_INLINE void Surface_engine_base::set_samples(const Samples& sampl
   to.normals.assign(sites.normals.begin(), sites.normals.end());
   to.density.assign(sites.density.begin(), sites.density.end());
   to.next = features.next;
-  m_engine->set_samples(to);
+  m_size = static_cast<std::size_t>(m_engine->set_samples(to));
+  m_sites = m_size + sites.size();
 }
 
 CGAL_POWER_RTF_INLINE Samples Surface_engine_base::gather(std::size_t count) const

@@ -21,7 +21,8 @@ struct Placed_samples {
   using Buffer = typename Backend::template Buffer<T>;
 
   Buffer<Site<Real>> sites;
-  Buffer<int> facets; ///< places in the tree
+  Buffer<int> facets;  ///< places in the tree
+  Surface_cube cube{}; ///< around them
 
   int size() const { return static_cast<int>(facets.size()); }
 
