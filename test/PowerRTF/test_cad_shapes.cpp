@@ -132,11 +132,18 @@ TEST_CASE("triangles between creases are round on average")
                         double most_above_90) {
     CAPTURE(density);
     const judged_run::Scratch_folder folder;
-    const Run run = met_run(folder, soup, {3000, density});
-    CHECK(double(run.report["q_avg"]) >= least_mean);
-    CHECK(double(run.report["above_90"]) <= most_above_90);
-    CHECK(double(run.report["q_min"]) >= (density == "uniform" ? 0.69 : 0.6));
-    CHECK(double(run.report["theta_min"]) >= (density == "uniform" ? 38 : 30));
+    constexpr unsigned starts = 6; // the share above 90 degrees is chance: from .001 to .004
+    double mean = 0, above_90 = 0;
+    for (unsigned seed = 0; seed < starts; ++seed) {
+      const Run run = met_run(folder, soup, {3000, density, "off", seed});
+      mean += double(run.report["q_avg"]) / starts;
+      above_90 += double(run.report["above_90"]) / starts;
+      if (seed > 0) continue;
+      CHECK(double(run.report["q_min"]) >= (density == "uniform" ? 0.69 : 0.6));
+      CHECK(double(run.report["theta_min"]) >= (density == "uniform" ? 38 : 30));
+    }
+    CHECK(mean >= least_mean);
+    CHECK(above_90 <= most_above_90);
   };
   check(shapes::gear(0.5), "uniform", 0.93, 0.003);
   check(shapes::bracket(3, 16), "uniform", 0.956, 0.002);

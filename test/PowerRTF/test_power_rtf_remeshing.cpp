@@ -289,10 +289,12 @@ TEST_CASE("the report tells how many samples were mended, as the cells did not f
   options.density = Density::uniform;
   CHECK(remesh(shapes::icosphere(4), 1000, options).report.mended_samples < 10);
   const Soup thin = shapes::torus(60, 40, 1, 0.1);
-  const std::size_t some = remesh(thin, 200, options).report.mended_samples;
-  CHECK(some > 5);
-  CHECK(some < 100);
   CHECK(remesh(thin, 60, options).report.mended_samples == 60); // all
+  std::size_t some = 0;
+  for (options.random_seed = 0; options.random_seed < 8; ++options.random_seed)
+    some += remesh(thin, 200, options).report.mended_samples;
+  CHECK(some > 8 * 2);
+  CHECK(some < 8 * 50);
 }
 
 TEST_CASE("the report tells how many vertices were changed one place at a time")

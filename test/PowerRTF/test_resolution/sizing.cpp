@@ -182,7 +182,8 @@ TEST_CASE("regions are refined, also in the middle of a large facet")
       const auto between = [&](const Vec3d& p) {
         return region.distance(p) > 0.1 && region.distance(p) < 0.4;
       };
-      CHECK(std::abs(median_ratio(result.soup, constant, inside) / 0.015 - 1) < 0.03);
+      // of other seeds .005 to .015 and, in the box, .026 to .036
+      CHECK(std::abs(median_ratio(result.soup, constant, inside) / 0.015 - 1) < 0.04);
       CHECK(std::abs(median_ratio(result.soup, constant, far_away) / 0.2 - 1) < 0.06);
       const Field grown = [&](const Vec3d& p) { return 0.015 + 0.3 * region.distance(p); };
       CHECK(std::abs(median_ratio(result.soup, grown, between) - 1) < 0.1);

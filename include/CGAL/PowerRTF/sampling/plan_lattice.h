@@ -68,7 +68,7 @@ inline Lattice_plan lattice_plan(const Surface& surface, const Surface_cube& cub
   if (most + static_cast<double>(features.sites.size()) >= Lattice_edge::none)
     throw Invalid_input_error(std::to_string(samples) +
                               " samples are more than a lattice can have: use another `sampling`");
-  Lattice_plan plan{unroll_surface(surface, cube, component, shares, &tree, concurrency),
+  Lattice_plan plan{unroll_surface(surface, tree, component, shares, concurrency),
                     cube,
                     shares,
                     lattice_levels(samples),

@@ -41,20 +41,25 @@ Samples sample_surface(const Surface& surface, const Remeshing_options& options,
   part.next(0.99);
   Samples samples;
   if (off_lattice) *off_lattice = 0;
+  std::optional<Facet_tree> own_tree;
+  const auto facets = [&]() -> const Facet_tree& {
+    return tree ? *tree
+                : own_tree.emplace(surface.points, surface.triangles, surface.facet_patches);
+  };
   if (options.sampling == Sampling::lattice) {
-    std::optional<Facet_tree> own_tree;
-    if (!tree) tree = &own_tree.emplace(surface.points, surface.triangles, surface.facet_patches);
-    Lattice_sampler<Backend> sampler(backend, surface, *tree, features, component, shares,
+    const Facet_tree& places = facets();
+    Lattice_sampler<Backend> sampler(backend, surface, places, features, component, shares,
                                      options.random_seed);
     std::optional<Surface_arrays<double, Backend>> arrays;
     const Make_lattice_field own_make = [&](const Lattice_plan& plan) {
-      arrays.emplace(backend, internal::make_surface_in_tree(surface, *tree));
+      arrays.emplace(backend, internal::make_surface_in_tree(surface, places));
       return std::make_unique<Lattice_field<Backend>>(backend, arrays->view(), plan);
     };
     samples = sampler.run(make ? make : own_make, find, place);
     if (off_lattice) *off_lattice = sampler.off_lattice();
   } else if (options.sampling == Sampling::stratified) {
-    samples = stratified_samples(backend, surface, component, shares, options.random_seed);
+    samples =
+        stratified_samples(backend, surface, facets(), component, shares, options.random_seed);
   } else {
     samples = internal::draw_samples(surface, options, features, component, shares,
                                      backend.concurrency());

@@ -6,10 +6,8 @@
 #define CGAL_POWER_RTF_SAMPLING_UNROLL_SURFACE_H
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
-#include <CGAL/PowerRTF/geometry/Hilbert_table.h>
 #include <CGAL/PowerRTF/geometry/Surface.h>
 #include <CGAL/PowerRTF/geometry/box_around.h>
-#include <CGAL/PowerRTF/geometry/hilbert_code.h>
 #include <CGAL/PowerRTF/internal/Unset_vector.h>
 #include <CGAL/PowerRTF/internal/order_by_key.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
@@ -32,29 +30,22 @@ inline Surface_cube cube_around(const Surface& surface, internal::Concurrency co
 
 namespace internal {
 
-/// The facets of components with samples: component by component, each along a Hilbert curve.
-inline std::vector<int> unrolled_facets(const Surface& surface, const Surface_cube& cube,
-                                        const std::vector<int>& component,
+/// The facets of components with samples: component by component, each in the order of the tree.
+inline std::vector<int> unrolled_facets(const Facet_tree& tree, const std::vector<int>& component,
                                         const std::vector<Component_share>& shares,
                                         Concurrency concurrency)
 {
-  const Hilbert_table& curve = Hilbert_table::get();
-  std::vector<int> facets = select(concurrency, static_cast<int>(component.size()),
-                                   [&](int f) { return shares[component[f]].samples > 0; });
-  const auto sort_by = [&](auto&& key) {
-    const std::vector<int> before = facets;
-    const int size = static_cast<int>(facets.size());
-    order_by_key(
-        concurrency, size, [&](int k) { return key(before[k]); }, facets.data());
-    for_each_index(concurrency, size, [&](int k) { facets[k] = before[facets[k]]; });
-  };
-  sort_by([&](int f) {
-    const Triangle& t = surface.triangles[f];
-    const auto& p = surface.points;
-    const Vec3d center = (p[t[0]] + p[t[1]] + p[t[2]]) * (1. / 3);
-    return curve.index(hilbert_cube(cube.to_inside(center)));
+  std::vector<int> facets = select(concurrency, static_cast<int>(component.size()), [&](int place) {
+    return shares[component[tree.order()[place]]].samples > 0;
   });
-  if (shares.size() > 1) sort_by([&](int f) { return std::uint64_t(component[f]) << 32; });
+  const int size = static_cast<int>(facets.size());
+  for_each_index(concurrency, size, [&](int k) { facets[k] = tree.order()[facets[k]]; });
+  if (shares.size() == 1) return facets;
+  const std::vector<int> before = facets;
+  order_by_key(
+      concurrency, size, [&](int k) { return std::uint64_t(component[before[k]]) << 32; },
+      facets.data());
+  for_each_index(concurrency, size, [&](int k) { facets[k] = before[facets[k]]; });
   return facets;
 }
 
@@ -76,15 +67,14 @@ inline int longest_edge(const Surface& surface, int f)
 
 /// Unrolls a surface. The mass of a component, over all parts of it, is its number of samples,
 /// spread like the density.
+/// \param tree its places are the facets' numbers in the result
 /// \param component of each facet
-/// \param tree its places are the facets' numbers in the result; null: those of the surface are
-inline Surface_strata unroll_surface(const Surface& surface, const Surface_cube& cube,
+inline Surface_strata unroll_surface(const Surface& surface, const Facet_tree& tree,
                                      const std::vector<int>& component,
                                      const std::vector<Component_share>& shares,
-                                     const Facet_tree* tree, internal::Concurrency concurrency)
+                                     internal::Concurrency concurrency)
 {
-  const std::vector<int> facets =
-      internal::unrolled_facets(surface, cube, component, shares, concurrency);
+  const std::vector<int> facets = internal::unrolled_facets(tree, component, shares, concurrency);
   const int size = static_cast<int>(facets.size());
   Surface_strata strata;
   strata.bases.resize(size);
@@ -93,7 +83,7 @@ inline Surface_strata unroll_surface(const Surface& surface, const Surface_cube&
   strata.sums[size] = 0;
   internal::for_each_index(concurrency, size, [&](int k) {
     const int f = facets[k], c = component[f];
-    strata.bases[k] = 3 * (tree ? tree->place(f) : f) + internal::longest_edge(surface, f);
+    strata.bases[k] = 3 * tree.place(f) + internal::longest_edge(surface, f);
     strata.components[k] = c;
     const double per_mass = static_cast<double>(shares[c].samples) / shares[c].mass;
     strata.sums[k] = per_mass * internal::density_mass(surface, f);
@@ -104,15 +94,15 @@ inline Surface_strata unroll_surface(const Surface& surface, const Surface_cube&
 
 /// A random point in each of as many parts of equal mass as there are samples.
 template <class Backend>
-Samples stratified_samples(Backend& backend, const Surface& surface,
+Samples stratified_samples(Backend& backend, const Surface& surface, const Facet_tree& tree,
                            const std::vector<int>& component,
                            const std::vector<Component_share>& shares, std::uint64_t seed)
 {
-  const Surface_strata strata = unroll_surface(surface, cube_around(surface, backend.concurrency()),
-                                               component, shares, nullptr, backend.concurrency());
+  const Surface_strata strata =
+      unroll_surface(surface, tree, component, shares, backend.concurrency());
   const Strata_view view = strata.view();
-  const auto densities = [&](int f) {
-    const Triangle& t = surface.triangles[f];
+  const auto densities = [&](int place) {
+    const Triangle& t = surface.triangles[tree.order()[place]];
     const auto& rho = surface.vertex_density;
     return Vec3d{rho[t[0]], rho[t[1]], rho[t[2]]};
   };
@@ -120,7 +110,7 @@ Samples stratified_samples(Backend& backend, const Surface& surface,
   internal::Unset_vector<Facet_place> places(n);
   backend.for_each(n, [&](int i) {
     const auto [at, w] = view.point(i, n, seed, densities);
-    places[i] = {view.facet(at), {w.x, w.y, w.z}};
+    places[i] = {tree.order()[view.facet(at)], {w.x, w.y, w.z}};
   });
   Samples samples;
   internal::add_samples(surface, places, samples, backend.concurrency());
