@@ -13,9 +13,8 @@
 #include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
-#include <CGAL/PowerRTF/improvement/better_flips.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
-#include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
+#include <CGAL/PowerRTF/improvement/flat_stars.h>
 #include <CGAL/PowerRTF/smoothing/triangle_badness.h>
 
 #include <algorithm>
@@ -55,7 +54,9 @@ public:
   Stars smoothed(Star_sweeps_base& sweeps, int steps) const
   {
     Stars swept;
-    if (sweeps.take(flat_stars(m_mesh))) sweeps.smooth(steps, swept);
+    if (!sweeps.take(flat_stars(m_mesh))) return swept;
+    sweeps.smooth(steps);
+    sweeps.read(swept);
     return swept;
   }
   /// `gain`: becomes the mean distance of the surface's vertices before, over that after.
@@ -67,12 +68,11 @@ public:
                                        mesh.concurrency()));
     const double before = mean_distance(tracker);
     const Flat_patches flat(m_case.surface);
-    const internal::Surface_fitter fitter(mesh, tracker, flat, 0.3);
     Stars swept;
-    if (!sweeps.take(flat_stars(mesh))) return swept;
-    internal::Flat_fit fit = fitter.equations();
-    if (!sweeps.fit(fit, swept)) return {};
-    mesh.move_all(swept, fit.heights.data());
+    if (!sweeps.take(flat_stars(mesh)) || !sweeps.fit(flat_fit(mesh, tracker, flat, 0.3)))
+      return swept;
+    sweeps.read(swept);
+    mesh.move_all(swept);
     tracker.update();
     gain = before / mean_distance(tracker);
     return swept;
@@ -138,32 +138,24 @@ std::vector<double> distances(const A& a, const B& b)
   return result;
 }
 
-/// What is to be found at doubtful vertices.
+/// Bad triangles.
 struct Doubts {
-  int flips = 0, bad = 0; ///< edges of which a flip helps, bad triangles
-  int missed = 0;         ///< of these: at vertices that are not doubtful
+  int bad = 0, missed = 0; ///< and those without a doubtful corner
 };
 
 /// Of a mesh whose vertices are where they are in `swept`.
 inline Doubts doubts(internal::Star_mesh mesh, const internal::Swept_vertices& swept)
 {
   mesh.move_all(swept);
-  const internal::Working_mesh& working = mesh.working();
   Doubts result;
-  const auto note = [&](int& count, const auto& corners) {
-    ++count;
+  for (const auto f : mesh.working().mesh.faces()) {
+    const auto [a, b, c] = mesh.points(mesh.working().mesh.halfedge(f));
+    if (!(internal::triangle_badness(a, b, c).badness > 0)) continue;
+    ++result.bad;
+    const auto corners = mesh.working().corners(f);
     result.missed += std::none_of(corners.begin(), corners.end(), [&](const auto v) {
       return std::binary_search(swept.doubtful.begin(), swept.doubtful.end(), int(v));
     });
-  };
-  const auto energy = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    return internal::shape_energy(a, b, c);
-  };
-  for (const auto e : working.mesh.edges())
-    if (is_better_flipped(mesh, e, energy, 0, -1)) note(result.flips, mesh.corners(e));
-  for (const auto f : working.mesh.faces()) {
-    const auto [a, b, c] = mesh.points(working.mesh.halfedge(f));
-    if (internal::triangle_badness(a, b, c).badness > 0) note(result.bad, working.corners(f));
   }
   return result;
 }

@@ -7,14 +7,13 @@
 
 #include <CGAL/PowerRTF/geometry/Facet_tree.h>
 #include <CGAL/PowerRTF/improvement/Changed_vertices.h>
-#include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/Surface_projector.h>
 #include <CGAL/PowerRTF/improvement/Vertex_mover.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/flat_stars.h>
+#include <CGAL/PowerRTF/improvement/flip_edges.h>
 #include <CGAL/PowerRTF/improvement/optimize_bad_triangles.h>
-#include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/quality/surface_distance.h>
 #include <CGAL/PowerRTF/sampling/random_source.h>
 #include <CGAL/PowerRTF/smoothing/smooth_vertex.h>
@@ -220,10 +219,7 @@ TEST_CASE("dislocations glide to each other and annihilate")
   REQUIRE(irregular() == 4);
   const bool are_near = length < 12;
   if (length > 1) { // flips alone do not help
-    const auto sweeps =
-        internal::make_host_star_sweeps(projector.descent(), 0, CGAL::Sequential_tag());
-    internal::Mesh_sweeper sweeper(mesh, nullptr, *sweeps);
-    internal::Mesh_smoother(mesh, sweeper).flip();
+    internal::Shape_flipper(mesh).run();
     CHECK(irregular() == 4);
   }
   internal::Dislocation_annihilator annihilator(mesh);

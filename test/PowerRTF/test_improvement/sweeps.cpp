@@ -123,14 +123,9 @@ public:
     taken.push_back(stars.are_all ? -1 : stars.size());
     return has_room && m_sweeps->take(stars);
   }
-  void smooth(int steps, internal::Swept_vertices& swept) override
-  {
-    m_sweeps->smooth(steps, swept);
-  }
-  bool fit(internal::Flat_fit& fit, internal::Swept_vertices& swept) override
-  {
-    return has_room_to_fit && m_sweeps->fit(fit, swept);
-  }
+  void smooth(int steps) override { m_sweeps->smooth(steps); }
+  bool fit(const internal::Flat_fit& fit) override { return has_room_to_fit && m_sweeps->fit(fit); }
+  void read(internal::Swept_vertices& swept) override { m_sweeps->read(swept); }
 
   std::vector<int> taken; // so many stars; -1: all
   bool has_room = true, has_room_to_fit = true;
@@ -138,6 +133,25 @@ public:
 private:
   std::unique_ptr<Star_sweeps_base> m_sweeps;
 };
+
+std::vector<int> smooth(internal::Mesh_sweeper& sweeper, int steps)
+{
+  return sweeper.sweep([&](Star_sweeps_base& sweeps) {
+    sweeps.smooth(steps);
+    return true;
+  });
+}
+
+// Of a mesh, by sweeps over it.
+std::vector<int> fit(internal::Mesh_sweeper& sweeper, const internal::Star_mesh& mesh)
+{
+  const Surface& surface = mesh.projector().surface();
+  const internal::Distance_tracker tracker(
+      mesh,
+      internal::tracked_points(surface, mesh.projector().tree(), mesh.size(), mesh.concurrency()));
+  const internal::Flat_fit fit = flat_fit(mesh, tracker, Flat_patches(surface), 0.3);
+  return sweeper.sweep([&](Star_sweeps_base& sweeps) { return sweeps.fit(fit); });
+}
 
 // As an engine finds them.
 template <class Tag>
@@ -227,23 +241,18 @@ TEST_CASE("sweeps over what is there, but for what has changed, are those over a
       internal::Star_mesh mesh = c->mesh(), expected = c->mesh();
       Noting_sweeps sweeps(c->host_sweeps(concurrency)), over_all(c->host_sweeps(concurrency));
       internal::Mesh_sweeper sweeper(mesh, nullptr, sweeps);
-      const Flat_patches flat(c->surface());
-      const auto fit = [&](internal::Star_mesh& m, internal::Mesh_sweeper& by) {
-        internal::Distance_tracker tracker(
-            m, internal::tracked_points(c->surface(), m.projector().tree(), m.size(), concurrency));
-        return internal::Surface_fitter(m, tracker, flat, 0.3).run(by);
-      };
       for (unsigned pass = 0; pass < 5; ++pass) {
         CAPTURE(pass);
         internal::Mesh_sweeper anew(expected, nullptr, over_all);
         if (pass == 3)
-          CHECK(fit(mesh, sweeper) == fit(expected, anew));
+          CHECK(fit(sweeper, mesh) == fit(anew, expected));
         else
-          CHECK(sweeper.smooth(2) == anew.smooth(2));
+          CHECK(smooth(sweeper, 2) == smooth(anew, 2));
         const auto swept = flat_stars(mesh), as_expected = flat_stars(expected);
         CHECK(swept.points == as_expected.points);
         CHECK(swept.normals == as_expected.normals);
         CHECK(swept.facets == as_expected.facets);
+        CHECK(swept.heights == as_expected.heights);
         edit(mesh, pass);
         edit(expected, pass);
       }
@@ -279,7 +288,7 @@ TEST_CASE("where an engine has no room the host sweeps, and the next time all go
   internal::Mesh_sweeper sweeper(mesh, &there, here);
   const auto step = [&] {
     const internal::Flat_stars before = flat_stars(mesh);
-    sweeper.smooth(1);
+    smooth(sweeper, 1);
     CHECK(flat_stars(mesh).points != before.points);
   };
   step();
@@ -303,11 +312,7 @@ TEST_CASE("where an engine has no room the host sweeps, and the next time all go
   CHECK(there.taken == std::vector<int>{-1, there.taken[1], 0, -1, -1, 0});
   CHECK(here.taken.size() == 2);
   there.has_room_to_fit = false;
-  const Flat_patches flat(c.surface());
-  internal::Distance_tracker tracker(mesh,
-                                     internal::tracked_points(c.surface(), mesh.projector().tree(),
-                                                              mesh.size(), CGAL::Sequential_tag()));
-  internal::Surface_fitter(mesh, tracker, flat, 0.3).run(sweeper);
+  fit(sweeper, mesh);
   CHECK(here.taken.size() == 3);
   step();
   CHECK(there.taken.back() == -1);

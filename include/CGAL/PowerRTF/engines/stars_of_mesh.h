@@ -112,6 +112,7 @@ bool make_stars(Backend& backend, const Mesh_arrays& mesh, const int* opposite,
   backend.for_each(n, Copy_points{mesh.points, stars.points.data()});
   uploaded(backend, stars.normals, vertices.normals);
   uploaded(backend, stars.facets, vertices.facets);
+  backend.fill(stars.heights.data(), 0., std::size_t(n));
   return true;
 }
 

@@ -19,7 +19,7 @@ struct Improvement_parameters {
   /// improve_mesh.h
   struct Schedule {
     static constexpr int max_attempts = 8;
-    static constexpr int smoothing_passes = 2, last_smoothing_passes = 2;
+    static constexpr int smoothing_passes = 5; ///< before the first fit
     static constexpr int optimization_rounds = 8;
     static constexpr int sliding_passes = 2, sliding_rounds = 4;
     static constexpr int rounding_rounds = 4, last_rounding_rounds = 8;
@@ -256,9 +256,6 @@ struct Improvement_parameters {
     static constexpr int optimization_rounds = 16;
   };
 };
-
-/// What is less than this times another number is less: rounding decides nothing.
-constexpr double clearly_less = 1 - 1e-9;
 
 } // namespace CGAL::PowerRTF::internal
 

@@ -28,24 +28,14 @@ public:
   }
   Mesh_sweeper(const Mesh_sweeper&) = delete;
 
-  /// Moves all vertices so many times. \returns those that are left doubtful.
-  std::vector<int> smooth(int steps)
+  /// Where `f(sweeps)` does not return `false`, the vertices go to where it has moved them.
+  /// \returns those that are left doubtful.
+  template <class F>
+  std::vector<int> sweep(const F& f)
   {
-    return sweep([&](Star_sweeps_base& sweeps, Swept_vertices& swept) {
-      sweeps.smooth(steps, swept);
-      m.move_all(swept);
-      return true;
-    });
-  }
-
-  /// Moves all vertices nearer to the surface. \returns those that are left doubtful.
-  std::vector<int> fit(Flat_fit&& fit)
-  {
-    return sweep([&](Star_sweeps_base& sweeps, Swept_vertices& swept) {
-      if (!sweeps.fit(fit, swept)) return false;
-      m.move_all(swept, fit.heights.data());
-      return true;
-    });
+    Swept_vertices swept;
+    if (!m_there.sweeps || !is_swept(m_there, f, swept)) is_swept(m_here, f, swept);
+    return std::move(swept.doubtful);
   }
 
   /// How many vertices, or their edges, have changed otherwise, before sweeps and since the last.
@@ -58,17 +48,8 @@ private:
     std::optional<Changed_vertices> changed; // since the last sweeps here; none: not known
   };
 
-  // Where `f(sweeps, swept)` does not return `false`.
   template <class F>
-  std::vector<int> sweep(const F& f)
-  {
-    Swept_vertices swept;
-    if (!m_there.sweeps || !is_swept(m_there, swept, f)) is_swept(m_here, swept, f);
-    return std::move(swept.doubtful);
-  }
-
-  template <class F>
-  bool is_swept(Place& place, Swept_vertices& swept, const F& f)
+  bool is_swept(Place& place, const F& f, Swept_vertices& swept)
   {
     constexpr std::size_t vertices_per_change = 2;
     std::vector<int> changed;
@@ -78,8 +59,10 @@ private:
     place.has_stars =
         place.sweeps->take(place.has_stars && are_few ? flat_stars(m, std::move(changed))
                                                       : flat_stars(m)) &&
-        f(*place.sweeps, swept);
+        f(*place.sweeps);
     if (!place.has_stars) return false;
+    place.sweeps->read(swept);
+    m.move_all(swept);
     if (!place.changed) place.changed.emplace(m);
     place.changed->assign({});
     m_last = &place;

@@ -393,16 +393,15 @@ public:
     m.mesh.point(v) = Working_mesh::Point(q.x, q.y, q.z);
   }
 
-  /// The vertices go where sweeps have moved them, to these heights, or 0. \pre nothing is noted
-  void move_all(const Swept_vertices& swept, const double* heights = nullptr)
+  /// The vertices go where sweeps have moved them. \pre nothing is noted
+  void move_all(const Swept_vertices& swept)
   {
     for_each_index(m_concurrency, swept.size(), [&](int i) {
       const Vertex v(i);
-      const bool has_moved = !(swept.points[i] == point(v));
-      if (has_moved) set_point(v, swept.points[i]);
+      if (!(swept.points[i] == point(v))) set_point(v, swept.points[i]);
       m.normals[v] = swept.normals[i];
       m_facets[v] = swept.facets[i];
-      if (heights || has_moved) m_heights[v] = heights ? heights[i] : 0;
+      m_heights[v] = swept.heights[i];
     });
   }
 

@@ -11,7 +11,6 @@
 #include <CGAL/PowerRTF/fields/gradation.h>
 #include <CGAL/PowerRTF/improvement/Distance_tracker.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
-#include <CGAL/PowerRTF/improvement/Mesh_sweeper.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/internal/parallel.h>
 
@@ -22,64 +21,35 @@
 
 namespace CGAL::PowerRTF::internal {
 
-class Surface_fitter {
-public:
-  using Vertex = Star_mesh::Vertex;
-
-  /// `flat`: of the surface. `limit`: the badness that a move may bring upon a triangle that was
-  /// better.
-  Surface_fitter(Star_mesh& mesh, const Distance_tracker& tracker, const Flat_patches& flat,
-                 double limit)
-      : m(mesh), m_tracker(tracker), m_flat(flat), m_badness_limit(limit)
-  {}
-
-  /// \returns the vertices that are left doubtful.
-  std::vector<int> run(Mesh_sweeper& sweeper) const { return sweeper.fit(equations()); }
-
-  /// What `Star_sweeps_base::fit()` has to know.
-  Flat_fit equations() const
-  {
-    const Surface& surface = m.projector().surface();
-    Flat_fit fit;
-    const double density =
-        std::min(1., double(m_tracker.size()) / (Parameters::fully_tracked * double(m.size())));
-    fit.tracked_weight = Parameters::tracked_weight * density * density;
-    fit.tangential_weight = has_uniform_density(surface) ? Parameters::even_tangential_weight
-                                                         : Parameters::tangential_weight;
-    fit.badness_limit = m_badness_limit;
-    fit.heights.resize(m.size());
-    for_each_index(m.concurrency(), int(m.size()),
-                   [&](int v) { fit.heights[v] = m.height(Vertex(v)); });
-    add_tracked(fit);
-    const double width = Parameters::flat_width * std::sqrt(surface.area / double(m.size()));
-    fit.is_wide.resize(surface.triangles.size());
-    for_each_index(m.concurrency(), int(fit.is_wide.size()),
-                   [&](int f) { fit.is_wide[f] = m_flat.width(f) > width; });
-    return fit;
-  }
-
-private:
+/// What `Star_sweeps_base::fit()` has to know to fit `mesh` to its surface, of which `flat` is.
+/// `tracker`: of the surface's vertices. `badness_limit`: that a move may bring upon a triangle
+/// that was better.
+inline Flat_fit flat_fit(const Star_mesh& mesh, const Distance_tracker& tracker,
+                         const Flat_patches& flat, double badness_limit)
+{
   using Parameters = Improvement_parameters::Fitting;
-
-  void add_tracked(Flat_fit& fit) const
-  {
-    const int n = m_tracker.size();
-    fit.tracked.resize(n);
-    fit.tracked_corners.resize(3 * std::size_t(n));
-    for_each_index(m.concurrency(), n, [&](int i) {
-      const auto& w = m_tracker[i];
-      fit.tracked[i] = {
-          m_tracker.point(i), m_tracker.normal(i), w.nearest, w.distance, w.weight, w.facet};
-      const auto corners = m.working().corners(w.face);
-      std::copy(corners.begin(), corners.end(), &fit.tracked_corners[3 * std::size_t(i)]);
-    });
-  }
-
-  Star_mesh& m;
-  const Distance_tracker& m_tracker;
-  const Flat_patches& m_flat;
-  double m_badness_limit;
-};
+  const Surface& surface = mesh.projector().surface();
+  Flat_fit fit;
+  const double density =
+      std::min(1., double(tracker.size()) / (Parameters::fully_tracked * double(mesh.size())));
+  fit.tracked_weight = Parameters::tracked_weight * density * density;
+  fit.tangential_weight = has_uniform_density(surface) ? Parameters::even_tangential_weight
+                                                       : Parameters::tangential_weight;
+  fit.badness_limit = badness_limit;
+  fit.tracked.resize(tracker.size());
+  for_each_index(mesh.concurrency(), tracker.size(), [&](int i) {
+    const Tracked_point& w = tracker[i];
+    int near = -1;
+    for (const Star_mesh::Vertex v : mesh.working().corners(w.face))
+      if (mesh.is_movable(v)) near = int(v);
+    fit.tracked[i] = {w.vertex, w.facet, near, w.weight};
+  });
+  const double width = Parameters::flat_width * std::sqrt(surface.area / double(mesh.size()));
+  fit.is_wide.resize(surface.triangles.size());
+  for_each_index(mesh.concurrency(), int(fit.is_wide.size()),
+                 [&](int f) { fit.is_wide[f] = flat.width(f) > width; });
+  return fit;
+}
 
 } // namespace CGAL::PowerRTF::internal
 

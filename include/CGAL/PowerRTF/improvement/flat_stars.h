@@ -34,6 +34,7 @@ Flat_stars flat_stars(const Star_mesh& mesh, int n, const Vertex& vertex)
   stars.first[n] = 0;
   for (auto array : {&stars.points, &stars.normals}) array->resize(n);
   stars.facets.resize(n);
+  stars.heights.resize(n);
   stars.kinds.resize(n);
   const int chunk = std::clamp(n / 128, 64, 1024);
   std::vector<std::vector<int>> parts((n + chunk - 1) / chunk); // of the neighbors
@@ -45,6 +46,7 @@ Flat_stars flat_stars(const Star_mesh& mesh, int n, const Vertex& vertex)
       stars.points[i] = mesh.point(v);
       stars.normals[i] = mesh.normal(v);
       stars.facets[i] = mesh.facet(v);
+      stars.heights[i] = mesh.height(v);
       stars.kinds[i] = star_kind(mesh, v);
       const std::size_t before = part.size();
       if (mesh.is_movable(v))

@@ -7,18 +7,18 @@
 //
 //   repeat, at most 8 times:
 //     start from the extracted mesh, with some vertices locked (at first none)
+//     flip edges                                                           flip_edges.h
 //     unless dislocations are to be kept:
-//       flip edges; twice (the second attempt: once): smooth vertices       smooth_mesh.h
-//       annihilate dislocations of the lattice                 annihilate_dislocations.h
-//     flip edges; twice (the second attempt, if they are kept: once): smooth vertices
-//     optimize
-//     if there are creases or borders, twice:
-//       slide vertices along them; optimize                                slide_features.h
+//       annihilate dislocations of the lattice; flip edges     annihilate_dislocations.h
+//     smooth vertices five times (the second attempt: four times)       smooth_vertex.h
+//     if there are creases or borders:
+//       optimize; twice: slide vertices along them; optimize             slide_features.h
 //     if there are creases:
 //       make triangles rounder on average             round_mesh.h, reconnect_mesh.h
 //       move vertices off bent creases, so that their edges come near      fit_creases.h
+//     fit the mesh to the surface by least squares, smooth vertices once, fit it again; optimize
+//                                                                        fit_to_surface.h
 //     move vertices to far tips of the surface and pin them; optimize      cover_tips.h
-//     fit the mesh to the surface by least squares; optimize               fit_to_surface.h
 //     release the pinned vertices of bad triangles; optimize
 //     if there are bad triangles, and creases or borders, twice: slide; optimize
 //     put vertices from flat parts into far places                         relocate_vertices.h
@@ -44,11 +44,13 @@
 #include <CGAL/PowerRTF/features/flat_patches.h>
 #include <CGAL/PowerRTF/improvement/Host_star_sweeps.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
+#include <CGAL/PowerRTF/improvement/Mesh_sweeper.h>
 #include <CGAL/PowerRTF/improvement/annihilate_dislocations.h>
 #include <CGAL/PowerRTF/improvement/cover_tips.h>
 #include <CGAL/PowerRTF/improvement/fit_creases.h>
 #include <CGAL/PowerRTF/improvement/fit_to_surface.h>
 #include <CGAL/PowerRTF/improvement/flat_stars.h>
+#include <CGAL/PowerRTF/improvement/flip_edges.h>
 #include <CGAL/PowerRTF/improvement/improve_mesh.h>
 #include <CGAL/PowerRTF/improvement/keep_areas.h>
 #include <CGAL/PowerRTF/improvement/keep_distance.h>
@@ -58,7 +60,6 @@
 #include <CGAL/PowerRTF/improvement/relocate_vertices.h>
 #include <CGAL/PowerRTF/improvement/round_mesh.h>
 #include <CGAL/PowerRTF/improvement/slide_features.h>
-#include <CGAL/PowerRTF/improvement/smooth_mesh.h>
 #include <CGAL/PowerRTF/improvement/tracked_points.h>
 #include <CGAL/PowerRTF/internal/Background_work.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -112,7 +113,10 @@ public:
   {
     Progress_part part(0.93); // the first attempt, which mostly does
     for (int attempt = 0; attempt < Schedule::max_attempts; ++attempt) {
-      if (attempt > 0) m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency);
+      if (attempt > 0) {
+        m_stars.emplace(m_mesh, m_projector, m_settings.carriers, m_concurrency);
+        m_tracker.update_all();
+      }
       Star_mesh& stars = *m_stars;
       stars.lock(m_locked);
       improve(stars, attempt == 1 ? 1 : 0);
@@ -220,23 +224,17 @@ private:
   void improve(Star_mesh& stars, int passes_less)
   {
     Progress_part part(0.1);
+    Shape_flipper flipper(stars);
+    if (m_flips) flipper.expect(std::vector<Working_mesh::Edge>(*m_flips));
     Mesh_sweeper sweeper(stars, m_sweeps.get(), *m_host_sweeps,
                          std::exchange(m_has_given_stars, false));
-    Mesh_smoother smoother(stars, sweeper);
-    if (m_flips) smoother.expect_flips(std::vector<Working_mesh::Edge>(*m_flips));
+    flipper.run();
     if (m_settings.dislocations == Dislocations::annihilate) {
-      smoother.flip();
-      std::optional<Dislocation_annihilator> annihilator;
-      Background_work finding(m_concurrency, [&] { annihilator.emplace(stars); });
-      smoother.smooth(Schedule::smoothing_passes - std::exchange(passes_less, 0));
-      part.next(0.2);
-      finding.finish();
-      annihilator->run();
+      Dislocation_annihilator(stars).run();
+      flipper.run();
     }
-    part.next(0.4);
+    part.next(0.3);
     Bad_triangle_optimizer optimizer(stars);
-    smoother.flip();
-    optimizer.expect_at(smoother.smooth(Schedule::last_smoothing_passes - passes_less));
     const auto optimize = [&] { optimizer.run(Schedule::optimization_rounds); };
     const auto slide = [&] {
       Feature_slider slider(stars, m_surface);
@@ -245,22 +243,23 @@ private:
         optimize();
       }
     };
+    const int passes = Schedule::smoothing_passes - passes_less;
     const bool has_features = !m_mesh.feature_edges.empty();
-    part.next(0.6);
-    optimize();
-    if (has_features) slide();
     const bool is_creased = has_features && has_creases(stars);
-    if (is_creased) round(stars, false);
-    part.next(0.63);
-    m_tracker.update_all();
-    part.next(0.66);
-    Tip_coverer(stars, m_tracker, Schedule::healable_badness).run(Schedule::far_share);
+    if (has_features) {
+      optimizer.expect_at(smooth(sweeper, passes));
+      optimize();
+      slide();
+      if (is_creased) round(stars, false);
+      m_tracker.update_all();
+    }
+    part.next(0.5);
+    optimizer.expect_at(has_features ? fit(stars, sweeper, 0) : fit(stars, sweeper, passes));
+    part.next(0.7);
     optimize();
-    m_tracker.update();
-    part.next(0.75);
-    optimizer.expect_at(
-        Surface_fitter(stars, m_tracker, m_prepared->flat, Schedule::healable_badness)
-            .run(sweeper));
+    m_tracker.update_all();
+    part.next(0.8);
+    Tip_coverer(stars, m_tracker, Schedule::healable_badness).run(Schedule::far_share);
     optimize();
     if (optimizer.release_pinned() > 0) optimize();
     if (has_features && optimizer.is_needed()) slide();
@@ -286,6 +285,27 @@ private:
       m_tracker.update();
     }
     m_changes = sweeper.changes();
+  }
+
+  // Moves all vertices so many times. Returns those that are left doubtful.
+  static std::vector<int> smooth(Mesh_sweeper& sweeper, int passes)
+  {
+    return sweeper.sweep([passes](Star_sweeps_base& sweeps) {
+      sweeps.smooth(passes);
+      return true;
+    });
+  }
+
+  // After that moves all vertices nearer to the surface. Returns those that are left doubtful.
+  std::vector<int> fit(const Star_mesh& stars, Mesh_sweeper& sweeper, int passes) const
+  {
+    const Flat_fit fit = flat_fit(stars, m_tracker, m_prepared->flat, Schedule::healable_badness);
+    return sweeper.sweep([&](Star_sweeps_base& sweeps) {
+      sweeps.smooth(passes);
+      if (!sweeps.fit(fit)) return false;
+      sweeps.smooth(1);
+      return sweeps.fit(fit);
+    });
   }
 
   // Whether there are features that are no borders.

@@ -7,25 +7,32 @@
 #include <CGAL/PowerRTF/internal/mark_firsts.h>
 #include <CGAL/PowerRTF/smoothing/Fit_equations.h>
 #include <CGAL/PowerRTF/smoothing/Star_faces.h>
+#include <CGAL/PowerRTF/smoothing/nearest_place.h>
 
 #include <cstddef>
 #include <cstdint>
 
 namespace CGAL::PowerRTF::internal {
 
-/// The numbers of the faces of tracked points; that of no face where no corner may move.
-struct Number_tracked_faces {
-  Counting_spokes spokes;
-  const int* corners; ///< three per point
+/// The places of the mesh nearest to tracked vertices, and their faces; that of no face where no
+/// corner may move.
+struct Find_tracked_places {
+  Star_view stars;
+  const Tracked_vertex* tracked;
   const int* spoke_faces;
   int number_of_faces;
+  Tracked_place* places;
   int* face;
 
   CGAL_POWER_RTF_HD void operator()(int i) const
   {
-    const int* const t = corners + 3 * std::size_t(i);
-    const int k = spokes.of_face(t[0], t[1], t[2]);
-    face[i] = k < 0 ? number_of_faces : spoke_faces[k];
+    const Tracked_vertex& w = tracked[i];
+    Star_place near;
+    if (w.near >= 0)
+      near = nearest_place(stars, stars.surface.points[w.vertex],
+                           stars.surface.vertex_normals[w.vertex], w.near);
+    places[i] = {near.point, near.distance, w.vertex, w.facet, w.weight};
+    face[i] = near.spoke < 0 ? number_of_faces : spoke_faces[near.spoke];
   }
 };
 
@@ -43,7 +50,6 @@ struct Fit_arrays {
   using Buffer = typename Backend::template Buffer<T>;
 
   Star_faces<Backend> mesh;
-  Buffer<double> heights;
   Buffer<int> first_tracked;
   Buffer<Tracked_place> tracked;
   Buffer<unsigned char> is_wide;
@@ -54,11 +60,10 @@ struct Fit_arrays {
 
   /// See listed_arrays.h. But for those of the mesh, and the couplings.
   template <class F>
-  static void for_each_array(F&& f, const Flat_fit& fit, std::size_t faces, std::size_t edges)
+  static void for_each_array(F&& f, const Flat_fit& fit, std::size_t vertices, std::size_t faces,
+                             std::size_t edges)
   {
     using A = Fit_arrays;
-    const std::size_t vertices = fit.heights.size();
-    f(&A::heights, vertices);
     f(&A::first_tracked, faces + 1);
     f(&A::tracked, fit.tracked.size());
     f(&A::is_wide, fit.is_wide.size());
@@ -74,15 +79,15 @@ struct Fit_arrays {
   {
     if (!mesh.make(backend, stars, spokes)) return false;
     const std::size_t faces = mesh.number_of_faces(), edges = mesh.number_of_edges();
+    const std::size_t vertices = stars.size;
     const int n = static_cast<int>(fit.tracked.size());
-    if (!backend.has_room(bytes_of_listed<Fit_arrays>(fit, faces, edges) +
+    if (!backend.has_room(bytes_of_listed<Fit_arrays>(fit, vertices, faces, edges) +
                           edges * item_size(&Fit_arrays::couplings) +
                           bytes_of_listed<Tracked_order>(std::size_t(n)) + Backend::sort_bytes(n)))
       return false;
-    allocate_listed(backend, *this, fit, faces, edges);
+    allocate_listed(backend, *this, fit, vertices, faces, edges);
     order_tracked(backend, stars, fit);
     equations.stars = stars;
-    equations.stars.heights = uploaded(backend, heights, fit.heights.data());
     equations.spoke_edges = mesh.spoke_edges.data();
     equations.spoke_faces = mesh.spoke_faces.data();
     equations.corners = mesh.corners.data();
@@ -111,15 +116,16 @@ struct Fit_arrays {
 
 private:
   struct Tracked_order {
-    Buffer<Tracked_place> given;
-    Buffer<int> corners, face, order;
+    Buffer<Tracked_vertex> given;
+    Buffer<Tracked_place> places;
+    Buffer<int> face, order;
     Buffer<std::uint64_t> keys;
 
     template <class F>
     static void for_each_array(F&& f, std::size_t n)
     {
       f(&Tracked_order::given, n);
-      f(&Tracked_order::corners, 3 * n);
+      f(&Tracked_order::places, n);
       for (auto array : {&Tracked_order::face, &Tracked_order::order}) f(array, n);
       f(&Tracked_order::keys, n);
     }
@@ -133,15 +139,13 @@ private:
     Tracked_order a;
     allocate_listed(backend, a, std::size_t(n));
     uploaded(backend, a.given, fit.tracked.data());
-    uploaded(backend, a.corners, fit.tracked_corners.data());
-    backend.for_each(n,
-                     Number_tracked_faces{
-                         {stars}, a.corners.data(), mesh.spoke_faces.data(), faces, a.face.data()});
+    backend.for_each(n, Find_tracked_places{stars, a.given.data(), mesh.spoke_faces.data(), faces,
+                                            a.places.data(), a.face.data()});
     backend.for_each(n, Set_key{a.face.data(), a.keys.data()});
     backend.sort_order(n, a.keys.data(), a.order.data());
     backend.for_each(n + 1,
                      Mark_firsts{a.face.data(), a.order.data(), n, faces, first_tracked.data()});
-    backend.for_each(n, Order_tracked{a.given.data(), a.order.data(), tracked.data()});
+    backend.for_each(n, Order_tracked{a.places.data(), a.order.data(), tracked.data()});
   }
 };
 

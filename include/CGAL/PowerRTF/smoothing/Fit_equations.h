@@ -27,13 +27,12 @@ struct Mesh_edge {
   int left, right;
 };
 
-/// A point of the surface and where the mesh is nearest to it.
+/// A vertex of the surface and where the mesh is nearest to it.
 struct Tracked_place {
-  Vec3d point, normal; ///< of the surface
-  Vec3d nearest;       ///< of the mesh
+  Vec3d nearest; ///< of the mesh
   double distance;
-  float weight; ///< area of the surface that it stands for
-  int facet;    ///< of the surface
+  int vertex, facet; ///< of the surface
+  double weight;     ///< area of the surface that it stands for
 };
 
 /// A point of the mesh is to move by `distance` along `direction`, to a place of the surface.
@@ -200,9 +199,18 @@ private:
     return {float(v.x), float(v.y), float(v.z)};
   }
 
+  CGAL_POWER_RTF_HD const Vec3d& point(const Tracked_place& w) const
+  {
+    return stars.surface.points[w.vertex];
+  }
+  CGAL_POWER_RTF_HD const Vec3d& normal(const Tracked_place& w) const
+  {
+    return stars.surface.vertex_normals[w.vertex];
+  }
+
   CGAL_POWER_RTF_HD Fit_target target(const Tracked_place& w) const
   {
-    const Vec3d direction = w.distance > 0 ? (w.point - w.nearest) * (1 / w.distance) : w.normal;
+    const Vec3d direction = w.distance > 0 ? (point(w) - w.nearest) * (1 / w.distance) : normal(w);
     return {rounded(direction), float(w.distance), float(tracked_weight * w.weight), w.facet};
   }
 
@@ -259,8 +267,8 @@ private:
     double least = squared_length(stars.point(guide) - p);
     for (int t = first_tracked[f]; t < first_tracked[f + 1]; ++t) {
       const Tracked_place& w = tracked[t];
-      const double d = squared_length(w.point - p);
-      if (!(d < least) || !(dot(w.normal, n) > Parameters::sheet_cosine) ||
+      const double d = squared_length(point(w) - p);
+      if (!(d < least) || !(dot(normal(w), n) > Parameters::sheet_cosine) ||
           !stars.surface.are_on_one_patch(w.facet, stars.facet(guide)))
         continue;
       facet = w.facet;
@@ -285,12 +293,17 @@ private:
   }
 };
 
+/// A vertex of the surface whose distance from the mesh counts.
+struct Tracked_vertex {
+  int vertex, facet; ///< of the surface
+  int near;          ///< a vertex of the mesh near it that may move; -1: there is none
+  float weight;      ///< area of the surface that it stands for
+};
+
 /// Owns what `Fit_equations` needs beside the mesh's stars.
 struct Flat_fit {
-  Unset_vector<double> heights; ///< by vertex
-  Unset_vector<Tracked_place> tracked;
-  Unset_vector<int> tracked_corners; ///< three per place: its face, counter-clockwise
-  Unset_vector<unsigned char> is_wide;
+  Unset_vector<Tracked_vertex> tracked;
+  Unset_vector<unsigned char> is_wide; ///< by facet
   double tangential_weight = 0, tracked_weight = 0, badness_limit = 0;
 };
 

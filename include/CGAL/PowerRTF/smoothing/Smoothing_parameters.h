@@ -9,7 +9,10 @@
 
 namespace CGAL::PowerRTF::internal {
 
-/// smooth_vertex.h and smooth_mesh.h
+/// What is less than this times another number is less: rounding decides nothing.
+constexpr double clearly_less = 1 - 1e-9;
+
+/// smooth_vertex.h and flip_edges.h
 struct Smoothing_parameters {
   static constexpr int max_flip_passes = 10;
   /// Agreement that a star must keep, if it had it. One on a strongly curved part stands for

@@ -22,6 +22,7 @@ struct Changed_stars {
   const unsigned char* kinds;
   const Vec3d *points, *normals;
   const int* facets;
+  const double* heights;
 };
 
 /// Takes what has changed, but for the spokes, to its vertex.
@@ -31,6 +32,7 @@ struct Scatter_changes {
   unsigned char* kinds;
   Vec3d *points, *normals;
   int* facets;
+  double* heights;
 
   CGAL_POWER_RTF_HD void operator()(int k) const
   {
@@ -40,6 +42,7 @@ struct Scatter_changes {
     points[v] = changed.points[k];
     normals[v] = changed.normals[k];
     facets[v] = changed.facets[k];
+    heights[v] = changed.heights[k];
   }
 };
 
@@ -82,6 +85,7 @@ struct Star_arrays {
   Buffer<int> first, neighbors, facets;
   Buffer<unsigned char> kinds;
   Buffer<Vec3d> points, normals;
+  Buffer<double> heights;
   Buffer<int> order;
 
   /// See listed_arrays.h.
@@ -94,6 +98,7 @@ struct Star_arrays {
     for (auto array : {&A::facets, &A::order}) f(array, vertices);
     f(&A::kinds, vertices);
     for (auto array : {&A::points, &A::normals}) f(array, vertices);
+    f(&A::heights, vertices);
   }
 
   /// With what it takes to color the vertices.
@@ -115,6 +120,7 @@ struct Star_arrays {
     view.points = points.data();
     view.normals = normals.data();
     view.facets = facets.data();
+    view.heights = heights.data();
     return view;
   }
 
@@ -130,6 +136,7 @@ struct Star_arrays {
     uploaded(backend, points, stars.points.data());
     uploaded(backend, normals, stars.normals.data());
     uploaded(backend, facets, stars.facets.data());
+    uploaded(backend, heights, stars.heights.data());
     return true;
   }
 
@@ -149,7 +156,7 @@ struct Star_arrays {
     int* const change_at = order.data(); // until the next order is made
     backend.fill(change_at, -1, n);
     backend.for_each(changes, Scatter_changes{changed, change_at, kinds.data(), points.data(),
-                                              normals.data(), facets.data()});
+                                              normals.data(), facets.data(), heights.data()});
     backend.for_each(n + 1, Count_spokes{changed, n, change_at, first.data(), merged.first.data()});
     exclusive_scan(backend, n + 1, merged.first.data(), merged.sums.data());
     backend.for_each(n, Merge_spokes{changed, change_at, first.data(), neighbors.data(),
@@ -165,6 +172,7 @@ private:
     Buffer<int> vertices, first, neighbors, facets;
     Buffer<unsigned char> kinds;
     Buffer<Vec3d> points, normals;
+    Buffer<double> heights;
 
     template <class F>
     static void for_each_array(F&& f, std::size_t vertices, std::size_t spokes)
@@ -174,6 +182,7 @@ private:
       f(&Changes::neighbors, spokes);
       f(&Changes::kinds, vertices);
       for (auto array : {&Changes::points, &Changes::normals}) f(array, vertices);
+      f(&Changes::heights, vertices);
     }
 
     Changed_stars upload(Backend& backend, const Flat_stars& stars)
@@ -185,7 +194,8 @@ private:
               uploaded(backend, kinds, stars.kinds.data()),
               uploaded(backend, points, stars.points.data()),
               uploaded(backend, normals, stars.normals.data()),
-              uploaded(backend, facets, stars.facets.data())};
+              uploaded(backend, facets, stars.facets.data()),
+              uploaded(backend, heights, stars.heights.data())};
     }
   };
 

@@ -61,22 +61,23 @@ public:
 
   bool take(const internal::Flat_stars& stars) override
   {
+    m_first.clear();
     return stars.are_all ? m_stars.upload(m_backend, stars) : m_stars.update(m_backend, stars);
   }
 
   /// Where the stars are, for who makes them there.
-  internal::Star_arrays<Backend>& stars() { return m_stars; }
-
-  void smooth(int steps, internal::Swept_vertices& result) override
+  internal::Star_arrays<Backend>& stars()
   {
-    const internal::Star_view stars = view();
-    const std::vector<int> first = order(stars);
-    for (int step = 0; step < steps; ++step)
-      for_each_vertex(first, internal::Smooth_vertices{stars});
-    download(stars, result);
+    m_first.clear();
+    return m_stars;
   }
 
-  bool fit(internal::Flat_fit& fit, internal::Swept_vertices& result) override
+  void smooth(int steps) override
+  {
+    for (int step = 0; step < steps; ++step) for_each_vertex(internal::Smooth_vertices{view()});
+  }
+
+  bool fit(const internal::Flat_fit& fit) override
   {
     using Part = internal::Fit_part;
     using internal::Fit_rule;
@@ -89,13 +90,27 @@ public:
     m_backend.for_each(m_stars.size(), Fit_rule<Part::unknown>{equations});
     arrays.make_couplings(m_backend, equations);
     m_backend.for_each(edges, Fit_rule<Part::coupling>{equations});
-    const std::vector<int> first = order(equations.stars);
     for (int sweep = 0; sweep < internal::Fitting_parameters::sweeps; ++sweep)
-      for_each_vertex(first, Fit_rule<Part::step>{equations});
-    for_each_vertex(first, Fit_rule<Part::move>{equations});
-    download(equations.stars, result);
-    m_backend.download(fit.heights.data(), arrays.heights.data(), fit.heights.size());
+      for_each_vertex(Fit_rule<Part::step>{equations});
+    for_each_vertex(Fit_rule<Part::move>{equations});
     return true;
+  }
+
+  void read(internal::Swept_vertices& result) override
+  {
+    m_first.clear(); // the order's memory gets another use
+    unsigned char* const flags = coloring().flags.data();
+    m_backend.for_each(m_stars.size(), internal::Find_doubtful_stars{view(), flags});
+    result.doubtful.resize(m_backend.select(m_stars.size(), flags, m_stars.order.data()));
+    m_backend.download(result.doubtful.data(), m_stars.order.data(), result.doubtful.size());
+    const auto take_all = [&](auto& to, const auto& from) {
+      to.resize(from.size());
+      m_backend.download(to.data(), from.data(), from.size());
+    };
+    take_all(result.points, m_stars.points);
+    take_all(result.normals, m_stars.normals);
+    take_all(result.facets, m_stars.facets);
+    take_all(result.heights, m_stars.heights);
   }
 
 private:
@@ -114,40 +129,30 @@ private:
     return view;
   }
 
-  /// Where in the order of the vertices each color begins.
-  std::vector<int> order(const internal::Star_view& stars)
+  internal::Color_arrays<Backend>& coloring()
   {
     auto& colors = m_coloring.colors;
-    if (int(colors.size()) != stars.size) {
-      allocate_listed(m_backend, m_coloring, std::size_t(stars.size));
+    if (int(colors.size()) != m_stars.size()) {
+      allocate_listed(m_backend, m_coloring, std::size_t(m_stars.size()));
       m_backend.fill(colors.data(), internal::Color_vertices::none, colors.size());
     }
-    return internal::order_by_colors(m_backend, stars, m_coloring, m_stars.order.data());
+    return m_coloring;
+  }
+
+  /// Orders the vertices by their colors.
+  void order(const internal::Star_view& stars)
+  {
+    m_first = internal::order_by_colors(m_backend, stars, coloring(), m_stars.order.data());
   }
 
   /// Applies a rule to all vertices that may move, neighbors one after the other.
   template <class Rule>
-  void for_each_vertex(const std::vector<int>& first, const Rule& rule)
+  void for_each_vertex(const Rule& rule)
   {
-    for (std::size_t c = 0; c + 1 < first.size(); ++c)
-      m_backend.for_each(first[c + 1] - first[c],
-                         internal::In_order<Rule>{rule, m_stars.order.data() + first[c]});
-  }
-
-  /// What has become of the stars, and which of them are doubtful.
-  void download(const internal::Star_view& stars, internal::Swept_vertices& result)
-  {
-    unsigned char* const flags = m_coloring.flags.data();
-    m_backend.for_each(stars.size, internal::Find_doubtful_stars{stars, flags});
-    result.doubtful.resize(m_backend.select(stars.size, flags, m_stars.order.data()));
-    m_backend.download(result.doubtful.data(), m_stars.order.data(), result.doubtful.size());
-    const auto take_all = [&](auto& to, const auto& from) {
-      to.resize(from.size());
-      m_backend.download(to.data(), from.data(), from.size());
-    };
-    take_all(result.points, m_stars.points);
-    take_all(result.normals, m_stars.normals);
-    take_all(result.facets, m_stars.facets);
+    if (m_first.empty()) order(view());
+    for (std::size_t c = 0; c + 1 < m_first.size(); ++c)
+      m_backend.for_each(m_first[c + 1] - m_first[c],
+                         internal::In_order<Rule>{rule, m_stars.order.data() + m_first[c]});
   }
 
   Backend& m_backend;
@@ -155,6 +160,7 @@ private:
   double m_grid;
   internal::Star_arrays<Backend> m_stars;
   internal::Color_arrays<Backend> m_coloring; // of so many stars, with the colors they had last
+  std::vector<int> m_first; // where in the order each color begins; empty: there is no order
 };
 
 } // namespace CGAL::PowerRTF

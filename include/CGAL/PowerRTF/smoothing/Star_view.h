@@ -32,18 +32,18 @@ struct Star_view {
   const int* first = nullptr;           ///< spoke of each vertex, and the end
   const int* neighbors = nullptr;       ///< by spoke
   const unsigned char* kinds = nullptr; ///< flags of `Star_kind`
-  // on the surface:
+  // on the surface, or over it:
   Vec3d* points = nullptr;
   Vec3d* normals = nullptr;
   int* facets = nullptr;
-  double* heights = nullptr; ///< over it; null: none
+  double* heights = nullptr;
   Surface_descent surface;
   double grid = 0; ///< of the points' coordinates; 0: none
 
   CGAL_POWER_RTF_HD const Vec3d& point(int v) const { return points[v]; }
   CGAL_POWER_RTF_HD const Vec3d& normal(int v) const { return normals[v]; }
   CGAL_POWER_RTF_HD int facet(int v) const { return facets[v]; }
-  CGAL_POWER_RTF_HD double height(int v) const { return heights ? heights[v] : 0; }
+  CGAL_POWER_RTF_HD double height(int v) const { return heights[v]; }
   CGAL_POWER_RTF_HD bool is_movable(int v) const { return kinds[v] & is_movable_kind; }
   CGAL_POWER_RTF_HD bool is_on_feature(int v) const { return kinds[v] & is_on_feature_kind; }
   CGAL_POWER_RTF_HD Star star(int v) const;
@@ -115,6 +115,7 @@ struct Flat_stars {
   Unset_vector<unsigned char> kinds;
   Unset_vector<Vec3d> points, normals;
   Unset_vector<int> facets;
+  Unset_vector<double> heights;
 
   int size() const { return static_cast<int>(points.size()); }
 };
@@ -123,6 +124,7 @@ struct Flat_stars {
 struct Swept_vertices {
   Unset_vector<Vec3d> points, normals;
   Unset_vector<int> facets;
+  Unset_vector<double> heights;
   std::vector<int> doubtful; ///< vertices, sorted; see `Find_doubtful_stars`
 
   int size() const { return static_cast<int>(points.size()); }

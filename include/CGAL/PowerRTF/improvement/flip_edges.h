@@ -1,14 +1,12 @@
 // Copyright (c) 2026 The PowerRTF authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Smoothing of all stars: edges are flipped and vertices moved where that makes triangles rounder;
-// see smooth_vertex.h.
-#ifndef CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
-#define CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
+// Flips of edges where that makes triangles rounder, in the sense of smooth_vertex.h.
+#ifndef CGAL_POWER_RTF_IMPROVEMENT_FLIP_EDGES_H
+#define CGAL_POWER_RTF_IMPROVEMENT_FLIP_EDGES_H
 
 #include <CGAL/PowerRTF/improvement/Changed_vertices.h>
 #include <CGAL/PowerRTF/improvement/Improvement_parameters.h>
-#include <CGAL/PowerRTF/improvement/Mesh_sweeper.h>
 #include <CGAL/PowerRTF/improvement/Star_mesh.h>
 #include <CGAL/PowerRTF/improvement/better_flips.h>
 #include <CGAL/PowerRTF/internal/Cancellation.h>
@@ -22,29 +20,18 @@
 
 namespace CGAL::PowerRTF::internal {
 
-class Mesh_smoother {
+class Shape_flipper {
 public:
-  using Vertex = Star_mesh::Vertex;
   using Edge = Star_mesh::Edge;
   using Halfedge = Star_mesh::Halfedge;
 
-  Mesh_smoother(Star_mesh& mesh, Mesh_sweeper& sweeper)
-      : m(mesh), m_sweeper(sweeper), m_changed(mesh)
-  {}
+  explicit Shape_flipper(Star_mesh& mesh) : m(mesh), m_changed(mesh) {}
 
   /// None but these edges of the mesh as it is may be worth a flip.
-  void expect_flips(std::vector<Edge>&& edges) { m_expected = std::move(edges); }
-
-  /// Moves all vertices so many times. \returns those that are left doubtful.
-  std::vector<int> smooth(int steps)
-  {
-    std::vector<int> doubtful = m_sweeper.smooth(steps);
-    m_changed.assign(doubtful);
-    return doubtful;
-  }
+  void expect(std::vector<Edge>&& edges) { m_expected = std::move(edges); }
 
   /// Flips edges until that does not help any more.
-  void flip()
+  void run()
   {
     std::vector<Edge> edges = edges_to_flip();
     for (int pass = 0; pass < Parameters::max_flip_passes && !edges.empty(); ++pass) {
@@ -65,7 +52,7 @@ public:
 private:
   using Parameters = Improvement_parameters::Smoothing;
 
-  // Where something has changed, or the last sweeps have left doubts.
+  // Where something has changed since the last run.
   std::vector<Edge> edges_to_flip()
   {
     constexpr std::size_t vertices_per_change = 6;
@@ -93,11 +80,10 @@ private:
   }
 
   Star_mesh& m;
-  Mesh_sweeper& m_sweeper;
-  Changed_vertices m_changed;                  // since the last sweeps, and the doubtful ones
-  std::optional<std::vector<Edge>> m_expected; // for the next flips; none: all
+  Changed_vertices m_changed;                  // since the last run
+  std::optional<std::vector<Edge>> m_expected; // for the next run; none: all
 };
 
 } // namespace CGAL::PowerRTF::internal
 
-#endif // CGAL_POWER_RTF_IMPROVEMENT_SMOOTH_MESH_H
+#endif // CGAL_POWER_RTF_IMPROVEMENT_FLIP_EDGES_H
