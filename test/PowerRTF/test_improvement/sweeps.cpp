@@ -230,6 +230,30 @@ TEST_CASE("a sweep smooths one vertex after the other, whatever the number of th
   }
 }
 
+TEST_CASE("vertices stay as high over the surface as they are when they are smoothed")
+{
+  const Sweeps_case& c = *all()[0].mesh;
+  internal::Star_mesh one_by_one = c.mesh();
+  for (int v = 0; v < int(one_by_one.size()); v += 3) {
+    const internal::Star_mesh::Vertex vertex(v);
+    const double height = (v % 2 ? 0.1 : -0.1) * c.spacing();
+    if (one_by_one.is_movable(vertex))
+      one_by_one.move_off(vertex, one_by_one.point(vertex) + height * one_by_one.normal(vertex));
+  }
+  const internal::Flat_stars stars = flat_stars(one_by_one);
+  const internal::Color_order order = internal::color_order(stars, CGAL::Sequential_tag());
+  for (int k = order.first.front(); k < order.first.back(); ++k)
+    smooth_vertex(one_by_one, internal::Star_mesh::Vertex(order.vertices[k]));
+  const auto sweeps = c.host_sweeps(CGAL::Sequential_tag());
+  internal::Swept_vertices swept;
+  REQUIRE(sweeps->take(stars));
+  sweeps->smooth(1);
+  sweeps->read(swept);
+  CHECK(swept.points != stars.points);
+  CHECK(swept.heights == stars.heights);
+  CHECK(distances(flat_stars(one_by_one), swept).back() < 1e-9 * c.spacing());
+}
+
 TEST_CASE("sweeps over what is there, but for what has changed, are those over all")
 {
   for (const auto& [name, c, least_gain] : all())

@@ -170,22 +170,34 @@ TEST_CASE("regions are refined, also in the middle of a large facet")
   const Vec3d center{0.2, 0.1, 1};
   Remeshing_options options;
   options.gradation = 0.3;
+  struct Region {
+    Refinement all, core; ///< an edge away from what is outside
+  };
+  const double r = 0.2, h = 0.015;
   for (const int divisions : {1, 30})
-    for (const Refinement& region : {Refinement::sphere({center.x, center.y, center.z}, 0.2, 0.015),
-                                     Refinement::box({0.1, -0.1, 0.9}, {0.3, 0.3, 1.1}, 0.015)}) {
+    for (const Region& where :
+         {Region{Refinement::sphere({center.x, center.y, center.z}, r, h),
+                 Refinement::sphere({center.x, center.y, center.z}, r - h, h)},
+          Region{Refinement::box({0.1, -0.1, 0.9}, {0.3, 0.3, 1.1}, h),
+                 Refinement::box({0.1 + h, -0.1 + h, 0.9}, {0.3 - h, 0.3 - h, 1.1}, h)}}) {
       CAPTURE(divisions);
+      const Refinement& region = where.all;
       const shapes::Soup soup = shapes::box(divisions);
       const Result result = remesh(soup, Resolution::edge_length(0.2), {}, {region}, options);
       CHECK(result.report.input_topology.faces == soup.triangles.size());
-      const auto inside = [&](const Vec3d& p) { return region.distance(p) < 1e-9; };
+      const auto ratio_in = [&](const Refinement& part) {
+        return median_ratio(result.soup, constant,
+                            [&](const Vec3d& p) { return part.distance(p) < 1e-9; });
+      };
       const auto far_away = [&](const Vec3d& p) { return region.distance(p) > 0.8; };
       const auto between = [&](const Vec3d& p) {
         return region.distance(p) > 0.1 && region.distance(p) < 0.4;
       };
-      // of other seeds .005 to .015 and, in the box, .026 to .036
-      CHECK(std::abs(median_ratio(result.soup, constant, inside) / 0.015 - 1) < 0.04);
+      CHECK(std::abs(ratio_in(where.core) / h - 1) < 0.03);
+      // beside longer edges; of other seeds .005 to .015 and, in the box, .026 to .036
+      CHECK(std::abs(ratio_in(region) / h - 1) < 0.04);
       CHECK(std::abs(median_ratio(result.soup, constant, far_away) / 0.2 - 1) < 0.06);
-      const Field grown = [&](const Vec3d& p) { return 0.015 + 0.3 * region.distance(p); };
+      const Field grown = [&](const Vec3d& p) { return h + 0.3 * region.distance(p); };
       CHECK(std::abs(median_ratio(result.soup, grown, between) - 1) < 0.1);
     }
 }
