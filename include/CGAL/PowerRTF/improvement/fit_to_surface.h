@@ -16,8 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace CGAL::PowerRTF::internal {
 

@@ -254,7 +254,7 @@ private:
       m_tracker.update_all();
     }
     part.next(0.5);
-    optimizer.expect_at(has_features ? fit(stars, sweeper, 0) : fit(stars, sweeper, passes));
+    optimizer.expect_at(fit(stars, sweeper, has_features ? 0 : passes));
     part.next(0.7);
     optimize();
     m_tracker.update_all();

@@ -139,17 +139,12 @@ private:
     return m_coloring;
   }
 
-  /// Orders the vertices by their colors.
-  void order(const internal::Star_view& stars)
-  {
-    m_first = internal::order_by_colors(m_backend, stars, coloring(), m_stars.order.data());
-  }
-
   /// Applies a rule to all vertices that may move, neighbors one after the other.
   template <class Rule>
   void for_each_vertex(const Rule& rule)
   {
-    if (m_first.empty()) order(view());
+    if (m_first.empty())
+      m_first = internal::order_by_colors(m_backend, view(), coloring(), m_stars.order.data());
     for (std::size_t c = 0; c + 1 < m_first.size(); ++c)
       m_backend.for_each(m_first[c + 1] - m_first[c],
                          internal::In_order<Rule>{rule, m_stars.order.data() + m_first[c]});
